@@ -149,6 +149,47 @@ namespace Morula
   }
 
   template <int dim>
+  std::vector<typename RigidModes<dim>::Mode>
+  RigidModes<dim>::free_motions(const double *S, const double length)
+  {
+    // The eigenvectors with next to no eigenvalue are motions that nothing
+    // holds; they are combined from the elementary ones. The largest diagonal
+    // entry is the scale of S: a piece without supports has 0 here, and keeps
+    // all its motions.
+    constexpr int            n = n_modes;
+    LAPACKFullMatrix<double> stiffness(n);
+    double                   largest = 0.;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        for (unsigned int l = 0; l < n; ++l)
+          stiffness(k, l) = S[k * n + l];
+        largest = std::max(largest, stiffness(k, k));
+      }
+    Vector<double>     eigenvalues;
+    FullMatrix<double> eigenvectors;
+    // LAPACK finds eigenvalues within bounds only. S is semidefinite, so the
+    // lower bound is far below all; 1e-300 keeps 0 inside where S vanishes.
+    stiffness.compute_eigenvalues_symmetric(-1. - largest,
+                                            support_tolerance * largest +
+                                              1e-300,
+                                            0.,
+                                            eigenvalues,
+                                            eigenvectors);
+    std::vector<Mode> free;
+    for (unsigned int v = 0; v < eigenvalues.size(); ++v)
+      {
+        free.emplace_back();
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            const Mode part = elementary_mode(k, length);
+            free.back().a += eigenvectors(k, v) * part.a;
+            free.back().B += eigenvectors(k, v) * part.B;
+          }
+      }
+    return free;
+  }
+
+  template <int dim>
   Tensor<2, dim>
   RigidModes<dim>::rotation(const Tensor<2, dim> &B)
   {
@@ -202,11 +243,9 @@ namespace Morula
   {
     // The first loop sums the matrix S of doc/theory.md (4.9) over this rank's
     // supports, for all pieces at once, and one reduction adds up all ranks':
-    // pieces may run through several. Then every rank finds the same
-    // eigenvectors of the small matrices of all pieces. Those with next to no
-    // eigenvalue are motions that nothing holds; they are combined from the
-    // elementary ones. The length makes translations and rotations comparable
-    // in S.
+    // pieces may run through several. Then every rank finds the same free
+    // motions of all pieces. The length makes translations and rotations
+    // comparable in S.
     const double        length = space.box().spacing();
     constexpr int       n      = n_modes;
     std::vector<double> sums(pieces.size() * n * n, 0.);
@@ -228,39 +267,7 @@ namespace Morula
     Utilities::MPI::sum(sums, comm, sums);
 
     for (unsigned int p = 0; p < pieces.size(); ++p)
-      {
-        LAPACKFullMatrix<double> stiffness(n);
-        for (unsigned int k = 0; k < n; ++k)
-          for (unsigned int l = 0; l < n; ++l)
-            stiffness(k, l) = sums[(p * n + k) * n + l];
-        // The scale of S: a piece without supports has 0 here, and keeps all
-        // its motions.
-        double largest = 0.;
-        for (unsigned int k = 0; k < n; ++k)
-          largest = std::max(largest, stiffness(k, k));
-        Vector<double>     eigenvalues;
-        FullMatrix<double> eigenvectors;
-        // LAPACK finds eigenvalues within bounds only. S is semidefinite, so
-        // the lower bound is far below all; 1e-300 keeps 0 inside where S
-        // vanishes.
-        stiffness.compute_eigenvalues_symmetric(-1. - largest,
-                                                support_tolerance * largest +
-                                                  1e-300,
-                                                0.,
-                                                eigenvalues,
-                                                eigenvectors);
-        for (unsigned int v = 0; v < eigenvalues.size(); ++v)
-          {
-            Mode mode;
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                const Mode part = elementary_mode(k, length);
-                mode.a += eigenvectors(k, v) * part.a;
-                mode.B += eigenvectors(k, v) * part.B;
-              }
-            pieces[p].free.push_back(mode);
-          }
-      }
+      pieces[p].free = free_motions(&sums[p * n * n], length);
   }
 
   template <int dim>

@@ -9,16 +9,15 @@
 #include <morula/program/explain_folds.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/free_growth.h>
-#include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/seeding/bodies.h>
-#include <morula/seeding/near_bodies.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -121,7 +120,8 @@ namespace Morula
                const Scene                 &scene,
                const SizeEstimate          &size,
                const std::optional<double> &growth,
-               const double                 available)
+               const double                 available,
+               const double                 seeding)
     {
       out << "Size\n  cells at the end: " << bound_of_cells(scene)
           << std::round(size.cells)
@@ -130,6 +130,9 @@ namespace Morula
           << " in the last" << (growth ? growth_text(*growth) : "") << "\n"
           << "  memory: about " << std::setprecision(3) << size.memory / 1e9
           << " GB of " << available / 1e9 << " GB\n  time: about "
+          << duration_text(seeding + size.seconds) << ": "
+          << duration_text(seeding) << " (" << seeding << " s) to place cells "
+          << "and surface, as it has taken here, and "
           << duration_text(size.seconds) << " (" << size.seconds << " s) of "
           << "one core for " << size.steps << " steps, without output; a "
           << "rough estimate, from runs on an AMD EPYC with AVX-512 "
@@ -144,7 +147,8 @@ namespace Morula
       std::optional<FreeGrowth>          free;
       std::optional<double>              growth; // see estimated_size()
       SizeEstimate                       size;
-      double                             memory; // bytes of the machine
+      double                             memory;  // bytes of the machine
+      double                             seeding; // seconds that it took here
       std::vector<types::particle_index> n_of_types;
       EffectRows                         effects;
     };
@@ -199,24 +203,13 @@ namespace Morula
     {
       if (scene.contact.is_on())
         return add_contact(rows, scene, tissue, comm);
-      const BodyCounts counts =
-        count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
       add_effect(rows,
                  "bodies",
                  true,
-                 std::to_string(counts.bodies) +
-                   (counts.bodies == 1 ? " body" : " bodies") + " in " +
-                   std::to_string(counts.pieces) +
-                   (counts.pieces == 1 ? " piece" : " pieces") +
-                   " of the grid");
-      if (scene.tissue.is_mesh())
-        add_effect(rows,
-                   "surface mesh",
-                   true,
-                   surfaces_text(volumes_of_surfaces(
-                     SurfaceMesh(scene.tissue.surface_mesh.path(),
-                                 scene.tissue.surface_mesh)
-                       .triangles())));
+                 tissue.bodies.empty() ? bodies_text(scene, tissue, comm) :
+                                         tissue.bodies);
+      if (!tissue.mesh.empty())
+        add_effect(rows, "surface mesh", true, tissue.mesh);
     }
 
     template <int dim>
@@ -229,7 +222,11 @@ namespace Morula
       // prints it.
       check_memory(scene, initial_size(scene), comm);
       Explanation<dim> result;
-      result.tissue                   = seed_tissue<dim>(scene, comm);
+      const auto       begin = std::chrono::steady_clock::now();
+      result.tissue          = seed_tissue<dim>(scene, comm);
+      result.seeding =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+          .count();
       const SeededTissue<dim> &tissue = result.tissue;
       // Counted by the splines of the first step.
       const unsigned int n_unknowns =
@@ -259,6 +256,14 @@ namespace Morula
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
       add_bodies(result.effects, scene, tissue, comm);
+      std::string pieces;
+      for (const std::string &text : texts_of(scene, tissue.pieces))
+        pieces += "    " + text + '\n';
+      add_effect(result.effects,
+                 "pieces",
+                 true,
+                 std::to_string(tissue.pieces.size()),
+                 pieces);
       return result;
     }
 
@@ -286,7 +291,8 @@ namespace Morula
       CellColumns<dim> known;
       CycleColumns<dim>{known}; // declares them
       print_columns(text, effects_of<dim>(scene).columns, known);
-      print_size(text, scene, found.size, found.growth, found.memory);
+      print_size(
+        text, scene, found.size, found.growth, found.memory, found.seeding);
       for (const std::string &warning : found.tissue.warnings)
         text << warning << '\n';
     }
@@ -345,6 +351,7 @@ namespace Morula
                      Json::number(std::round(size.unknowns))},
                     {"steps", Json::number(size.steps)},
                     {"seconds", Json::number(size.seconds)},
+                    {"seconds of seeding", Json::number(found.seeding)},
                     {"bytes", Json::number(size.memory)},
                     {"bytes of the machine", Json::number(found.memory)}})},
                 {"warnings", Json::texts(found.tissue.warnings)},

@@ -4,9 +4,12 @@
 #include <morula/base/agreement.h>
 #include <morula/base/review.h>
 #include <morula/scene/applied.h>
+#include <morula/scene/loads_at_start.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -14,40 +17,6 @@ namespace Morula
 {
   namespace
   {
-    /** The boundary points of this rank that conditions load at t = 0. There is
-     *  no grid yet, so all are put into one grid cell: its splines add up to 1
-     *  at any place, and so the sum of the forces is right. @p numbers gets
-     *  their numbers in @p surface. */
-    template <int dim>
-    LoadedPoints<dim>
-    loaded_at_start(const Scene                   &scene,
-                    const BoundaryConditions<dim> &conditions,
-                    const SurfacePatches<dim>     &surface,
-                    std::vector<std::size_t>      &numbers)
-    {
-      LoadedPoints<dim> loaded;
-      for (std::size_t i = 0; i < surface.positions.size(); ++i)
-        {
-          const Point<dim>     &X = surface.positions[i];
-          const Tensor<1, dim> &N = surface.normals[i];
-          if (conditions.condition(X, N) != SurfaceCondition::loaded)
-            continue;
-          const double a = surface.areas[i];
-          // Nothing has moved, so the present position and area are the initial
-          // ones.
-          loaded.points.push_back({X, X, N, X, a, a * N});
-          numbers.push_back(i);
-        }
-      const unsigned int n = loaded.points.size();
-      Point<dim>         middle;
-      for (unsigned int d = 0; d < dim; ++d)
-        middle[d] = 0.5;
-      loaded.offsets = {0, n};
-      loaded.xi.assign(n, middle);
-      loaded.h = scene.grid.spacing;
-      return loaded;
-    }
-
     /** A row to which points are added, on this rank. */
     class Sums
     {
@@ -96,6 +65,7 @@ namespace Morula
       {
         AppliedCondition all = row;
         all.points           = Utilities::MPI::sum(row.points, comm);
+        all.chosen           = Utilities::MPI::sum(row.chosen, comm);
         all.area             = Utilities::MPI::sum(row.area, comm);
         all.magnitude        = Utilities::MPI::sum(row.magnitude, comm);
         for (unsigned int d = 0; d < 3; ++d)
@@ -109,6 +79,29 @@ namespace Morula
 
       AppliedCondition row;
     };
+
+    /** Whether a load is zero at the ends of all steps, or of many of them
+     *  where there are more. Collective. */
+    template <int dim>
+    bool
+    is_idle(const Scene                  &scene,
+            const LoadsAtStart<dim>      &loads,
+            const BoundaryCondition<dim> &condition,
+            const MPI_Comm                comm)
+    {
+      constexpr double most_times = 200.;
+      const double     end = scene.time.end_time, step = scene.time.step;
+      const double     n   = std::ceil(end / step - 1e-9);
+      double           sum = 0.;
+      for (double i = 1.; i <= n; i += std::max(1., std::floor(n / most_times)))
+        everywhere(comm, [&]() {
+          if (const auto forces =
+                loads.forces(condition, std::min(i * step, end)))
+            for (const Tensor<1, dim> &force : *forces)
+              sum += force.norm();
+        });
+      return Utilities::MPI::sum(sum, comm) == 0.;
+    }
 
     std::string
     vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero)
@@ -139,9 +132,8 @@ namespace Morula
     // same list.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
-    std::vector<std::size_t> numbers;
-    const LoadedPoints<dim>  loaded =
-      loaded_at_start(scene, conditions, surface, numbers);
+    const LoadsAtStart<dim>       loads(scene, conditions, surface);
+    const auto                   &loaded = loads.points().points;
     std::vector<AppliedCondition> list;
     for (unsigned int k = 0; k < conditions.list().size(); ++k)
       {
@@ -149,28 +141,30 @@ namespace Morula
         if (condition->only_pushes())
           continue; // Obstacles act where they touch, which is not known yet.
         Sums       sums(name);
-        const bool loads = condition->kind() == SurfaceCondition::loaded;
+        const bool is_load = condition->kind() == SurfaceCondition::loaded;
         // An expression may have no value at a point of one rank; then all
         // ranks must throw.
         everywhere(comm, [&, &condition = condition]() {
-          for (std::size_t i = 0; !loads && i < surface.positions.size(); ++i)
+          for (std::size_t i = 0; i < surface.positions.size(); ++i)
+            sums.row.chosen +=
+              condition->acts_on(surface.positions[i], surface.normals[i]);
+          for (std::size_t i = 0; !is_load && i < surface.positions.size(); ++i)
             if (conditions.winner(surface.positions[i], surface.normals[i]) ==
                 k)
               sums.add(surface.positions[i], surface.areas[i]);
-          for (std::size_t l = 0; loads && l < numbers.size(); ++l)
-            if (condition->acts_on(loaded.points[l].X, loaded.points[l].N))
-              sums.add(loaded.points[l].X, loaded.points[l].initial_area);
-          if (!loads)
-            return;
-          for (const auto &part : condition->parts(loaded, scene.time.end_time))
+          for (std::size_t l = 0; is_load && l < loaded.size(); ++l)
+            if (condition->acts_on(loaded[l].X, loaded[l].N))
+              sums.add(loaded[l].X, loaded[l].initial_area);
+          if (const auto forces = loads.forces(*condition, scene.time.end_time))
             {
               sums.row.has_force = true;
-              for (const Tensor<1, dim> &force :
-                   part.term->forces(0, LocalField<dim>{}))
+              for (const Tensor<1, dim> &force : *forces)
                 sums.add_force(force);
             }
         });
         list.push_back(sums.over_all_ranks(comm));
+        if (sums.row.has_force && list.back().magnitude == 0.)
+          list.back().is_idle = is_idle(scene, loads, *condition, comm);
       }
     return list;
   }
@@ -190,6 +184,9 @@ namespace Morula
     if (applied.points > 0)
       text << ", from " << vector_text(scene, applied.lower, 0.) << " to "
            << vector_text(scene, applied.upper, 0.) << " um";
+    if (applied.chosen > applied.points)
+      text << " (" << applied.chosen - applied.points
+           << " more belong to a condition that wins there)";
     if (applied.has_force)
       text << "; force "
            << vector_text(scene, applied.force, 1e-9 * applied.magnitude)

@@ -2,11 +2,16 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/review.h>
+#include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/scene/applied.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <utility>
 
 // This file warns of what is unwise in what a scene applies, and of numbers
 // that look like those of another unit. Nothing here is refused.
@@ -18,18 +23,13 @@ namespace Morula
     /** With fewer patches a condition's area is not known to a tenth. */
     constexpr std::uint64_t fewest_points = 10;
 
-    /** A larger part of the loads than this is not left over by rounding and
-     * the patches of a curved surface. */
-    constexpr double largest_rest = 0.01;
-
-    /** Loads without a resultant, as surface tension and the pressure of a
-     *  lumen, have one of rounding: less than this stress on their area, kPa.
-     */
-    constexpr double rounding_stress = 1e-9;
-
     /** Young's moduli of soft tissue, kPa: brain has some tenths, cartilage
      *  some hundreds. */
     constexpr double softest = 0.005, stiffest = 500.;
+
+    /** A load per area above so many E tears or crushes any tissue, and one
+     *  below so many does nothing to it. */
+    constexpr double strongest_load = 10., weakest_load = 1e-6;
 
     /** Cell cycles and relaxation times are shorter than this, day. */
     constexpr double longest_cycle = 10., longest_relaxation = 2.;
@@ -37,23 +37,174 @@ namespace Morula
     /** Lengths of cells, µm. */
     constexpr double shortest_cell = 0.5, longest_cell = 300.;
 
-    void
-    review_number(const ExpressionKey &key,
-                  const double         lower,
-                  const double         upper,
-                  const std::string   &unit,
-                  const std::string   &usual,
-                  const std::string   &question,
-                  Review              &review)
+    /** The smallest and the largest value of a key. */
+    using Range = std::optional<std::pair<double, double>>;
+
+    /** The range of a key at founders of all ranks, as far as it is known
+     * before the run; of numbers by type the largest alone. Collective. */
+    template <int dim>
+    Range
+    range_of(const ExpressionKey           &key,
+             const std::vector<Point<dim>> &founders,
+             const MPI_Comm                 comm)
     {
-      // A key may have one number or one for each type; the largest is looked
-      // at. A zero switches something off and is no number of another unit.
-      const std::optional<double> number = key.largest_number(3);
-      if (number && *number > 0. && (*number < lower || *number > upper))
+      if (key.empty() || key.expression(dim).depends_on_state() ||
+          key.differs_by_type())
+        {
+          const std::optional<double> number = key.largest_number(dim);
+          return number ? Range({*number, *number}) : Range();
+        }
+      double smallest = std::numeric_limits<double>::max(), largest = -smallest;
+      try
+        {
+          for (const Point<dim> &X : founders)
+            {
+              const double value = key.expression(dim).value(X, 0.);
+              smallest           = std::min(smallest, value);
+              largest            = std::max(largest, value);
+            }
+        }
+      catch (const std::exception &)
+        {} // refused elsewhere
+      smallest = Utilities::MPI::min(smallest, comm);
+      largest  = Utilities::MPI::max(largest, comm);
+      return Range({smallest, largest});
+    }
+
+    void
+    review_number(const AnyKey      &key,
+                  const Range       &range,
+                  const double       lower,
+                  const double       upper,
+                  const std::string &unit,
+                  const std::string &usual,
+                  const std::string &question,
+                  Review            &review)
+    {
+      // A key may have many values; a part of the tissue may be unusual, but
+      // not all of it. A zero switches something off and is no number of
+      // another unit.
+      if (range && range->second > 0. &&
+          (range->second < lower || range->first > upper))
         review.warn(key.path(),
-                    as_text(*number) + ' ' + unit,
+                    as_text(range->second) + ' ' + unit,
                     usual + ". " + question,
                     "If it is meant so, all is well.");
+    }
+
+    /** What a condition's keys are but for its place. */
+    std::string
+    other_keys(const EffectKeys &keys, const AnyKey *where)
+    {
+      std::string paths;
+      for (const AnyKey *key : keys.list())
+        if (key != where)
+          paths += (paths.empty() ? "" : " or ") + key->path();
+      return paths;
+    }
+
+    /** Loads that are none, or far stronger than the tissue. */
+    void
+    review_loads(const Scene                         &scene,
+                 const std::vector<AppliedCondition> &applied,
+                 const std::optional<double>         &stiffness,
+                 Review                              &review)
+    {
+      for (const AppliedCondition &one : applied)
+        for (const auto &choice : scene.catalogue.boundary_conditions)
+          {
+            const AnyKey *const where = choice.keys().switch_key();
+            if (where == nullptr || choice.name() != one.name)
+              continue;
+            const std::string keys = other_keys(choice.keys(), where);
+            // A closed surface under tension has no forces in sum.
+            const bool is_tension =
+              one.name.find("tension") != std::string::npos;
+            if (one.points == 0 && one.chosen > 0)
+              review.warn(where->path(),
+                          where->text(),
+                          "it acts nowhere: at all " +
+                            std::to_string(one.chosen) +
+                            " boundary points that it chooses another "
+                            "condition wins (fixed over slip, slip over "
+                            "loads).",
+                          "Choose places that differ.");
+            else if (one.is_idle && !keys.empty() && !is_tension)
+              review.warn(where->path(),
+                          where->text(),
+                          "its load is zero at the end of every step.",
+                          "Set " + keys + ", or remove the condition.");
+            else if (stiffness && one.points > 0 &&
+                     one.magnitude > strongest_load * *stiffness * one.area)
+              review.warn(where->path(),
+                          where->text(),
+                          "its load is " + as_text(one.magnitude / one.area) +
+                            " kPa on average, " +
+                            as_text(one.magnitude / one.area / *stiffness) +
+                            " times the stiffest cell's E. Is it in Pa?",
+                          "If it is meant so, all is well.");
+            else if (stiffness && one.has_force && one.points > 0 &&
+                     one.magnitude > 0. && !is_tension &&
+                     one.magnitude < weakest_load * *stiffness * one.area)
+              review.warn(where->path(),
+                          where->text(),
+                          "its load is " + as_text(one.magnitude / one.area) +
+                            " kPa on average, next to nothing beside the "
+                            "stiffest cell's E. Is it in MPa?",
+                          "If it is meant so, all is well.");
+          }
+    }
+
+    /** A body force that is far stronger than the tissue. Collective. */
+    template <int dim>
+    void
+    review_body_force(const Scene                   &scene,
+                      const std::vector<Point<dim>> &founders,
+                      const std::optional<double>   &stiffness,
+                      const MPI_Comm                 comm,
+                      Review                        &review)
+    {
+      // Over its length the tissue carries the mean force times that length.
+      const ExpressionKey &key =
+        scene.keys<BodyForceParameters>().force_density;
+      if (!scene.keys<BodyForceParameters>().is_on() || !stiffness ||
+          key.expression(dim).depends_on_state())
+        return;
+      Tensor<1, dim> sum;
+      Point<dim>     lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::numeric_limits<double>::max();
+          upper[d] = -lower[d];
+        }
+      for (const Point<dim> &X : founders)
+        {
+          try
+            {
+              sum += key.expression(dim).vector(X, scene.time.end_time);
+            }
+          catch (const std::exception &)
+            {} // refused elsewhere
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              lower[d] = std::min(lower[d], X[d]);
+              upper[d] = std::max(upper[d], X[d]);
+            }
+        }
+      double length = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        length = std::max(length,
+                          Utilities::MPI::max(upper[d], comm) -
+                            Utilities::MPI::min(lower[d], comm));
+      const double n    = Utilities::MPI::sum(double(founders.size()), comm);
+      const double load = (Utilities::MPI::sum(sum, comm) / n).norm() * length;
+      if (load > strongest_load * *stiffness)
+        review.warn(key.path(),
+                    key.text(),
+                    "over the length of the tissue it adds up to " +
+                      as_text(load) + " kPa, " + as_text(load / *stiffness) +
+                      " times the stiffest cell's E. Is it in Pa?",
+                    "1 Pa/um is 0.001 kPa/um, 1 kN/m^3 is 1e-6 kPa/um.");
     }
 
     void
@@ -79,80 +230,40 @@ namespace Morula
                           "Choose a larger place, or a smaller Tissue/Cell "
                           "spacing.");
     }
-
-    /** Whether something but inertia can balance loads. */
-    bool
-    is_held(const Scene &scene, const std::vector<AppliedCondition> &applied)
-    {
-      for (const AppliedCondition &one : applied)
-        if ((one.name == "fixed" || one.name == "slip") && one.points > 0)
-          return true;
-      for (const auto &choice : scene.catalogue.forces)
-        if (choice.keys().is_on())
-          return true; // friction, or a load that is not known here
-      for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (choice.keys().is_on() && choice.keys().names_key() != nullptr)
-          return true; // obstacles
-      return false;
-    }
-
-    void
-    review_balance(const Scene                         &scene,
-                   const std::vector<AppliedCondition> &applied,
-                   Review                              &review)
-    {
-      // All forces that are known before the run are added up. If a part is
-      // left and nothing holds the tissue, doc/theory.md section 4.4 takes out
-      // the rigid motion, which the user may not expect.
-      if (is_held(scene, applied))
-        return;
-      Tensor<1, 3> sum;
-      double       magnitude = 0., area = 0.;
-      for (const AppliedCondition &one : applied)
-        {
-          sum += one.force;
-          magnitude += one.magnitude;
-          area += one.area;
-        }
-      if (!(sum.norm() >
-            std::max(largest_rest * magnitude, rounding_stress * area)))
-        return;
-      std::string text;
-      for (unsigned int d = 0; d < scene.dimension; ++d)
-        text += (d == 0 ? "" : " ") + as_text(sum[d]);
-      review.warn("Boundary conditions",
-                  "nothing held",
-                  "the loads add up to a force of (" + text + ") kPa um" +
-                    (scene.dimension == 3 ? "^2" : "") +
-                    " at the end, and nothing holds the tissue: inertia "
-                    "balances them, as in free fall (doc/theory.md, section "
-                    "4.4).",
-                  "Hold a part of the surface by Fixed where or Slip where, "
-                  "or balance the loads.");
-    }
   } // namespace
 
 
+  template <int dim>
   void
   review_applied(const Scene                         &scene,
                  const std::vector<AppliedCondition> &applied,
+                 const std::vector<Point<dim>>       &founders,
+                 const MPI_Comm                       comm,
                  std::vector<std::string>            &warnings)
   {
     // Conditions come first, then the numbers of material, time and length. The
     // limits are wide: they are meant to catch a factor of 24 or 1000, not
     // unusual tissue.
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    const ExpressionKey        &E           = scene.material.youngs_modulus;
+    const Range                 stiffnesses = range_of<dim>(E, founders, comm);
+    const std::optional<double> stiffness =
+      stiffnesses ? stiffnesses->second : std::optional<double>();
     review_points(scene, applied, review);
-    review_balance(scene, applied, review);
+    review_loads(scene, applied, stiffness, review);
+    review_body_force<dim>(scene, founders, stiffness, comm, review);
     const std::string in_hours = "Is it in hours?";
-    review_number(scene.material.youngs_modulus,
+    review_number(E,
+                  stiffnesses,
                   softest,
                   stiffest,
                   "kPa",
                   "soft tissue has 0.1 to 100 kPa",
                   "Is it in Pa or MPa?",
                   review);
-    review_number(scene.keys<RelaxationParameters>().time,
+    const ExpressionKey &relaxation = scene.keys<RelaxationParameters>().time;
+    review_number(relaxation,
+                  range_of<dim>(relaxation, founders, comm),
                   0.,
                   longest_relaxation,
                   "day",
@@ -161,6 +272,7 @@ namespace Morula
                   review);
     if (scene.has_proliferation())
       review_number(scene.cell_cycle.duration,
+                    range_of<dim>(scene.cell_cycle.duration, founders, comm),
                     0.,
                     longest_cycle,
                     "day",
@@ -168,7 +280,8 @@ namespace Morula
                     in_hours,
                     review);
     const double length = scene.tissue.cell_spacing;
-    if (length < shortest_cell || length > longest_cell)
+    if (!scene.tissue.is_points() &&
+        (length < shortest_cell || length > longest_cell))
       review.warn(scene.tissue.cell_spacing.path(),
                   as_text(length) + " um",
                   "cells are 5 to 50 um long. Is it in another unit than um?",
@@ -177,4 +290,18 @@ namespace Morula
                     review.warnings.begin(),
                     review.warnings.end());
   }
+
+
+  template void
+  review_applied(const Scene &,
+                 const std::vector<AppliedCondition> &,
+                 const std::vector<Point<2>> &,
+                 const MPI_Comm,
+                 std::vector<std::string> &);
+  template void
+  review_applied(const Scene &,
+                 const std::vector<AppliedCondition> &,
+                 const std::vector<Point<3>> &,
+                 const MPI_Comm,
+                 std::vector<std::string> &);
 } // namespace Morula

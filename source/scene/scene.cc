@@ -421,10 +421,16 @@ namespace Morula
   {
     // A message begins with the path of its key, as in "SECTION/KEY = '...'" or
     // "SECTION/KEY (cells.csv, line 3) = '...'"; the place of the key is put
-    // before it.
-    const auto place = places.find(
-      message.substr(0, std::min(message.find(" = '"), message.find(" ("))));
-    return place == places.end() ? message : place->second + message;
+    // before it. A default is not the user's, who has to know that another key
+    // asks for another value.
+    const std::string path =
+      message.substr(0, std::min(message.find(" = '"), message.find(" (")));
+    if (const auto place = places.find(path); place != places.end())
+      return place->second + message;
+    for (const AnyKey *key : list())
+      if (key->path() == path && as_written.count(path) == 0)
+        return message + " The scene does not set this key.";
+    return message;
   }
 
 

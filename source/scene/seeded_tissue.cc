@@ -2,10 +2,13 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/surface_mesh.h>
+#include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/bodies.h>
+#include <morula/seeding/near_bodies.h>
 #include <morula/seeding/points_surface.h>
 
 namespace Morula
@@ -132,6 +135,21 @@ namespace Morula
 
 
   template <int dim>
+  std::string
+  bodies_text(const Scene             &scene,
+              const SeededTissue<dim> &tissue,
+              const MPI_Comm           comm)
+  {
+    const BodyCounts counts =
+      count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
+    return std::to_string(counts.bodies) +
+           (counts.bodies == 1 ? " body" : " bodies") + " in " +
+           std::to_string(counts.pieces) +
+           (counts.pieces == 1 ? " piece" : " pieces") + " of the grid";
+  }
+
+
+  template <int dim>
   SeededTissue<dim>
   seed_tissue(const Scene &scene, const MPI_Comm comm)
   {
@@ -148,11 +166,20 @@ namespace Morula
       check_bodies(scene, tissue, comm);
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);
-    tissue.counts   = check_at_surface(scene, tissue.surface, comm);
-    tissue.applied  = applied_conditions(scene, tissue.surface, comm);
+    tissue.counts  = check_at_surface(scene, tissue.surface, comm);
+    tissue.applied = applied_conditions(scene, tissue.surface, comm);
+    if (scene.tissue.is_from_file() && !scene.contact.is_on())
+      tissue.bodies = bodies_text(scene, tissue, comm);
+    if (scene.tissue.is_mesh())
+      tissue.mesh = surfaces_text(volumes_of_surfaces(
+        SurfaceMesh(scene.tissue.surface_mesh.path(), scene.tissue.surface_mesh)
+          .triangles()));
+    tissue.pieces   = held_pieces(scene, tissue.founders, tissue.surface, comm);
     tissue.warnings = scene_warnings(
       scene, tissue.founders, tissue.surface, tissue.counts, comm);
-    review_applied(scene, tissue.applied, tissue.warnings);
+    review_applied(
+      scene, tissue.applied, tissue.founders.positions, comm, tissue.warnings);
+    review_held(scene, tissue.pieces, tissue.warnings);
     if (scene.contact.is_on() && !scene.contact.is_of_all() &&
         measures_of_bodies(tissue.founders, tissue.surface, comm).size() < 2)
       tissue.warnings.push_back(
@@ -166,6 +193,10 @@ namespace Morula
   }
 
 
+  template std::string
+  bodies_text(const Scene &, const SeededTissue<2> &, const MPI_Comm);
+  template std::string
+  bodies_text(const Scene &, const SeededTissue<3> &, const MPI_Comm);
   template bool
   has_surface<2>(const Scene &);
   template bool

@@ -2,8 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/scene/estimates.h>
+#include <morula/scene/far_obstacles.h>
+#include <morula/scene/idle_keys.h>
 #include <morula/scene/rate_warnings.h>
 #include <morula/scene/rearrangement_review.h>
+#include <morula/scene/steps_review.h>
 #include <morula/scene/tensions.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/grid_warnings.h>
@@ -108,6 +111,9 @@ namespace Morula
     review_rearrangement(scene, review);
     review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
+    review_idle_keys(scene, founders, surface, comm, review);
+    review_far_obstacles(scene, surface, comm, review);
+    review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())
       condition->review(at, review);

@@ -77,6 +77,7 @@ namespace Morula
     take(all.normals, mine.normals);
     take(all.areas, mine.areas);
     take(all.bodies, mine.bodies);
+    mine.closed_room = Utilities::MPI::broadcast(comm, all.closed_room, 0);
     const std::uint64_t n =
       Utilities::MPI::sum<std::uint64_t>(mine.areas.size(), comm);
     mine.first_id = static_cast<types::particle_index>(share(n, comm).first);

@@ -5,6 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/share.h>
 #include <morula/seeding/bodies.h>
+#include <morula/seeding/closed_room.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/patch_lists.h>
@@ -302,12 +303,13 @@ namespace Morula
 
     template <int dim>
     Enclosure<dim>
-    enclose(const AllCells<dim> &cells)
+    enclose(const AllCells<dim> &cells, const double gap)
     {
       // The steps of doc/theory.md, section 1.7: wrap, half of the filling,
       // volume. Lines are cut before their vertices move, so that they can
       // follow the cells.
-      ClosedSurface<dim> surface = wrap_points(cells.positions, cells.length);
+      ClosedSurface<dim> surface =
+        wrap_points(cells.positions, cells.length, gap);
       if constexpr (dim == 2)
         cut_segments(0.5 * cells.length, surface);
       move_to_half(cells, surface);
@@ -324,7 +326,7 @@ namespace Morula
     checked_surface(const TissueParameters &parameters,
                     const AllCells<dim>    &cells)
     {
-      const Enclosure<dim> enclosure = enclose(cells);
+      const Enclosure<dim> enclosure = enclose(cells, parameters.closed_gap);
       if (enclosure.fits(cells.volumes.size()))
         return enclosure.surface;
       // The message says what the surface would be: parts and volume tell
@@ -415,6 +417,7 @@ namespace Morula
                checked_surface(parameters, cells));
           area += total_area(surfaces.back());
         }
+      double closed = 0.;
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
           if (surfaces[b].facets.empty())
@@ -427,7 +430,11 @@ namespace Morula
                     of_body / std::pow(bodies[b].length, dim - 1)),
             know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
             all);
+          // A surface from a file closes what its author has meant.
+          if (!parameters.has_surface_file())
+            closed += room_without_cells(bodies[b], all);
         }
+      all.closed_room = closed;
       if (know_bodies)
         part_bodies(all);
     });
@@ -443,7 +450,7 @@ namespace Morula
     const Enclosure<dim> enclosure =
       // Called on one rank, with all cells: so there is nothing to exchange,
       // and the result is the same for any number of ranks.
-      enclose(AllCells<dim>(positions, volumes, wish.length));
+      enclose(AllCells<dim>(positions, volumes, wish.length), wish.gap);
     if (!enclosure.fits(volumes.size()))
       return {};
     SurfacePatches<dim> patches =

@@ -36,9 +36,8 @@ namespace Morula
     using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
     using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
 
-    /** Distance of the first surface from the points, and radius of the ball
-     *  that must have room outside of it, in lengths of a cell. */
-    constexpr double offset = 0.5, alpha = 2.;
+    /** Distance of the first surface from the points, in lengths of a cell. */
+    constexpr double offset = 0.5;
 
     /** Fewer cells are surrounded by points first. */
     constexpr std::size_t few = 9;
@@ -136,10 +135,12 @@ namespace Morula
       }
     };
 
-    /** The walls of the cavities in @p outer. */
+    /** The walls of the cavities in @p outer. @param alpha radius of the ball
+     *  that must have room, in lengths of a cell */
     std::list<Wrap>
     cavities(const std::vector<Kernel::Point_3> &points,
              const double                        length,
+             const double                        alpha,
              Wrap                               &outer)
     {
       std::list<Wrap> found;
@@ -175,12 +176,15 @@ namespace Morula
   } // namespace
 
   ClosedSurface<3>
-  wrap_points(const std::vector<Point<3>> &points, const double length)
+  wrap_points(const std::vector<Point<3>> &points,
+              const double                 length,
+              const double                 gap)
   {
     // The outer wrap goes around all centres. With few cells the wrap is made
     // around points around them. Cavities are wrapped from within, and turned
     // so that their normals point out of the tissue.
     restart_shuffling();
+    const double                 alpha = 0.5 * gap;
     std::vector<Kernel::Point_3> centers;
     for (const Point<3> &x : points)
       centers.emplace_back(x[0], x[1], x[2]);
@@ -189,7 +193,7 @@ namespace Morula
     Wrap outer;
     CGAL::alpha_wrap_3(centers, alpha * length, offset * length, outer.mesh);
     ClosedSurface<3> surface;
-    for (Wrap &cavity : cavities(centers, length, outer))
+    for (Wrap &cavity : cavities(centers, length, alpha, outer))
       {
         Processing::reverse_face_orientations(cavity.mesh);
         append(cavity.mesh, surface);
@@ -199,7 +203,9 @@ namespace Morula
   }
 
   ClosedSurface<2>
-  wrap_points(const std::vector<Point<2>> &points, const double length)
+  wrap_points(const std::vector<Point<2>> &points,
+              const double                 length,
+              const double                 gap)
   {
     using Vertex   = CGAL::Alpha_shape_vertex_base_2<Kernel>;
     using Face     = CGAL::Alpha_shape_face_base_2<Kernel>;
@@ -216,6 +222,7 @@ namespace Morula
     // A polygon of eight points is at most 8 % of the radius inside of its
     // circle.
     constexpr unsigned int       n_around = 8;
+    const double                 alpha    = 0.5 * gap;
     std::vector<Kernel::Point_2> around;
     for (const Point<2> &x : points)
       for (unsigned int i = 0; i < n_around; ++i)

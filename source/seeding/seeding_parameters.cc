@@ -60,9 +60,14 @@ namespace Morula
         "the scene has a boundary condition, or a key asks for the depth below "
         "the surface or its normal. always: also without one. It "
         "stands where the cells end, and encloses their volume. Gaps and "
-        "cavities narrower than four cells are closed. Or the file of the "
+        "cavities narrower than Closed gap are closed. Or the file of the "
         "closed surface around the cells in um, cavities and all: STL, OFF, "
         "PLY or OBJ; in 2-D polygons as well-known text, WKT.")
+    , closed_gap("Tissue/Closed gap",
+                 4.,
+                 "For the shape points: width of gaps and cavities that an "
+                 "automatic surface closes; from 2 on. Units: cell lengths.",
+                 {2.})
     , cell_spacing("Tissue/Cell spacing",
                    10.,
                    "L_p: cells sit on a regular lattice of this spacing, "
@@ -124,6 +129,7 @@ namespace Morula
             &surface_mesh,
             &points_file,
             &points_surface,
+            &closed_gap,
             &cell_spacing,
             &lattice_offset,
             &surface_cells,

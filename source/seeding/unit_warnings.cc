@@ -89,6 +89,10 @@ namespace Morula
      *  them differs. */
     constexpr double most_off = 0.1;
 
+    /** The same of cells on a lattice, which fits a shape to a percent or so.
+     */
+    constexpr double most_off_of_lattice = 0.03;
+
     /** The volume within the surface in units of the founders' volume. */
     template <int dim>
     double
@@ -165,6 +169,33 @@ namespace Morula
         }
       return longest + cell;
     }
+
+    /** Usual lengths of cells, µm: bacteria have 1, egg cells 100. */
+    constexpr double shortest_usual = 0.5, longest_usual = 300.;
+
+    /** Warns of cells of which places and volumes are both in another unit, so
+     *  that they fit each other. */
+    template <int dim>
+    void
+    review_length(const Key<std::string> &file,
+                  const Founders<dim>    &founders,
+                  const MPI_Comm          comm,
+                  Review                 &review)
+    {
+      double volume = 0.;
+      for (const double V : founders.volumes)
+        volume += V;
+      const double length =
+        std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global,
+                 1. / dim);
+      if (length < shortest_usual || length > longest_usual)
+        review.warn(file.path(),
+                    file,
+                    "its cells are " + as_text(length) +
+                      " um long, where 5 to 50 is usual. Is it in another "
+                      "unit than um, such as m, mm or nm?",
+                    "Scale places to um and volumes to um^3 (2-D: um^2).");
+    }
   } // namespace
 
 
@@ -181,7 +212,10 @@ namespace Morula
     // the number of cells along the tissue. Each is found over all ranks and
     // gives a warning with what is usual.
     if (tissue.is_points())
-      review_points_file<dim>(tissue.points_file, review);
+      {
+        review_points_file<dim>(tissue.points_file, review);
+        review_length(tissue.points_file, founders, comm, review);
+      }
     if (tissue.is_points() && founders.n_global > 1)
       {
         const double ratio = median_distance(founders, comm);
@@ -208,7 +242,30 @@ namespace Morula
                         "by so many times that pressure.",
                       "Give each cell its volume in the file, or set "
                       "Tissue/Cell spacing to the length of the cells.");
+        if (surface.closed_room > 0.)
+          review.warn(tissue.closed_gap.path(),
+                      as_text(tissue.closed_gap) + " cell lengths",
+                      "the surface around the cells has closed gaps or "
+                      "cavities: it encloses about " +
+                        as_text(surface.closed_room) +
+                        (dim == 3 ? " um^3" : " um^2") +
+                        " in which no cell is, and lies closer to the cells "
+                        "elsewhere for it.",
+                      "Lower this key, or fill the holes, or give the surface "
+                      "as a file in Tissue/Points surface.");
         review_patches(tissue, founders, surface, comm, review);
+      }
+    if (!tissue.is_points() && surface.n_global > 0 &&
+        tissue.surface_cells == "whole")
+      {
+        const double ratio = enclosed_over_cells(founders, surface, comm);
+        if (std::abs(1. / ratio - 1.) > most_off_of_lattice)
+          review.warn(tissue.cell_spacing.path(),
+                      as_text(tissue.cell_spacing) + " um",
+                      "the lattice does not fit the shape: its cells have " +
+                        as_text(1. / ratio) + " of the shape's volume.",
+                      "Choose a spacing that divides the shape, a smaller one, "
+                      "or Tissue/Surface cells = trimmed.");
       }
     if (tissue.is_mesh())
       {
@@ -242,7 +299,8 @@ namespace Morula
                    {&tissue.center, solid},
                    {&tissue.lattice_offset, solid},
                    {&tissue.surface_cells, solid},
-                   {&tissue.points_surface, {"points"}}};
+                   {&tissue.points_surface, {"points"}},
+                   {&tissue.closed_gap, {"points"}}};
     for (const auto &[key, shapes] : shapes_of)
       if (!key->is_default() && review.has_set(*key) &&
           std::count(shapes.begin(), shapes.end(), tissue.shape.value()) == 0)

@@ -63,6 +63,15 @@ namespace Morula
              largest_stretch * std::sqrt(dim);
     }
 
+    /** What a renewed surface shall be like in a scene. */
+    SurfaceWish
+    wish_of(const Scene &scene)
+    {
+      SurfaceWish wish;
+      wish.gap = scene.tissue.closed_gap;
+      return wish;
+    }
+
     /** Evens out the volumes of cells in each body by @p part, at most whole.
      *  Collective. */
     template <int dim>
@@ -192,8 +201,9 @@ namespace Morula
       }
     catch (const SurfaceTorn &)
       {
-        const bool is_new = renews() && renew(tissue, former, SurfaceWish());
-        is_torn           = !is_new && restores(share);
+        const bool is_new =
+          renews() && renew(tissue, former, wish_of(model.scene));
+        is_torn = !is_new && restores(share);
         if (!is_new && !is_torn)
           throw;
       }
@@ -304,7 +314,7 @@ namespace Morula
     const auto n_left =
       Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(), comm);
     if (is_due || n - n_left > largest_loss * n || is_stretched(tissue))
-      renew(tissue, former, SurfaceWish());
+      renew(tissue, former, wish_of(model.scene));
   }
 
 
@@ -356,7 +366,7 @@ namespace Morula
       fused.insert(into);
     if (!renew_bodies(tissue,
                       tissue.boundary_points().copy(),
-                      SurfaceWish(),
+                      wish_of(model.scene),
                       [&](const unsigned int body) {
                         return fused.count(body) > 0;
                       }))

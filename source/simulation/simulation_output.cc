@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/simulation/balance_warning.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/tissue_tables.h>
 
@@ -171,7 +172,21 @@ namespace Morula
                             t);
       }
     if (!forces.empty() && files->forces_due(t, last))
-      files->forces(t, forces);
+      {
+        files->forces(t, forces);
+        if (const auto warning =
+              balance_warning(forces,
+                              t,
+                              1e-6 * typical_stiffness *
+                                std::pow(model.scene.grid.spacing.value(),
+                                         dim - 1));
+            warning && model.boundary_conditions.has_pushing() &&
+            !warned_of_drift)
+          {
+            warned_of_drift = true;
+            files->message(*warning);
+          }
+      }
     if (files->snapshot_due(t, last))
       files->write_snapshot(snapshot(), timer);
   }

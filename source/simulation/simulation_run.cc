@@ -5,6 +5,7 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/simulation/former_columns.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/present_depth.h>
 #include <morula/simulation/simulation.h>
@@ -75,6 +76,12 @@ namespace Morula
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births   = std::move(points.births);
     warnings = applied_texts(model.scene, seeded.applied);
+    if (!seeded.bodies.empty())
+      warnings.push_back("Tissue: " + seeded.bodies);
+    if (!seeded.mesh.empty())
+      warnings.push_back("Surface mesh: " + seeded.mesh);
+    for (const std::string &text : texts_of(model.scene, seeded.pieces))
+      warnings.push_back("Piece: " + text);
     warnings.insert(warnings.end(),
                     seeded.warnings.begin(),
                     seeded.warnings.end());
@@ -100,6 +107,16 @@ namespace Morula
     const std::string path = model.scene.output_directory + "/snapshot.h5";
     check_resumable(model.scene, read_snapshot_parameters(path, comm));
     resumed_from = read_snapshot<dim>(path, comm);
+    const std::string added =
+      add_former_columns(tissue.boundary_points().columns(),
+                         comm,
+                         *resumed_from);
+    if (!added.empty())
+      warnings.push_back("Warning: the snapshot of an older version lacks the "
+                         "columns " +
+                         added +
+                         " of boundary points: they are 0 until the end of "
+                         "the next step.");
     check_columns(*resumed_from,
                   tissue.cells().columns(),
                   tissue.boundary_points().columns(),
@@ -215,7 +232,11 @@ namespace Morula
         output(must_stop());
       }
     else
-      begin_step_effects();
+      {
+        for (const std::string &warning : warnings)
+          files->message(warning);
+        begin_step_effects();
+      }
     resumed_from.reset();
     // What holds at the beginning already needs no message from a step on: the
     // user was told of it before the run, or by the run before.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
+#include <morula/base/key.h>
 #include <morula/simulation/step_fields.h>
 #include <morula/solver/linear_solver.h>
 
@@ -12,6 +14,10 @@ namespace Morula
 {
   namespace
   {
+    /** A field that has grown by more in iterations that did not converge has
+     *  no steady state. */
+    constexpr double most_growth = 1e4;
+
     /** A linear solver with a timer of its own, which nobody reads: the rows of
      *  the linear solver in timings.csv are those of Newton's method. */
     struct SilentSolver
@@ -102,6 +108,7 @@ namespace Morula
         clipped[field.number] += field.clipped;
         warn_if_unsettled(field, t);
         warn_if_raised(field, t);
+        warn_of_nothing(field, t);
       }
     return found;
   }
@@ -112,7 +119,22 @@ namespace Morula
   StepFields<dim>::warn_if_unsettled(const FieldSolution<dim> &field,
                                      const double              t)
   {
-    if (field.converged || warned)
+    if (field.converged)
+      return;
+    const std::string &name = model.scene.fields.fields[field.number].name;
+    // Iterations that fail to settle stay within bounds; here each makes more
+    // of the field than the one before.
+    if (field.growth > most_growth)
+      throw InputError(
+        "Fields/" + name + "/Production",
+        model.scene.fields.fields[field.number].production.text(),
+        "less than what cells use up, also where it depends on "
+        "the field itself or on fields that depend on it",
+        "The field grows with every iteration, by " + as_text(field.growth) +
+          " so far, and has no steady state: lower Production, "
+          "raise Consumption, let Production saturate, or set "
+          "Time = transient with a shorter step.");
+    if (warned)
       return;
     warned = true;
     std::ostringstream text;
@@ -123,6 +145,28 @@ namespace Morula
          << " iterations, as what cells do to it depends on itself. The next "
             "step goes on from there; expressions without jumps converge "
             "better. Later ones are not told of.";
+    announce(text.str());
+  }
+
+
+  template <int dim>
+  void
+  StepFields<dim>::warn_of_nothing(const FieldSolution<dim> &field,
+                                   const double              t)
+  {
+    if (field.pieces_of_nothing == 0 || warned_of_nothing)
+      return;
+    warned_of_nothing = true;
+    std::ostringstream text;
+    text << "Warning: at t = " << t << " day "
+         << (field.pieces_of_nothing == 1 ?
+               "a separate piece" :
+               std::to_string(field.pieces_of_nothing) + " separate pieces")
+         << " of the tissue has neither source nor sink of the steady field '"
+         << model.scene.fields.fields[field.number].name
+         << "': its level there is not determined, and is set to 0. Give it a "
+            "Consumption, a fixed value or a Transfer there. Later ones are "
+            "not told of.";
     announce(text.str());
   }
 

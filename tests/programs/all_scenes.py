@@ -45,6 +45,13 @@ WARNED["examples/turnover.prm"] = ["Time/Step"]
 # Its states follow its days, not its steps.
 WARNED["showcase/organoid.prm"] = ["Output/Interval"]
 
+# Whole cells do not fit their shapes to some percent.
+WARNED["hard/mesh.prm"] = ["Tissue/Cell spacing"]
+WARNED["hard/solver.prm"] = ["Tissue/Cell spacing", "Grid/Spacing"]
+
+# Its bodies are near each other: that is what it is about.
+WARNED["hard/close-bodies.prm"] = ["Grid/Spacing"]
+
 # It is pushed and nothing holds it: that is what it is about.
 WARNED["hard/pushed-body.prm"] = ["Boundary conditions"]
 

@@ -91,6 +91,12 @@ namespace Morula
     static Mode
     elementary_mode(const unsigned int k, const double length);
 
+    /** A basis of the motions that next to nothing of S holds, doc/theory.md
+     *  (4.9). @param S   row by row, n_modes² numbers
+     *  @param length as in elementary_mode(), µm */
+    static std::vector<Mode>
+    free_motions(const double *S, const double length);
+
     /** A rotation about the axis of the skew @p B: Cayley's transform. */
     static Tensor<2, dim>
     rotation(const Tensor<2, dim> &B);

@@ -27,6 +27,8 @@ namespace Morula
      *  wins, and their area, µm^(dim-1). */
     std::uint64_t points = 0;
     double        area   = 0.;
+    /** Those that its expression chooses, also where another one wins. */
+    std::uint64_t chosen = 0;
     /** Corners of the box around these points, µm. */
     Point<3> lower, upper;
     /** Whether it is a load whose size is known before the run. */
@@ -35,6 +37,8 @@ namespace Morula
      *  their magnitudes, kPa µm^(dim-1). */
     Tensor<1, 3> force;
     double       magnitude = 0.;
+    /** Whether it is a load that is zero at the end of every step. */
+    bool is_idle = false;
   };
 
   /**
@@ -62,11 +66,15 @@ namespace Morula
   applied_texts(const Scene                         &scene,
                 const std::vector<AppliedCondition> &applied);
 
-  /** Adds warnings of conditions on few points, of loads that nothing balances,
-   *  and of numbers that look like another unit's. */
+  /** Adds warnings of conditions on few points or none and without a load, and
+   *  of numbers that look like another unit's. Collective.
+   *  @param founders initial positions of this rank's, µm */
+  template <int dim>
   void
   review_applied(const Scene                         &scene,
                  const std::vector<AppliedCondition> &applied,
+                 const std::vector<Point<dim>>       &founders,
+                 const MPI_Comm                       comm,
                  std::vector<std::string>            &warnings);
 } // namespace Morula
 

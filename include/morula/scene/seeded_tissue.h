@@ -6,6 +6,7 @@
 
 #include <morula/scene/applied.h>
 #include <morula/scene/checks.h>
+#include <morula/scene/held_pieces.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
 
@@ -28,9 +29,21 @@ namespace Morula
     ConditionCounts       counts;
     /** See applied_conditions(). */
     std::vector<AppliedCondition> applied;
+    /** Of how many bodies and pieces tissue from a file is, and which closed
+     *  surfaces its mesh has; empty otherwise. */
+    std::string bodies, mesh;
+    /** See held_pieces(). */
+    std::vector<HeldPiece> pieces;
     /** See scene_warnings(). */
     std::vector<std::string> warnings;
   };
+
+  /** E.g. "2 bodies in 1 piece of the grid". Collective. */
+  template <int dim>
+  std::string
+  bodies_text(const Scene             &scene,
+              const SeededTissue<dim> &tissue,
+              const MPI_Comm           comm);
 
   /** Whether the tissue of a scene has boundary points. @throws InputError */
   template <int dim>

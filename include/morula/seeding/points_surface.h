@@ -22,11 +22,11 @@ namespace Morula
    * encloses the sum of the cells' volumes. ℓ is that of the mean cell. Edges
    * are round. The patches are about as many as Boundary points says, or one
    * per ℓ² (2-D: ℓ), and their areas times normals add up to zero. Separate
-   * bodies have surfaces of their own if an empty ball of radius 2ℓ passes
-   * between them, and so have cavities with room for one. Where founders know
-   * their bodies, each body has a surface of its own. Rank 0 makes the
-   * surface: it does not depend on the number of ranks. Where Points surface
-   * names a file, the patches tile that surface. Collective.
+   * bodies have surfaces of their own if an empty ball of half the width of
+   * Closed gap passes between them, and so have cavities with room for one.
+   * Where founders know their bodies, each body has a surface of its own. Rank
+   * 0 makes the surface: it does not depend on the number of ranks. Where
+   * Points surface names a file, the patches tile that surface. Collective.
    * @throws InputError if the surface encloses less than half or more than
    * twice the cells' volume, or leaves cells of the file outside
    */
@@ -46,6 +46,8 @@ namespace Morula
     /** The volume that the surface shall enclose exactly, µm^dim; 0: about the
      *  cells' volume. */
     double volume = 0.;
+    /** Width of gaps and cavities that it closes, in ℓ. */
+    double gap = 4.;
   };
 
   /**

@@ -29,15 +29,19 @@ namespace Morula
    * A first closed surface around cells: CGAL's alpha wrap of the points, in
    * 2-D the alpha shape of circles around them. It stands up to half of
    * @p length (µm, a cell's) away from the outermost cells. Gaps narrower than
-   * four lengths are closed, and a cavity is filled if no sphere of 2.5 lengths
-   * fits between the centres of the cells.
+   * @p gap lengths are closed, and a cavity is filled if no sphere of
+   * (gap + 1)/2 lengths fits between the centres of the cells.
    */
   ClosedSurface<3>
-  wrap_points(const std::vector<Point<3>> &points, const double length);
+  wrap_points(const std::vector<Point<3>> &points,
+              const double                 length,
+              const double                 gap);
 
   /** Wraps points in 2-D, by lines. */
   ClosedSurface<2>
-  wrap_points(const std::vector<Point<2>> &points, const double length);
+  wrap_points(const std::vector<Point<2>> &points,
+              const double                 length,
+              const double                 gap);
 } // namespace Morula
 
 #endif

@@ -44,6 +44,7 @@ namespace Morula
     Key<std::string>         surface_mesh;
     Key<std::string>         points_file;
     Key<std::string>         points_surface;
+    Key<double>              closed_gap;
     Key<double>              cell_spacing;
     Key<std::vector<double>> lattice_offset;
     Key<std::string>         surface_cells;
@@ -132,6 +133,9 @@ namespace Morula
     types::particle_index       n_global = 0;
     /** Numbers of their bodies; empty without contact. */
     std::vector<unsigned int> bodies;
+    /** Room without cells that a surface around points has closed, about,
+     *  µm^dim; the same on all ranks. */
+    double closed_room = 0.;
   };
 
   /**

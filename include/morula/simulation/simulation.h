@@ -215,6 +215,7 @@ namespace Morula
     bool warned_of_long_cells = false; // once a run, or before it started
     bool told_of_path         = false; // once a run
     bool warned_of_misfit     = false; // likewise
+    bool warned_of_drift      = false; // likewise
 
     // A new run says what acts in it, and its warnings, when it has a log.
     std::vector<std::string>         warnings;

@@ -65,10 +65,13 @@ namespace Morula
          const SplineSpace<dim> &space,
          const double            t,
          const double            t1);
+    /** @throws InputError about a field that has no steady state */
     void
     warn_if_unsettled(const FieldSolution<dim> &field, const double t);
     void
     warn_if_raised(const FieldSolution<dim> &field, const double t);
+    void
+    warn_of_nothing(const FieldSolution<dim> &field, const double t);
 
     const TissueModel<dim>         &model;
     TimerOutput                    &timer;
@@ -77,6 +80,7 @@ namespace Morula
     std::vector<std::uint64_t>      clipped;        // by field, in the step
     bool                            warned = false; // of one not converged
     bool                            warned_of_surface = false; // too rough
+    bool                            warned_of_nothing = false; // in a piece
   };
 } // namespace Morula
 

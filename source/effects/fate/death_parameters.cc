@@ -84,7 +84,8 @@ namespace Morula
                         keep_debris.differs_by_type();
     if (shrink && !material.per_grown_volume())
       material.energy_per.refuse(
-        "grown volume, as cells die and shrink",
+        "grown volume, as cells die (" + rate.path() + " or " + when.path() +
+          ") and shrink",
         "A shrunken cell would pull with the stiffness of a whole one. Cells "
         "may also go at once: " +
           shrinking_time.path() + " = 0.");

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/fate/left_amounts.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
@@ -50,12 +51,14 @@ namespace Morula
       // Cells are stored grid cell by grid cell, and `gone` is sorted, so one
       // pointer runs along. All cells of a grid cell are on one rank: nothing
       // is sent.
-      auto next = gone.begin();
+      std::vector<LeftAmounts<dim>> left;
+      auto                          next = gone.begin();
       for (const auto &grid_cell : cells.grid_cells())
         {
           const auto          first = next;
           double              from = 0., to = 0.;          // µm^dim
           std::vector<double> amounts(carried.size(), 0.); // of those that go
+          const std::size_t   n_left = left.size();
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             if (next != gone.end() && *next == p)
               {
@@ -64,13 +67,22 @@ namespace Morula
                     }))
                   {
                     from += cells.volume(p);
+                    left.push_back({cells.position(p), {}});
                     for (std::size_t k = 0; k < carried.size(); ++k)
-                      amounts[k] += cells.volume(p) * cells[p].get(carried[k]);
+                      {
+                        const double amount =
+                          cells.volume(p) * cells[p].get(carried[k]);
+                        left.back().amounts.push_back(amount);
+                        amounts[k] += amount;
+                      }
                   }
                 ++next;
               }
             else if (first != gone.end() && *first < grid_cell.end)
               to += cells.volume(p);
+          // Where none stays, cells elsewhere get what they leave.
+          if (to > 0.)
+            left.resize(n_left);
           if (from == 0. || to == 0.)
             continue;
           // This is doc/theory.md (6.9b). The ratio has a limit of 2: a single
@@ -90,6 +102,8 @@ namespace Morula
                          (cell.get(carried[k]) + amounts[k] / to) / ratio);
             }
         }
+      if (!carried.empty())
+        give_to_nearest(tissue, gone, carried, left);
     }
 
     /** Adds the boundary points of bodies that have no cell left to a sorted

@@ -168,15 +168,13 @@ namespace Morula
 
   template <int dim>
   void
-  FieldSolver<dim>::evaluate_surface(const Field<dim> &field,
-                                     const double      t,
-                                     const double      t1)
+  FieldSolver<dim>::evaluate_surface(const Field<dim> &field, const double t)
   {
     // The points at which something is done are found first, by the places that
     // they had at t = 0, as conditions are decided there. They need to know how
     // far they belong to the tissue, and D, which is that of the nearest cell
     // where it differs between cells; both ask other ranks. Then each point
-    // gets its coefficients of doc/theory.md (11.2), (11.3), at the time t1.
+    // gets its coefficients of doc/theory.md (11.2), (11.3), at the time t.
     equation.surface.clear();
     equation.raised = 1.;
     if (!field.has_surface())
@@ -218,10 +216,10 @@ namespace Morula
           const double            D =
             diffusion.empty() ? *field.uniform_diffusion() : diffusion[k];
           FieldAtSurface<dim> here{Tensor<1, dim>(),
-                                   area.norm() * field.transfer(X, t1),
+                                   area.norm() * field.transfer(X, t),
                                    0.,
-                                   field.value(X, t1),
-                                   area.norm() * field.flux(X, t1)};
+                                   field.value(X, t),
+                                   area.norm() * field.flux(X, t)};
           if (field.is_fixed(X))
             {
               // These are Nitsche's terms, doc/theory.md (11.3). Off the tissue
@@ -234,20 +232,6 @@ namespace Morula
           equation.surface.push_back(here);
         }
     });
-  }
-
-  template <int dim>
-  void
-  FieldSolver<dim>::check_sink(const Field<dim> &field) const
-  {
-    if (!(Utilities::MPI::sum(equation.sink(), tissue.communicator()) > 0.))
-      throw InputError(
-        "Fields/" + field.name() + "/Consumption",
-        "",
-        "a rate > 0 1/day at some cell, or a value or a transfer > 0 at some "
-        "boundary point",
-        "Without a sink a steady field has no level: any constant could be "
-        "added to it.");
   }
 
   template <int dim>
@@ -349,14 +333,14 @@ namespace Morula
     for (unsigned int p = 0; p < now.size(); ++p)
       now[p] = value(number, p);
     values[number] = std::move(now);
-    evaluate_surface(field, t, t1);
+    evaluate_surface(field, t1);
     FieldSolution<dim> result;
     result.number     = number;
-    const double step = iterate(field, t, t1 - t, result);
+    const double step = iterate(field, t1, t1 - t, result);
     // Where the first values were far off, so was what they had lumped: the
     // iterations begin again at the solution.
     if (!(t1 > t) && field.is_nonlinear() && result.converged && step > far_off)
-      iterate(field, t, t1 - t, result);
+      iterate(field, t1, t1 - t, result);
     result.raised = equation.raised;
     return result;
   }
@@ -382,10 +366,10 @@ namespace Morula
     // All of a steady field is sought.
     std::vector<double> known(now.size(), 0.);
     Vector known_field = assembly.unknowns().zero(), sought = known_field;
-    double first_step = 0.;
-    bool   kept       = false; // slopes and matrix of the iteration before
-    linear            = nullptr;
-    result.converged  = false;
+    double first_step = 0., first_size = 0.;
+    bool   kept      = false; // slopes and matrix of the iteration before
+    linear           = nullptr;
+    result.converged = false;
     // Only an uptake that saturates makes a field end inside of the tissue.
     equation.lumped.assign(steady && nonlinear ? space.grid_cells().size() : 0,
                            false);
@@ -398,7 +382,7 @@ namespace Morula
         else
           linearise_cells(field, result.number, t, dt, before);
         if (i == 0 && steady)
-          check_sink(field);
+          result.pieces_of_nothing = check_sink(field);
         if (!steady)
           set_known(known, known_field);
         const LinearAccuracy &accuracy = !steady    ? accuracy_of_amounts :
@@ -411,7 +395,10 @@ namespace Morula
         const double last_change = result.change;
         result.change            = relative_change(now, result.values);
         if (i == 0)
-          first_step = result.change;
+          {
+            first_step = result.change;
+            first_size = size(result.values);
+          }
         kept = steady && !field.has_nonlinear_source() && i > 0 &&
                result.change <= fast * last_change;
         if (!kept && result.change > matrices_differ)
@@ -419,12 +406,21 @@ namespace Morula
         now              = result.values;
         result.converged = !nonlinear || result.change <= small_change;
       }
+    if (!result.converged && first_size > 0.)
+      result.growth = size(result.values) / first_size;
     if (reader.columns.gradients[result.number].exists())
       {
         sought += known_field;
         result.gradients = gradients(sought);
       }
     return first_step;
+  }
+
+  template <int dim>
+  double
+  FieldSolver<dim>::size(const std::vector<double> &of_cells) const
+  {
+    return Utilities::MPI::max(largest(of_cells), tissue.communicator());
   }
 
   template <int dim>

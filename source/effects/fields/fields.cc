@@ -23,6 +23,7 @@ namespace Morula
     /** Fields that depend on each other are found again until they change by so
      *  little, relative to the largest value, but not more often. */
     constexpr double       small_difference = 1e-9;
+    constexpr double       exact_difference = 1e-11;
     constexpr unsigned int most_turns       = 50;
 
     /** Refuses a condition that holds at @p n boundary points of this rank, and
@@ -211,7 +212,16 @@ namespace Morula
     FieldsOfStep<dim> found = solve();
     if (group.size() == 1)
       return found;
-    // Each sees the latest values of the others.
+    std::vector<double> first;
+    for (const FieldSolution<dim> &field : found)
+      first.push_back(solver.size(field.values));
+    // Each sees the latest values of the others. Where all are linear their
+    // amounts can be balanced to rounding.
+    const bool is_exact =
+      std::none_of(group.begin(), group.end(), [&](const unsigned int k) {
+        return fields[k].kind() == FieldKind::steady ||
+               fields[k].is_nonlinear();
+      });
     for (unsigned int turn = 0; turn < most_turns; ++turn)
       {
         const FieldsOfStep<dim> before = std::move(found);
@@ -224,11 +234,16 @@ namespace Morula
             found[i].iterations += before[i].iterations;
             change = std::max(change, found[i].change);
           }
-        if (change <= small_difference)
+        // The last change is what the amounts of the group miss.
+        if (change <= (is_exact ? exact_difference : small_difference))
           return found;
       }
-    for (FieldSolution<dim> &field : found)
-      field.converged = false;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        found[i].converged = false;
+        if (first[i] > 0.)
+          found[i].growth = solver.size(found[i].values) / first[i];
+      }
     return found;
   }
 

@@ -51,8 +51,9 @@ namespace Morula
       double               largest = 1.;
       for (std::size_t i = 0; i < scene.founders.size(); i += every)
         {
-          const Point<dim> &X   = scene.founders[i];
-          Tensor<2, dim> before = law.growth({X, identity, identity}, 0., 0.);
+          const Point<dim> &X = scene.founders[i];
+          // Cells begin at their initial size, whatever the law says of t = 0.
+          Tensor<2, dim> before = identity;
           double         t      = 0.;
           for (double n = 1.; n <= n_steps; ++n)
             {

@@ -6,8 +6,12 @@
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/mechanics/equilibrium.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
+#include <algorithm>
+#include <limits>
 #include <sstream>
 #include <utility>
 
@@ -28,6 +32,22 @@ namespace Morula
                                "An obstacle moves as a whole: remove X, Y and "
                                "Z.");
       return velocity;
+    }
+
+    /** The least thickness of what the tissue is outside of, µm: a point that
+     *  is deeper than half of it comes out on the other side. */
+    double
+    thickness_of(const ObstacleKeys &keys, const unsigned int dim)
+    {
+      double least = std::numeric_limits<double>::infinity();
+      if (keys.side == "inside")
+        return least;
+      if (keys.shape == "sphere" || keys.shape == "cylinder")
+        least = 2. * keys.radius;
+      if (keys.shape == "box")
+        for (unsigned int d = 0; d < dim; ++d)
+          least = std::min(least, keys.size[d]);
+      return least;
     }
 
     /** Deepest point in an obstacle. */
@@ -71,7 +91,8 @@ namespace Morula
                       keys.stiffness,
                       velocity_of(keys, dim),
                       keys.surface_mesh.path(),
-                      keys.shape == "mesh" ? keys.surface_mesh.value() : ""});
+                      keys.shape == "mesh" ? keys.surface_mesh.value() : "",
+                      thickness_of(keys, dim)});
   }
 
 
@@ -141,12 +162,13 @@ namespace Morula
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {
     // Each obstacle is put where it is at the end of the step, with κ = α E/h
-    // of doc/theory.md (4.8d). Two things would break the contact, and both ask
-    // for a shorter step. A body that moves by more than a grid spacing may
-    // pass thin tissue before any point notices. A surface that begins deeper
-    // than that may be pushed out on the wrong side of a thin body. The depth
-    // is that of this rank's points, so the caller makes a failure known to all
-    // ranks.
+    // of doc/theory.md (4.8d). Three things would break the contact, and all
+    // ask for a shorter step. A body that moves by more than a grid spacing may
+    // pass thin tissue before any point notices, and a body that moves by more
+    // than half of its own thickness the surface that it meets. A surface that
+    // begins deeper than that may be pushed out on the wrong side of a thin
+    // body. The depth is that of this rank's points, so the caller makes a
+    // failure known to all ranks.
     const double                                         h = points.h;
     std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
     for (const Obstacle &obstacle : list)
@@ -159,6 +181,19 @@ namespace Morula
           {
             text << "the obstacle '" << obstacle.name << "' moves by " << step
                  << " um in a step, more than a grid spacing";
+            throw StepFailed(text.str());
+          }
+        const auto before = obstacle.at(points.time, points);
+        if (step > 0.5 * obstacle.thickness &&
+            std::any_of(points.points.begin(),
+                        points.points.end(),
+                        [&](const auto &point) {
+                          return before.depth(point.x) > -step;
+                        }))
+          {
+            text << "the obstacle '" << obstacle.name << "' moves by " << step
+                 << " um in a step, more than half of its thickness, and "
+                    "could pass the surface unnoticed";
             throw StepFailed(text.str());
           }
         const auto [depth, place] =
@@ -228,11 +263,31 @@ namespace Morula
 
   template <int dim>
   void
-  Obstacles<dim>::review(const Preview<dim> &, Review &review) const
+  Obstacles<dim>::review(const Preview<dim> &scene, Review &review) const
   {
     for (const Obstacle &obstacle : list)
-      if (!obstacle.mesh.empty())
-        review_mesh(obstacle.mesh_key, obstacle.mesh, review);
+      {
+        if (!obstacle.mesh.empty())
+          review_mesh(obstacle.mesh_key, obstacle.mesh, review);
+        // Only boundary points feel an obstacle, so cells may stand in one that
+        // is wholly inside of the tissue.
+        const typename ObstacleContact<dim>::Obstacle at_start{
+          obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.};
+        unsigned int n_cells = 0, n_points = 0;
+        for (const Point<dim> &X : scene.founders)
+          n_cells += at_start.depth(X) > 0.;
+        for (const Point<dim> &X : scene.boundary_points)
+          n_points += at_start.depth(X) > 0.;
+        n_cells  = Utilities::MPI::sum(n_cells, scene.comm);
+        n_points = Utilities::MPI::sum(n_points, scene.comm);
+        if (n_cells > 0 && n_points == 0)
+          review.warn("Obstacles/Names",
+                      obstacle.name,
+                      std::to_string(n_cells) +
+                        " cells stand in it, and no boundary point does: it "
+                        "lies within the tissue, where nothing feels it.",
+                      "Make a hole in the tissue around it, or move it.");
+      }
   }
 
 

@@ -2,14 +2,14 @@
 # Copyright (C) 2026 by the Morula authors
 """A ball between two planes, `upper` and `lower`, that each come nearer, at a
 constant velocity: the forces on both are those on a linearly elastic ball
-(tests/verification/pressed_ball.py), whose surface goes into the planes by the
+(tests/verification/pressed_ball.py), also in forces.csv, whose surface goes into the planes by the
 pressure over kappa. Argument: the tolerance, relative.
 """
 import sys
 
 import numpy
 
-from morula.run import read_csv
+from morula.run import Run, read_csv
 from tests.common.results import Results, agree
 from tests.verification import pressed_ball
 
@@ -23,6 +23,7 @@ kappa = results.number("Obstacles/upper/Stiffness") * E / h
 velocity = -float(results.keys["Obstacles/upper/Velocity"].split(";")[2])
 ball = pressed_ball.Ball(results.lame())
 surfaces = [read_csv(file) for file in results.outputs("surface")]
+written = Run(results.directory).forces
 assert len(surfaces) > 2
 for before, surface in zip(surfaces, surfaces[1:]):
     assert (before["id"] == surface["id"]).all()
@@ -37,6 +38,12 @@ for before, surface in zip(surfaces, surfaces[1:]):
           f"elastic ball {exact / hertz:.4f}; F/F_ball = {forces[0] / exact:.4f}")
     agree("force over that on the elastic ball", numpy.array(forces) / exact, 1,
           tolerance)
+    now = written[written["time"] == surface["time"][0]].set_index("name")
+    named = now.loc[["upper", "lower"]]
+    agree("force in forces.csv over that on the elastic ball",
+          named["force_inward"].to_numpy() / exact, 1, tolerance)
+    agree("forces in forces.csv over those of the depths",
+          -named["force_z"].to_numpy() / numpy.array(forces), [1, -1], 1e-3)
     agree("difference of the two forces over it", (forces[0] - forces[1]) / exact,
           0, 1e-3)
     agree("depth in the planes over h", numpy.max(depths) / h, 0, 0.01)

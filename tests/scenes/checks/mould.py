@@ -10,7 +10,7 @@ import sys
 import numpy
 
 from tests.common.results import (Results, agree, positions, root, stresses)
-from morula.run import read_csv
+from morula.run import Run, read_csv
 
 results = Results(sys.argv[1])
 tolerance = float(sys.argv[2])
@@ -21,6 +21,7 @@ R_c = results.number("Obstacles/mould/Radius")
 kappa = (results.number("Obstacles/mould/Stiffness")
          * results.number("Material/Young's modulus")
          / results.number("Grid/Spacing"))
+written = Run(results.directory).forces
 touching = 0
 for cells_file, surface_file in zip(results.outputs("cells"),
                                     results.outputs("surface")):
@@ -48,4 +49,10 @@ for cells_file, surface_file in zip(results.outputs("cells"),
     pressure = -numpy.einsum("pii->p", stresses(cells)[:, :dim, :dim]) / dim
     agree("mean pressure over the largest of the run, kPa",
           numpy.sum(volume * pressure) / numpy.sum(volume) - inside(f), 0, 0.03)
+    now = written[written["time"] == t]
+    if inside(f) > 0.01:
+        area = (2 * numpy.pi if dim == 2 else 4 * numpy.pi) * (R * f) ** (dim - 1)
+        # The area that it acts on is that at the beginning of the step.
+        agree("force on the mould in forces.csv over p times the area",
+              now["force_inward"].to_numpy() / (inside(f) * area), 1, 0.04)
 assert 3 <= touching < len(results.outputs("cells")) - 3

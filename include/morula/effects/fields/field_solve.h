@@ -54,6 +54,12 @@ namespace Morula
     double raised = 1.;
     /** Whether the changes have become small. */
     bool converged = true;
+    /** By how much the largest value grew in iterations that did not converge.
+     */
+    double growth = 1.;
+    /** Pieces of the tissue in which a steady field has neither source nor sink
+     *  and is 0. */
+    unsigned int pieces_of_nothing = 0;
   };
 
   /** What was found for the fields that were sought. */
@@ -79,9 +85,9 @@ namespace Morula
     /**
      * The field number @p number. Fields solved later see its values.
      * Collective.
-     * @param t  of the expressions of cells, day
-     * @param t1 of the values at the surface, day: t for the steady state, else
-     *        the end of the step that begins at t
+     * @param t  of the cells' state, day
+     * @param t1 of all expressions, day: t for the steady state, else the end
+     *        of the step that begins at t
      * @throws InputError, StepFailed
      */
     FieldSolution<dim>
@@ -89,6 +95,10 @@ namespace Morula
           const unsigned int number,
           const double       t,
           const double       t1);
+
+    /** The largest value of all ranks' cells. Collective. */
+    double
+    size(const std::vector<double> &of_cells) const;
 
     /** The largest change, relative to the largest value after it. Collective.
      */
@@ -130,10 +140,12 @@ namespace Morula
                 const double       t);
 
     void
-    evaluate_surface(const Field<dim> &field, const double t, const double t1);
+    evaluate_surface(const Field<dim> &field, const double t);
 
-    /** Refuses a steady field whose level nothing determines. */
-    void
+    /** Refuses a steady field whose level nothing determines, in all of the
+     *  tissue or in a piece in which something makes it. Collective.
+     *  @return how many pieces have neither source nor sink */
+    unsigned int
     check_sink(const Field<dim> &field) const;
 
     /** The spline nearest to what cells would come to by themselves, in the

@@ -52,6 +52,8 @@ namespace Morula
       Expression                       velocity;  // µm/day
       std::string                      mesh_key;  // that names the mesh's file
       std::string                      mesh;      // empty without one
+      /** The least thickness of the body, µm; infinite if it has none. */
+      double thickness;
 
       /** The way of the body from t = 0 to @p t, µm. */
       Tensor<1, dim>

@@ -1,0 +1,464 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/base/agreement.h>
+#include <morula/base/review.h>
+#include <morula/effects/forces/body_force.h>
+#include <morula/effects/forces/friction.h>
+#include <morula/mechanics/drag.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/scene/first_cells.h>
+#include <morula/scene/held_pieces.h>
+#include <morula/scene/loads_at_start.h>
+#include <morula/seeding/pieces_at_start.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+namespace Morula
+{
+  namespace
+  {
+    /** A larger part of the loads than this is not left over by rounding and
+     *  the patches of a curved surface. */
+    constexpr double largest_rest = 0.01;
+
+    /** Loads without a resultant, as surface tension, have one of rounding:
+     *  less than this stress on their area, kPa. */
+    constexpr double rounding_stress = 1e-9;
+
+    /** So many pieces are described one by one. */
+    constexpr std::size_t most_listed = 8;
+
+    /** A force at a place of a piece. */
+    template <int dim>
+    struct LoadAt
+    {
+      unsigned int   piece;
+      Point<dim>     x;
+      Tensor<1, dim> force;
+      double         area; // µm^(dim-1); 0 in the body
+    };
+
+    /** What ranks add up of a piece. */
+    template <int dim>
+    struct PieceSums
+    {
+      static constexpr unsigned int n     = RigidModes<dim>::n_modes;
+      double                        cells = 0., volume = 0.;
+      Tensor<1, dim>                first; // Σ V⁰ x
+      double                        held = 0., friction = 0.;
+      std::vector<double>           S = std::vector<double>(n * n, 0.);
+      std::vector<double>           load =
+        std::vector<double>(n, 0.); // by elementary motion
+      std::vector<double> magnitude = std::vector<double>(n, 0.);
+      double              area      = 0.;
+    };
+
+    template <int dim>
+    class Pieces
+    {
+    public:
+      using Modes                     = RigidModes<dim>;
+      static constexpr unsigned int n = Modes::n_modes;
+
+      Pieces(const unsigned int n_pieces, const double h, const MPI_Comm comm)
+        : sums(n_pieces)
+        , h(h)
+        , comm(comm)
+      {}
+
+      void
+      add_cell(const unsigned int piece, const Point<dim> &X, const double V)
+      {
+        sums[piece].cells += 1.;
+        sums[piece].volume += V;
+        sums[piece].first += V * Tensor<1, dim>(X);
+      }
+
+      /** Adds the cells of all ranks. */
+      void
+      find_centers()
+      {
+        for (PieceSums<dim> &one : sums)
+          {
+            one.cells  = Utilities::MPI::sum(one.cells, comm);
+            one.volume = Utilities::MPI::sum(one.volume, comm);
+            one.first  = Utilities::MPI::sum(one.first, comm);
+          }
+      }
+
+      Point<dim>
+      center(const unsigned int piece) const
+      {
+        const PieceSums<dim> &of = sums[piece];
+        return of.volume > 0. ? Point<dim>(of.first / of.volume) : Point<dim>();
+      }
+
+      /** Adds a support: doc/theory.md (4.9). */
+      void
+      add_support(const unsigned int    piece,
+                  const Point<dim>     &x,
+                  const Tensor<2, dim> &held,
+                  const double          weight)
+      {
+        std::array<Tensor<1, dim>, n> motion;
+        for (unsigned int k = 0; k < n; ++k)
+          motion[k] = held * velocity(k, x - center(piece));
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int l = 0; l < n; ++l)
+            sums[piece].S[k * n + l] += weight * (motion[k] * motion[l]);
+      }
+
+      void
+      count_support(const unsigned int piece, const bool is_friction)
+      {
+        ++(is_friction ? sums[piece].friction : sums[piece].held);
+      }
+
+      void
+      add_load(const LoadAt<dim> &load)
+      {
+        PieceSums<dim> &of = sums[load.piece];
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            const auto v = velocity(k, load.x - center(load.piece));
+            of.load[k] += load.force * v;
+            of.magnitude[k] += load.force.norm() * v.norm();
+          }
+        of.area += load.area;
+      }
+
+      /** The pieces that hold cells. Collective. */
+      std::vector<HeldPiece>
+      result()
+      {
+        std::vector<HeldPiece> list;
+        for (unsigned int p = 0; p < sums.size(); ++p)
+          {
+            PieceSums<dim> &of = sums[p];
+            of.held            = Utilities::MPI::sum(of.held, comm);
+            of.friction        = Utilities::MPI::sum(of.friction, comm);
+            of.area            = Utilities::MPI::sum(of.area, comm);
+            Utilities::MPI::sum(of.S, comm, of.S);
+            Utilities::MPI::sum(of.load, comm, of.load);
+            Utilities::MPI::sum(of.magnitude, comm, of.magnitude);
+            if (of.cells > 0.)
+              list.push_back(piece(p));
+          }
+        std::stable_sort(list.begin(),
+                         list.end(),
+                         [](const HeldPiece &a, const HeldPiece &b) {
+                           return a.cells > b.cells;
+                         });
+        return list;
+      }
+
+    private:
+      /** An elementary motion at @p z from the centre. */
+      Tensor<1, dim>
+      velocity(const unsigned int k, const Tensor<1, dim> &z) const
+      {
+        const auto mode = Modes::elementary_mode(k, h);
+        return mode.a + mode.B * z;
+      }
+
+      HeldPiece
+      piece(const unsigned int p) const
+      {
+        // A free motion is a combination of the elementary ones: its load is
+        // that of them, and so is the scale that this is compared with.
+        const PieceSums<dim> &of = sums[p];
+        HeldPiece             result;
+        result.cells        = std::llround(of.cells);
+        result.held_points  = std::llround(of.held);
+        result.has_friction = of.friction > 0.;
+        const auto free     = Modes::free_motions(of.S.data(), h);
+        result.free_motions = free.size();
+        // Sums that cancel leave rounding.
+        const auto load = [&of](const unsigned int k) {
+          return std::abs(of.load[k]) > 1e-9 * of.magnitude[k] ? of.load[k] :
+                                                                 0.;
+        };
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result.center[d] = center(p)[d];
+            result.force[d]  = load(d);
+          }
+        for (unsigned int k = dim; k < n; ++k)
+          // The motion k turns the plane of two axes by -1/h about the third.
+          result.moment[dim == 2 ? 2 : (k - dim + 2) % 3] = 0. - h * load(k);
+        for (const auto &motion : free)
+          {
+            double sum = 0., scale = 0.;
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                const auto   part = Modes::elementary_mode(k, h);
+                const double c =
+                  k < dim ? part.a * motion.a :
+                            h * h / 2. * scalar_product(part.B, motion.B);
+                sum += c * of.load[k];
+                scale += std::abs(c) * std::max(largest_rest * of.magnitude[k],
+                                                rounding_stress * of.area);
+              }
+            result.is_unbalanced =
+              result.is_unbalanced || std::abs(sum) > scale;
+          }
+        return result;
+      }
+
+      std::vector<PieceSums<dim>> sums;
+      const double                h;
+      const MPI_Comm              comm;
+    };
+
+    /** Adds what fixed and slip points hold, and what conditions load. */
+    template <int dim>
+    void
+    add_surface(const Scene                     &scene,
+                const SurfacePatches<dim>       &surface,
+                const std::vector<unsigned int> &piece,
+                Pieces<dim>                     &pieces)
+    {
+      const BoundaryConditions<dim> conditions =
+        boundary_conditions_of<dim>(scene);
+      const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
+      for (std::size_t i = 0; i < surface.positions.size(); ++i)
+        {
+          const Point<dim>      &X    = surface.positions[i];
+          const Tensor<1, dim>  &N    = surface.normals[i];
+          const SurfaceCondition kind = conditions.condition(X, N);
+          if (kind != SurfaceCondition::fixed && kind != SurfaceCondition::slip)
+            continue;
+          pieces.add_support(piece[i],
+                             X,
+                             kind == SurfaceCondition::fixed ?
+                               all :
+                               outer_product(N, N),
+                             surface.areas[i]);
+          pieces.count_support(piece[i], false);
+        }
+      const LoadsAtStart<dim> loads(scene, conditions, surface);
+      for (const auto &named : conditions.list())
+        if (const auto forces =
+              loads.forces(*named.condition, scene.time.end_time))
+          for (std::size_t l = 0; l < forces->size(); ++l)
+            {
+              const std::size_t i = loads.patch(l);
+              pieces.add_load(
+                {piece[i],
+                 surface.positions[i],
+                 (*forces)[l],
+                 (*forces)[l].norm() > 0. ? surface.areas[i] : 0.});
+            }
+    }
+
+    /** Adds body forces and friction, with the founders' state at t = 0. */
+    template <int dim>
+    void
+    add_body(const Scene                     &scene,
+             const Founders<dim>             &founders,
+             const FirstCells<dim>           &cells,
+             const std::vector<unsigned int> &piece,
+             Pieces<dim>                     &pieces)
+    {
+      // A force that depends on the present place is no support in a step
+      // either: its value at t = 0 counts. Friction counts where it does in a
+      // step, doc/theory.md, section 4.4.
+      const double         h = scene.grid.spacing;
+      const ExpressionKey &density =
+        scene.keys<BodyForceParameters>().force_density;
+      const ExpressionKey &friction =
+        scene.keys<FrictionParameters>().coefficient;
+      const bool has_force = scene.keys<BodyForceParameters>().is_on(),
+                 rubs      = scene.keys<FrictionParameters>().is_on();
+      const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        {
+          std::vector<double>    row  = cells.row(i);
+          const PresentCell<dim> cell = cells.cell(row, i);
+          const double           V    = founders.volumes[i];
+          if (has_force)
+            pieces.add_load(
+              {piece[i],
+               founders.positions[i],
+               V * cell.vector(density.expression(dim), scene.time.end_time),
+               0.});
+          if (!rubs)
+            continue;
+          const double strength =
+            cell.value(friction.expression(dim), 0.) * h * h /
+            (scene.time.step * youngs_modulus(cell.lame()));
+          if (strength < Drag<dim>::least)
+            continue;
+          pieces.add_support(piece[i],
+                             founders.positions[i],
+                             all,
+                             strength * V / h);
+          pieces.count_support(piece[i], true);
+        }
+    }
+
+    std::string
+    components(const Scene &scene, const Tensor<1, 3> &v, const double zero)
+    {
+      std::ostringstream text;
+      text.precision(4);
+      text << '(';
+      for (unsigned int d = 0; d < scene.dimension; ++d)
+        text << (d == 0 ? "" : " ") << (std::abs(v[d]) <= zero ? 0. : v[d]);
+      text << ')';
+      return text.str();
+    }
+
+    /** "a force of (1 0) kPa um and a moment of 3 kPa um^2". */
+    std::string
+    load_text(const Scene &scene, const HeldPiece &piece)
+    {
+      const bool         space = scene.dimension == 3;
+      const double       zero  = 1e-9 * piece.force.norm();
+      std::ostringstream text;
+      text.precision(4);
+      text << "a force of " << components(scene, piece.force, zero) << " kPa um"
+           << (space ? "^2" : "") << " and a moment of ";
+      if (space)
+        text << components(scene, piece.moment, 0.) << " kPa um^3";
+      else
+        text << piece.moment[2] << " kPa um^2";
+      return text.str();
+    }
+
+    std::string
+    balanced_by(const Scene &scene)
+    {
+      for (const auto &choice : scene.catalogue.boundary_conditions)
+        if (choice.keys().is_on() && choice.keys().names_key() != nullptr)
+          return "the weak drag (4.8f)";
+      return "inertia";
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<HeldPiece>
+  held_pieces(const Scene               &scene,
+              const Founders<dim>       &founders,
+              const SurfacePatches<dim> &surface,
+              const MPI_Comm             comm)
+  {
+    // First the centres of all pieces, as motions are about them; then what
+    // each rank has of supports and loads; then the sums over all ranks. An
+    // expression may have no value on one rank only.
+    const PiecesAtStart at =
+      pieces_at_start(scene.grid, founders, surface, comm);
+    Pieces<dim> pieces(at.n, scene.grid.spacing, comm);
+    for (std::size_t i = 0; i < founders.positions.size(); ++i)
+      pieces.add_cell(at.of_founders[i],
+                      founders.positions[i],
+                      founders.volumes[i]);
+    pieces.find_centers();
+    everywhere(comm,
+               [&]() { add_surface(scene, surface, at.of_patches, pieces); });
+    if (scene.keys<BodyForceParameters>().is_on() ||
+        scene.keys<FrictionParameters>().is_on())
+      {
+        const FirstCells<dim> cells(scene, founders, surface, comm);
+        everywhere(comm, [&]() {
+          add_body(scene, founders, cells, at.of_founders, pieces);
+        });
+      }
+    return pieces.result();
+  }
+
+
+  std::vector<std::string>
+  texts_of(const Scene &scene, const std::vector<HeldPiece> &pieces)
+  {
+    std::vector<std::string> texts;
+    const unsigned int       all = scene.dimension == 3 ? 6 : 3;
+    for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
+      {
+        const HeldPiece   &piece = pieces[p];
+        std::ostringstream text;
+        text.precision(4);
+        text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
+             << " around " << components(scene, piece.center, 1e-6) << " um: ";
+        if (piece.free_motions == all)
+          text << "held nowhere";
+        else
+          {
+            text << "held";
+            if (piece.held_points > 0)
+              text << " at " << piece.held_points << " boundary points";
+            if (piece.has_friction)
+              text << (piece.held_points > 0 ? " and" : "") << " by friction";
+            if (piece.free_motions > 0)
+              text << ", but for " << piece.free_motions << " rigid motions";
+          }
+        if (piece.is_unbalanced)
+          text << "; loads add up to " << load_text(scene, piece) << ", which "
+               << balanced_by(scene) << " balances";
+        texts.push_back(text.str());
+      }
+    if (pieces.size() > most_listed)
+      texts.push_back("and " + std::to_string(pieces.size() - most_listed) +
+                      " more");
+    return texts;
+  }
+
+
+  void
+  review_held(const Scene                  &scene,
+              const std::vector<HeldPiece> &pieces,
+              std::vector<std::string>     &warnings)
+  {
+    // The first unbalanced piece is told of, with the number of others: all of
+    // them stand in the list of pieces.
+    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    const auto is_unbalanced = [](const HeldPiece &piece) {
+      return piece.is_unbalanced;
+    };
+    const auto first =
+      std::find_if(pieces.begin(), pieces.end(), is_unbalanced);
+    if (first == pieces.end())
+      return;
+    const auto n = std::count_if(pieces.begin(), pieces.end(), is_unbalanced);
+    std::ostringstream piece;
+    piece.precision(4);
+    if (pieces.size() == 1)
+      piece << "the tissue";
+    else
+      piece << "the piece of " << first->cells << " cells around "
+            << components(scene, first->center, 1e-6) << " um"
+            << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
+    const bool drags = balanced_by(scene) != "inertia";
+    review.warn("Boundary conditions",
+                first->held_points > 0 ? "held in part" : "nothing held",
+                "the loads add up to " + load_text(scene, *first) +
+                  " at the end, and nothing holds " + piece.str() +
+                  (drags ? " against them unless an obstacle does: the weak "
+                           "drag (4.8f) balances them, and lets it go far in "
+                           "a step (doc/theory.md, section 4.4)." :
+                           " against them: inertia balances them, as in free "
+                           "fall (doc/theory.md, section 4.4)."),
+                "Hold a part of its surface by Fixed where or Slip where, or "
+                "balance the loads.");
+    warnings.insert(warnings.end(),
+                    review.warnings.begin(),
+                    review.warnings.end());
+  }
+
+
+#define INSTANTIATE(dim)                                                   \
+  template std::vector<HeldPiece> held_pieces(const Scene &,               \
+                                              const Founders<dim> &,       \
+                                              const SurfacePatches<dim> &, \
+                                              const MPI_Comm);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/effects/fate/death.h>
+#include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/growth/rate_growth.h>
+#include <morula/scene/checks.h>
+#include <morula/scene/idle_keys.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Morula
+{
+  namespace
+  {
+    /** Whether a key has another value than its default, for any type. */
+    bool
+    differs(const AnyKey &key)
+    {
+      const auto *const expression = dynamic_cast<const ExpressionKey *>(&key);
+      return !key.is_default() ||
+             (expression != nullptr && expression->differs_by_type());
+    }
+
+    /** Keys of which the first does nothing without any of the others. */
+    const std::vector<std::vector<std::string>> needs = {
+      {"Material/Yield stress", "Material/Relaxation time"},
+      {"Material/Relaxation passes", "Material/Yield stress"},
+      {"Growth/Rate/Homeostatic stress", "Growth/Rate/Homeostasis"},
+      {"Growth/Rate/Share along", "Growth/Rate/Direction"},
+      {"Growth/Rate/Direction", "Growth/Rate/Share along"},
+      {"Boundary conditions/Surface tension where",
+       "Boundary conditions/Surface tension"},
+      {"Boundary conditions/Nitsche penalty",
+       "Boundary conditions/Fixed where",
+       "Boundary conditions/Slip where"},
+      {"Boundary conditions/Nitsche form",
+       "Boundary conditions/Fixed where",
+       "Boundary conditions/Slip where"},
+      {"Contact/Bodies", "Contact/Between"},
+      {"Contact/Stiffness", "Contact/Between"},
+      {"Contact/Friction", "Contact/Between"},
+      {"Contact/Fusion time", "Contact/Between"},
+      {"Contact/Fields pass", "Contact/Between"}};
+
+    void
+    review_needs(const Scene &scene, Review &review)
+    {
+      const auto list = scene.list();
+      const auto find = [&](const std::string &path) -> const AnyKey * {
+        for (const AnyKey *key : list)
+          if (key->path() == path)
+            return key;
+        return nullptr;
+      };
+      for (const auto &paths : needs)
+        {
+          const AnyKey *const key = find(paths[0]);
+          if (key == nullptr || !review.has_set(*key) || !differs(*key))
+            continue;
+          std::string missing;
+          for (std::size_t i = 1; i < paths.size(); ++i)
+            if (const AnyKey *const other = find(paths[i]);
+                other == nullptr || differs(*other))
+              missing = "none";
+            else if (missing != "none")
+              missing += (missing.empty() ? "" : " and ") + paths[i];
+          if (missing != "none")
+            review.warn(paths[0],
+                        key->text(),
+                        "it does nothing without " + missing + '.',
+                        "Set this key as well, or remove the other.");
+        }
+    }
+
+    /** Numbers of Time that leave nothing to do. */
+    void
+    review_time(const Scene                &scene,
+                const types::particle_index n_founders,
+                Review                     &review)
+    {
+      const double end = scene.time.end_time;
+      if (scene.time.step > (1. + 1e-9) * end)
+        review.warn(scene.time.step.path(),
+                    as_text(scene.time.step) + " day",
+                    "it is longer than the run, which ends at " + as_text(end) +
+                      " day: there is one step of that length.",
+                    "Shorten the step, or raise Time/End time.");
+      if (review.has_set(scene.output.interval) &&
+          scene.output.interval > (1. + 1e-9) * end)
+        review.warn(scene.output.interval.path(),
+                    as_text(scene.output.interval) + " day",
+                    "it is longer than the run, which ends at " + as_text(end) +
+                      " day: only its begin and its end are written.",
+                    "Lower it, or set it to 0 if that is meant.");
+      if (end > 365.)
+        review.warn(scene.time.end_time.path(),
+                    as_text(end) + " day",
+                    "that is more than a year. Is it in hours or seconds?",
+                    "If it is meant so, all is well.");
+      if (scene.time.stop_at_cells > 0 &&
+          n_founders >= scene.time.stop_at_cells)
+        review.warn(scene.time.stop_at_cells.path(),
+                    scene.time.stop_at_cells.text(),
+                    "the tissue begins with " + std::to_string(n_founders) +
+                      " cells: the run ends at its first step.",
+                    "Raise it, or set it to 0 for a run to the end.");
+    }
+
+    /** Cells that never enter S. */
+    void
+    review_cycle(const Scene &scene, Review &review)
+    {
+      if (!scene.has_proliferation())
+        return;
+      const CellCycleParameters &cycle = scene.cell_cycle;
+      const auto rate = cycle.exit_rate.largest_number(scene.dimension);
+      if (cycle.start == "waiting" && rate && *rate == 0. &&
+          cycle.exit_rate.expression(scene.dimension).is_always(0.))
+        review.warn(cycle.exit_rate.path(),
+                    cycle.exit_rate.text(),
+                    "all cells wait in G0 at t = 0, and none ever leaves it: "
+                    "no cell divides.",
+                    "Set a rate > 0, or " + cycle.start.path() +
+                      " = together.");
+      const Expression &checkpoint =
+        cycle.size_checkpoint.expression(scene.dimension);
+      if (checkpoint.is_constant() && checkpoint.number() &&
+          *checkpoint.number() >= 1.)
+        review.warn(cycle.size_checkpoint.path(),
+                    cycle.size_checkpoint.text(),
+                    "cells at rest have J_e = 1, which is not above it: only "
+                    "stretched cells enter S.",
+                    "Choose a number below 1.");
+    }
+
+    /** Growth that is none. */
+    void
+    review_growth(const Scene &scene, Review &review)
+    {
+      const auto &rate    = scene.keys<RateGrowthParameters>();
+      const auto &stretch = scene.keys<IsotropicGrowthParameters>().stretch;
+      const bool  is_idle =
+        scene.law_of_growth() == "rate" ?
+           !differs(rate.rate) && !differs(rate.homeostasis) :
+           scene.law_of_growth() == "isotropic" && !differs(stretch);
+      if (is_idle)
+        review.warn(scene.growth_law.path(),
+                    scene.law_of_growth(),
+                    "no cell grows: its keys have their defaults.",
+                    "Set them in the section Growth, or remove the law.");
+    }
+
+    /** Death of nobody: a condition that holds at no founder in no step, as far
+     *  as place and time alone tell. Collective. */
+    template <int dim>
+    void
+    review_death(const Scene         &scene,
+                 const Founders<dim> &founders,
+                 const MPI_Comm       comm,
+                 Review              &review)
+    {
+      const ExpressionKey &when = scene.keys<DeathParameters>().when;
+      if (!differs(when) || when.differs_by_type() ||
+          when.expression(dim).depends_on_state())
+        return;
+      constexpr double most_times = 1e6;
+      const double     end = scene.time.end_time, step = scene.time.step;
+      const double     n      = std::ceil(end / step - 1e-9);
+      unsigned int     anyone = n * founders.n_global > most_times;
+      try
+        {
+          for (double i = 0.; i <= n && anyone == 0; ++i)
+            for (const Point<dim> &X : founders.positions)
+              if (when.expression(dim).value(X, std::min(i * step, end)) > 0.)
+                anyone = 1;
+        }
+      catch (const std::exception &)
+        {
+          anyone = 1; // refused elsewhere
+        }
+      if (Utilities::MPI::max(anyone, comm) == 0)
+        review.warn(when.path(),
+                    when.text(),
+                    "it holds for no founder at the beginning or end of any "
+                    "step: no cell dies by it.",
+                    "Correct it, or remove it.");
+    }
+
+    /** Types that no cell has, and none can get. */
+    void
+    review_types(const Scene                              &scene,
+                 const std::vector<types::particle_index> &n_founders,
+                 Review                                   &review)
+    {
+      // A type is reached by transitions from a type that is reached, and by
+      // divisions. Whether its cells divide is not asked.
+      const auto            &types = scene.cell_types.types;
+      std::set<unsigned int> reached, open;
+      for (unsigned int i = 0; i < types.size(); ++i)
+        if (n_founders[i] > 0)
+          open.insert(i);
+      while (!open.empty())
+        {
+          const unsigned int i = *open.begin();
+          open.erase(open.begin());
+          reached.insert(i);
+          std::set<std::string> names;
+          for (const ExpressionKey &to : types[i].transitions)
+            if (differs(to))
+              names.insert(to.path().substr(to.path().rfind(" ") + 1));
+          if (scene.has_proliferation() || scene.divides_by_fate())
+            {
+              const auto [one, other] = scene.cell_types.daughters(i);
+              names.insert({types[one].name, types[other].name});
+            }
+          for (unsigned int j = 0; j < types.size(); ++j)
+            if (names.count(types[j].name) > 0 && reached.count(j) == 0)
+              open.insert(j);
+        }
+      for (unsigned int i = 0; i < types.size(); ++i)
+        {
+          if (reached.count(i) == 0)
+            review.warn(scene.cell_types.names.path(),
+                        types[i].name,
+                        "no founder is of this type, and no transition or "
+                        "division leads to it.",
+                        "Say where it is by Where, or remove it.");
+          if (!types[i].daughters.empty() && !scene.has_proliferation() &&
+              !scene.divides_by_fate())
+            review.warn(types[i].daughters.path(),
+                        types[i].daughters.value(),
+                        "no cell divides.",
+                        "Set " + scene.proliferation_law.path() +
+                          ", or remove this key.");
+        }
+    }
+
+    /** Fields that stay zero, conditions that others leave nothing to, and
+     *  fields that hardly reach into the tissue. */
+    template <int dim>
+    void
+    review_field(const FieldKeys           &field,
+                 const std::vector<double> &points,
+                 const double               cell,
+                 const double               h,
+                 Review                    &review)
+    {
+      const double n = points[0], n_fixed = points[1], n_flux = points[2];
+      const bool   steady  = field.time == "steady";
+      const auto   is_zero = [](const ExpressionKey &key) {
+        return key.empty() ||
+               (!key.differs_by_type() && key.expression(dim).is_always(0.));
+      };
+      const bool reads_value = n_fixed > 0. || !field.transfer.empty();
+      if (is_zero(field.production) &&
+          (!reads_value || is_zero(field.value) ||
+           (n_fixed == 0. && is_zero(field.transfer))) &&
+          (n_flux == 0. || is_zero(field.flux)) &&
+          (steady || is_zero(field.initial)))
+        review.warn("Fields/" + field.name,
+                    steady ? "steady" : "transient",
+                    "it is 0 everywhere: no cell makes it, and nothing comes "
+                    "in through the surface" +
+                      std::string(steady && !is_zero(field.initial) ?
+                                    "; Initial is only where the steady "
+                                    "state is sought first." :
+                                    "."),
+                    "Set its Production, or its Value at the surface, or its "
+                    "Flux.");
+      if (n > 0. && n_fixed == n && !field.transfer.empty())
+        review.warn(field.transfer.path(),
+                    field.transfer.text(),
+                    "it does nothing, as Fixed where holds at all boundary "
+                    "points.",
+                    "Remove one of them.");
+      // Few points carry a value or a flux: what they cover jumps by patches.
+      for (const auto &[key, number] :
+           {std::make_pair(&field.fixed_where, n_fixed),
+            std::make_pair(&field.flux_where, n_flux)})
+        if (number > 0. && number < 10.)
+          review.warn(key->path(),
+                      key->text(),
+                      "it acts on " + as_text(number) +
+                        " boundary points: with so few, what it covers jumps "
+                        "by a whole patch.",
+                      "Choose a larger place, or a smaller Tissue/Cell "
+                      "spacing.");
+      const auto D = field.diffusion.largest_number(dim);
+      auto       k = field.consumption.largest_number(dim);
+      // Uptake that depends on the field is taken for its value at the surface.
+      if (!k && !field.value.empty())
+        try
+          {
+            VariableValues values;
+            values.fill(field.value.largest_number(dim).value_or(1.));
+            k = field.consumption.expression(dim).value(values);
+          }
+        catch (const std::exception &)
+          {}
+      if (!reads_value || !D || !k || !(*k > 0.))
+        return;
+      const double      reach = std::sqrt(*D / *k);
+      const std::string what =
+        "the field reaches only " + as_text(reach) +
+        " um into the tissue, the root of Diffusion over Consumption";
+      if (reach < 0.2 * cell)
+        review.warn(field.diffusion.path(),
+                    field.diffusion.text(),
+                    what + ", and a cell is " + as_text(cell) +
+                      " um long. Is Diffusion in um^2/day (1 um^2/s is 86400 "
+                      "of it), Consumption in 1/day?",
+                    "If it is meant so, all is well.");
+      else if (reach < 0.2 * h)
+        review.warn(field.diffusion.path(),
+                    field.diffusion.text(),
+                    what + ": less than a fifth of a grid spacing, what comes "
+                           "in is wrong by a tenth and more.",
+                    "Choose Grid/Spacing below " + as_text(5. * reach) +
+                      " um.");
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  review_idle_keys(const Scene               &scene,
+                   const Founders<dim>       &founders,
+                   const SurfacePatches<dim> &surface,
+                   const MPI_Comm             comm,
+                   Review                    &review)
+  {
+    // What keys alone tell comes first, then what founders and the surface of
+    // all ranks tell. The sums are collective, and all ranks go through the
+    // same lists.
+    review_needs(scene, review);
+    review_time(scene, founders.n_global, review);
+    review_cycle(scene, review);
+    review_growth(scene, review);
+    review_death(scene, founders, comm, review);
+    if (scene.cell_types.present())
+      review_types(
+        scene,
+        founders_of_types<dim>(scene, founders.positions, comm, founders.types),
+        review);
+    double volume = 0., largest = 0.;
+    for (const double V : founders.volumes)
+      {
+        volume += V;
+        largest = std::max(largest, V);
+      }
+    volume  = Utilities::MPI::sum(volume, comm) / founders.n_global;
+    largest = Utilities::MPI::max(largest, comm);
+
+    for (std::size_t k = 0; k < scene.fields.fields.size(); ++k)
+      {
+        const FieldKeys    &field = scene.fields.fields[k];
+        std::vector<double> points(3, 0.);
+        const auto          holds = [&](const ExpressionKey &where,
+                               const Point<dim>    &X) {
+          return !where.empty() && where.expression(dim).value(X, 0.) > 0.;
+        };
+        for (const Point<dim> &X : surface.positions)
+          {
+            const bool fixed = holds(field.fixed_where, X);
+            points[0] += 1.;
+            points[1] += fixed;
+            points[2] += !fixed && holds(field.flux_where, X);
+          }
+        Utilities::MPI::sum(points, comm, points);
+        review_field<dim>(field,
+                          points,
+                          std::pow(volume, 1. / dim),
+                          scene.grid.spacing,
+                          review);
+      }
+
+    if (!scene.divides_by_fate())
+      return;
+    const auto &size = scene.keys<DivisionBySizeParameters>().volume;
+    if (const auto at = size.largest_number(dim);
+        at && *at > 0. && *at <= (1. + 1e-9) * largest)
+      review.warn(size.path(),
+                  size.text(),
+                  "founders have up to " + as_text(largest) +
+                    (dim == 3 ? " um^3" : " um^2") +
+                    " and divide at once, until they are smaller.",
+                  "Choose a volume above that of the founders, such as twice "
+                  "as much.");
+  }
+
+
+#define INSTANTIATE(dim)                                      \
+  template void review_idle_keys(const Scene &,               \
+                                 const Founders<dim> &,       \
+                                 const SurfacePatches<dim> &, \
+                                 const MPI_Comm,              \
+                                 Review &);
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace Morula

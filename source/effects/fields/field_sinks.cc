@@ -25,7 +25,7 @@ namespace Morula
       {
         const auto   &grid_cell = space.grid_cells()[c];
         double *const of =
-          &sums[3 * space.piece(grid_cell.number, grid_cell.body)];
+          &sums[3 * space.piece(grid_cell.number, grid_cell.part)];
         for (unsigned int k = equation.cell_places.offsets[c];
              k < equation.cell_places.offsets[c + 1];
              ++k)

@@ -331,13 +331,6 @@ namespace Morula
   }
 
 
-  const std::vector<Variable> &
-  Expression::used() const
-  {
-    return used_;
-  }
-
-
   bool
   Expression::uses(const Variable variable) const
   {
@@ -387,13 +380,6 @@ namespace Morula
 
 
   bool
-  Expression::is_constant() const
-  {
-    return !constants.empty() && of_types.empty();
-  }
-
-
-  bool
   Expression::is_always(const double       number,
                         const unsigned int n_components) const
   {
@@ -416,13 +402,6 @@ namespace Morula
   }
 
 
-  const std::map<unsigned int, Expression> &
-  Expression::types() const
-  {
-    return of_types;
-  }
-
-
   bool
   Expression::depends_on_time() const
   {
@@ -441,20 +420,6 @@ namespace Morula
         "The tissue lies in the plane of X and Y, and Z would be "
         "0 everywhere: write it with X and Y, or set Dimension "
         "= 3.");
-  }
-
-
-  const std::string &
-  Expression::key() const
-  {
-    return key_;
-  }
-
-
-  const std::string &
-  Expression::text() const
-  {
-    return text_;
   }
 
 

@@ -108,30 +108,6 @@ namespace Morula
 
 
   template <int dim>
-  const CellColumns<dim> &
-  CellDevelopment<dim>::columns() const
-  {
-    return columns_;
-  }
-
-
-  template <int dim>
-  const StateColumns<dim> &
-  CellDevelopment<dim>::state() const
-  {
-    return state_;
-  }
-
-
-  template <int dim>
-  const Fates<dim> &
-  CellDevelopment<dim>::fates() const
-  {
-    return effects.fates;
-  }
-
-
-  template <int dim>
   bool
   CellDevelopment<dim>::is_mortal() const
   {

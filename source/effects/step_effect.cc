@@ -13,30 +13,6 @@ namespace Morula
   {}
 
 
-  template <int dim>
-  void
-  StepEffect<dim>::settle(Tissue<dim> &, const MomentOfRun<dim> &) const
-  {}
-
-
-  template <int dim>
-  void
-  StepEffect<dim>::rearrange(Tissue<dim> &, const MomentOfRun<dim> &) const
-  {}
-
-
-  template <int dim>
-  void
-  StepEffect<dim>::before(Tissue<dim> &, const MomentOfRun<dim> &) const
-  {}
-
-
-  template <int dim>
-  void
-  StepEffect<dim>::after(Tissue<dim> &, const MomentOfRun<dim> &) const
-  {}
-
-
   template class StepEffect<2>;
   template class StepEffect<3>;
 } // namespace Morula

@@ -64,13 +64,6 @@ namespace Morula
   }
 
 
-  bool
-  MaterialParameters::per_grown_volume() const
-  {
-    return energy_per == "grown volume";
-  }
-
-
   VolumetricStrain
   MaterialParameters::volumetric_form() const
   {
@@ -114,13 +107,6 @@ namespace Morula
             &volumetric_strain,
             &law,
             &on_transition};
-  }
-
-
-  bool
-  MaterialParameters::forgets_stress() const
-  {
-    return on_transition == "forget stress";
   }
 
 

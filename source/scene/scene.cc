@@ -296,13 +296,6 @@ namespace Morula
   }
 
 
-  bool
-  Scene::has_set(const AnyKey &key) const
-  {
-    return as_written.count(key.path()) > 0;
-  }
-
-
   KeyList
   Scene::list()
   {

@@ -143,11 +143,17 @@ namespace Morula
 
     /** The columns of the cells. */
     const CellColumns<dim> &
-    columns() const;
+    columns() const
+    {
+      return columns_;
+    }
 
     /** The columns behind the variables of expressions. */
     const StateColumns<dim> &
-    state() const;
+    state() const
+    {
+      return state_;
+    }
 
     /** A reader for cells whose state is that of time @p t, day.
      *  @param past the step that led to it */
@@ -215,7 +221,10 @@ namespace Morula
 
     /** Whether a step's error is known: something follows the state. */
     bool
-    states_error() const;
+    states_error() const
+    {
+      return effects.states_error();
+    }
 
     /** Sets all columns but F to their values at the end of the step. F must
      *  still be that at @p t0. */
@@ -239,7 +248,10 @@ namespace Morula
 
     /** What befalls cells. */
     const Fates<dim> &
-    fates() const;
+    fates() const
+    {
+      return effects.fates;
+    }
 
     /** Whether cells can divide. */
     bool

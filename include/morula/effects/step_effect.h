@@ -42,22 +42,26 @@ namespace Morula
     /** The run begins at t = 0, after start(): may write the cells' columns,
      * but for deformation and growth. Not called where a run is resumed. */
     virtual void
-    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    settle(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The cells have moved, divided and been removed, at @p moment.t the end
      * of the step: may let cells change places, before the surface follows. */
     virtual void
-    rearrange(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    rearrange(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The step begins, at @p moment.t: may write the cells' columns, but for
      *  deformation and growth. */
     virtual void
-    before(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    before(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The step is done, at @p moment.t its end: cells have moved, divided and
      *  been removed. May write columns likewise. */
     virtual void
-    after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    after(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
   };
 } // namespace Morula
 

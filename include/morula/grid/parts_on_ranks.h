@@ -43,11 +43,17 @@ namespace Morula
 
     /** Number of the whole that this rank's part belongs to. */
     unsigned int
-    whole_of(const unsigned int part) const;
+    whole_of(const unsigned int part) const
+    {
+      return wholes[part];
+    }
 
     /** The lowest grid cell of each whole, increasing. */
     const std::vector<unsigned int> &
-    lowest() const;
+    lowest() const
+    {
+      return lowest_;
+    }
 
   private:
     std::vector<unsigned int> wholes; // of this rank's parts

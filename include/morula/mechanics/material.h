@@ -32,14 +32,20 @@ namespace Morula
 
     /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
     bool
-    per_grown_volume() const;
+    per_grown_volume() const
+    {
+      return energy_per == "grown volume";
+    }
 
     VolumetricStrain
     volumetric_form() const;
 
     /** Whether cells forget their stress when they change their type. */
     bool
-    forgets_stress() const;
+    forgets_stress() const
+    {
+      return on_transition == "forget stress";
+    }
 
     /** Warns of tissue that locks. */
     void

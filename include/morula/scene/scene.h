@@ -154,7 +154,10 @@ namespace Morula
 
     /** Whether the file or an override has set the key. */
     bool
-    has_set(const AnyKey &key) const;
+    has_set(const AnyKey &key) const
+    {
+      return as_written.count(key.path()) > 0;
+    }
 
     /** All keys but those of the types of cells. */
     KeyList

@@ -50,22 +50,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::string &
-  Field<dim>::name() const
-  {
-    return name_;
-  }
-
-
-  template <int dim>
-  FieldKind
-  Field<dim>::kind() const
-  {
-    return kind_;
-  }
-
-
-  template <int dim>
   bool
   Field<dim>::is_diluted() const
   {

@@ -111,13 +111,6 @@ namespace Morula
 
 
   bool
-  FieldKeys::is_steady() const
-  {
-    return time == "steady";
-  }
-
-
-  bool
   FieldKeys::has_value() const
   {
     return !fixed_where.empty() || !transfer.empty();
@@ -188,13 +181,6 @@ namespace Morula
             "has a section of this name, and expressions of cells may have its "
             "value at the cell as a variable. Empty: there are none.")
   {}
-
-
-  bool
-  FieldsParameters::present() const
-  {
-    return !fields.empty();
-  }
 
 
   bool

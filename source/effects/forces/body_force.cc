@@ -35,13 +35,6 @@ namespace Morula
   }
 
 
-  KeyList
-  BodyForceParameters::list()
-  {
-    return {&force_density};
-  }
-
-
   template <int dim>
   BodyForce<dim>::BodyForce(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)

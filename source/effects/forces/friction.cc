@@ -40,13 +40,6 @@ namespace Morula
   }
 
 
-  KeyList
-  FrictionParameters::list()
-  {
-    return {&coefficient};
-  }
-
-
   template <int dim>
   Friction<dim>::Friction(const Parameters         &parameters,
                           const EffectSetting<dim> &setting)

@@ -77,13 +77,6 @@ namespace Morula
 
 
   std::string
-  TypeTensionParameters::topic() const
-  {
-    return "tension between types";
-  }
-
-
-  std::string
   TypeTensionParameters::details() const
   {
     std::string text;

@@ -48,20 +48,6 @@ namespace Morula
   }
 
 
-  const AnyKey *
-  ContractionParameters::switch_key() const
-  {
-    return &stretch;
-  }
-
-
-  std::string
-  ContractionParameters::how_to_switch_on() const
-  {
-    return "Set " + stretch.path();
-  }
-
-
   std::string
   ContractionParameters::details() const
   {

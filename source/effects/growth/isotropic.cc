@@ -24,13 +24,6 @@ namespace Morula
   }
 
 
-  KeyList
-  IsotropicGrowthParameters::list()
-  {
-    return {&stretch};
-  }
-
-
   template <int dim>
   IsotropicGrowth<dim>::IsotropicGrowth(
     const IsotropicGrowthParameters &parameters)
@@ -92,14 +85,6 @@ namespace Morula
     return cell.present == nullptr ?
              I :
              checked(cell.present->value(theta, t1), X, t1) * I;
-  }
-
-
-  template <int dim>
-  bool
-  IsotropicGrowth<dim>::is_known_before() const
-  {
-    return !theta.depends_on_state();
   }
 
 

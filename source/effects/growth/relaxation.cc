@@ -187,14 +187,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Relaxation<dim>::has_forecast() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
   double
   Relaxation<dim>::error_of_forecast(const CellView<dim, const double> &cell,
                                      const Tensor<2, dim>              &f,

@@ -121,22 +121,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Obstacles<dim>::acts_on(const Point<dim> &, const Tensor<1, dim> &) const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  bool
-  Obstacles<dim>::only_pushes() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
   std::unique_ptr<Term<dim>>
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {

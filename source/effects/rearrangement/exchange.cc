@@ -318,25 +318,4 @@ namespace Morula
           break;
         }
   }
-
-
-  std::size_t
-  ExchangeRounds::n_left() const
-  {
-    return left;
-  }
-
-
-  const std::vector<Occupant> &
-  ExchangeRounds::occupants() const
-  {
-    return occupants_;
-  }
-
-
-  const std::vector<unsigned int> &
-  ExchangeRounds::n_exchanges() const
-  {
-    return n_exchanges_;
-  }
 } // namespace Morula

@@ -58,20 +58,6 @@ namespace Morula
   }
 
 
-  const AnyKey *
-  RearrangementParameters::switch_key() const
-  {
-    return &diffusion;
-  }
-
-
-  std::string
-  RearrangementParameters::how_to_switch_on() const
-  {
-    return "Set " + diffusion.path() + " > 0";
-  }
-
-
   void
   RearrangementParameters::check_with(const MaterialParameters &material) const
   {

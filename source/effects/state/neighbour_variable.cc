@@ -52,13 +52,6 @@ namespace Morula
 
 
   bool
-  NeighbourVariable::needs_graph() const
-  {
-    return kind != slope && kind != free;
-  }
-
-
-  bool
   NeighbourVariable::needs_areas() const
   {
     return kind == share_of_type || kind == unlike || kind == free ||

@@ -16,14 +16,6 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
-  BoundaryCondition<dim>::term(const LoadedPoints<dim> &, const double) const
-  {
-    return nullptr;
-  }
-
-
-  template <int dim>
   std::vector<typename BoundaryCondition<dim>::Part>
   BoundaryCondition<dim>::parts(const LoadedPoints<dim> &points,
                                 const double             t) const
@@ -32,14 +24,6 @@ namespace Morula
     if (auto whole = term(points, t))
       list.push_back({"", std::move(whole)});
     return list;
-  }
-
-
-  template <int dim>
-  bool
-  BoundaryCondition<dim>::only_pushes() const
-  {
-    return false;
   }
 
 

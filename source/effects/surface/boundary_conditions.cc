@@ -124,22 +124,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  const std::vector<typename BoundaryConditions<dim>::Named> &
-  BoundaryConditions<dim>::list() const
-  {
-    return list_;
-  }
-
-
-  template <int dim>
-  const NitschePenalty &
-  BoundaryConditions<dim>::nitsche() const
-  {
-    return nitsche_;
-  }
-
-
   template class BoundaryConditions<2>;
   template class BoundaryConditions<3>;
 } // namespace Morula

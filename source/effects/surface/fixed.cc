@@ -27,13 +27,6 @@ namespace Morula
 
 
   std::string
-  FixedParameters::topic() const
-  {
-    return "fixed points (Nitsche)";
-  }
-
-
-  std::string
   FixedParameters::details() const
   {
     return "; displacement " + displacement.text() + " um";

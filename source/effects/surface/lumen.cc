@@ -153,14 +153,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Lumen<dim>::keeps_volume() const
-  {
-    return volume_.has_value();
-  }
-
-
-  template <int dim>
   double
   Lumen<dim>::volume(const double t, const double at_start) const
   {

@@ -125,11 +125,4 @@ namespace Morula
     const Lame unit = lame(1., nu);
     return least_penalty * (unit.lambda + 2. * unit.mu);
   }
-
-
-  NitscheForm
-  NitschePenalty::form() const
-  {
-    return form_;
-  }
 } // namespace Morula

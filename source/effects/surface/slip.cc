@@ -27,13 +27,6 @@ namespace Morula
   }
 
 
-  std::string
-  SlipParameters::topic() const
-  {
-    return "slip (Nitsche)";
-  }
-
-
   template <int dim>
   Slip<dim>::Slip(const Parameters &parameters)
     : PlacedCondition<dim>(SurfaceCondition::slip, parameters)

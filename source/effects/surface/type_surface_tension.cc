@@ -36,13 +36,6 @@ namespace Morula
 
 
   std::string
-  TypeSurfaceTensionParameters::topic() const
-  {
-    return "surfaces of types";
-  }
-
-
-  std::string
   TypeSurfaceTensionParameters::details() const
   {
     std::string text;
@@ -84,15 +77,6 @@ namespace Morula
   TypeSurfaceTension<dim>::kind() const
   {
     return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  TypeSurfaceTension<dim>::acts_on(const Point<dim> &,
-                                   const Tensor<1, dim> &) const
-  {
-    return true;
   }
 
 

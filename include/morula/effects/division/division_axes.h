@@ -65,7 +65,10 @@ namespace Morula
 
     /** All rules. */
     const std::vector<std::unique_ptr<const DivisionRule<dim>>> &
-    rules() const;
+    rules() const
+    {
+      return all.list;
+    }
 
     /** The rule of a type of cells, or null. */
     const DivisionRule<dim> *
@@ -85,7 +88,10 @@ namespace Morula
 
     /** Whether daughters stay inside the whole surface. */
     bool
-    stay_inside() const;
+    stay_inside() const
+    {
+      return stay_inside_;
+    }
 
   private:
     Expression    spread, least_anisotropy;

@@ -44,11 +44,17 @@ namespace Morula
 
     /** The name, as in Fields/Names. */
     const std::string &
-    name() const;
+    name() const
+    {
+      return name_;
+    }
 
     /** The kind, as in Time. */
     FieldKind
-    kind() const;
+    kind() const
+    {
+      return kind_;
+    }
 
     /** Whether growth of cells dilutes it: the amount stays the same. */
     bool

@@ -33,7 +33,10 @@ namespace Morula
 
     /** Whether the field has its steady state in every configuration. */
     bool
-    is_steady() const;
+    is_steady() const
+    {
+      return time == "steady";
+    }
 
     /** Whether there is a value that it has at the surface, or outside. */
     bool
@@ -65,7 +68,10 @@ namespace Morula
 
     /** Whether the scene has fields. */
     bool
-    present() const;
+    present() const
+    {
+      return !fields.empty();
+    }
 
     /** Whether something is done to a field at the surface. */
     bool

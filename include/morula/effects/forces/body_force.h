@@ -22,7 +22,10 @@ namespace Morula
     details() const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&force_density};
+    }
   };
 
   /** A force per initial volume: doc/theory.md (4.7), equation (4) of the

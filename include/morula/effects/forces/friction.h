@@ -24,7 +24,10 @@ namespace Morula
     details() const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&coefficient};
+    }
   };
 
   /** Friction of cells with surroundings that stand still: doc/theory.md

@@ -30,7 +30,10 @@ namespace Morula
     bool
     is_on() const override;
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "tension between types";
+    }
     std::string
     details() const override;
     void

@@ -27,10 +27,16 @@ namespace Morula
     is_on() const override;
 
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &stretch;
+    }
 
     std::string
-    how_to_switch_on() const override;
+    how_to_switch_on() const override
+    {
+      return "Set " + stretch.path();
+    }
 
     std::string
     details() const override;

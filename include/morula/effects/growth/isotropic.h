@@ -18,7 +18,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&stretch};
+    }
   };
 
   /**
@@ -51,7 +54,10 @@ namespace Morula
            const double            t1) const override;
 
     bool
-    is_known_before() const override;
+    is_known_before() const override
+    {
+      return !theta.depends_on_state();
+    }
 
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override;

@@ -70,7 +70,10 @@ namespace Morula
          const CellView<dim, double> &after) const override;
 
     bool
-    follows_state() const override;
+    follows_state() const override
+    {
+      return expected.has_value();
+    }
 
     double
     missed(const GrowingCell<dim> &cell) const override;

@@ -63,7 +63,10 @@ namespace Morula
                     const Tensor<2, dim>        &f) const override;
 
     bool
-    has_forecast() const override;
+    has_forecast() const override
+    {
+      return true;
+    }
 
     double
     error_of_forecast(const CellView<dim, const double> &cell,

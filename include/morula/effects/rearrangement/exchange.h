@@ -158,15 +158,24 @@ namespace Morula
 
     /** How many attempts are left that are to be run here. */
     std::size_t
-    n_left() const;
+    n_left() const
+    {
+      return left;
+    }
 
     /** Who is where. */
     const std::vector<Occupant> &
-    occupants() const;
+    occupants() const
+    {
+      return occupants_;
+    }
 
     /** How often places have changed their cell. */
     const std::vector<unsigned int> &
-    n_exchanges() const;
+    n_exchanges() const
+    {
+      return n_exchanges_;
+    }
 
   private:
     bool

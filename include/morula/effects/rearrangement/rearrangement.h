@@ -26,9 +26,15 @@ namespace Morula
     bool
     is_on() const override;
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &diffusion;
+    }
     std::string
-    how_to_switch_on() const override;
+    how_to_switch_on() const override
+    {
+      return "Set " + diffusion.path() + " > 0";
+    }
     void
     check_with(const MaterialParameters &material) const override;
     using Keys::list;

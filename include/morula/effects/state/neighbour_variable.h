@@ -38,7 +38,10 @@ namespace Morula
 
     /** Whether it needs to be known which cells touch. */
     bool
-    needs_graph() const;
+    needs_graph() const
+    {
+      return kind != slope && kind != free;
+    }
 
     /** Whether it needs the areas of the facets between cells. */
     bool

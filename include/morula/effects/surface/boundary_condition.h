@@ -81,7 +81,10 @@ namespace Morula
      *  ranks ask at once.
      *  @throws StepFailed if the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
-    term(const LoadedPoints<dim> &points, const double t) const;
+    term(const LoadedPoints<dim> &, const double) const
+    {
+      return nullptr;
+    }
 
     /** A part of a condition whose force is told apart from the others'. */
     struct Part
@@ -99,7 +102,10 @@ namespace Morula
 
     /** Whether it only pushes tissue that it touches, and never holds it. */
     virtual bool
-    only_pushes() const;
+    only_pushes() const
+    {
+      return false;
+    }
 
     /** Whether tissue at rest would move: for the estimate of the time. */
     virtual bool

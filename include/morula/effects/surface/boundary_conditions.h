@@ -77,11 +77,17 @@ namespace Morula
 
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &
-    list() const;
+    list() const
+    {
+      return list_;
+    }
 
     /** How stiffly points are held. */
     const NitschePenalty &
-    nitsche() const;
+    nitsche() const
+    {
+      return nitsche_;
+    }
 
   private:
     std::vector<Named> list_;

@@ -19,7 +19,10 @@ namespace Morula
     KeyList
     list() override;
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "fixed points (Nitsche)";
+    }
     std::string
     details() const override;
   };

@@ -65,7 +65,10 @@ namespace Morula
 
     /** Whether the volume is given. */
     bool
-    keeps_volume() const;
+    keeps_volume() const
+    {
+      return volume_.has_value();
+    }
 
     /** V*, µm^dim, at @p t (day), if it was @p at_start at t = 0.
      *  @throws InputError if the key has no value or is not positive */

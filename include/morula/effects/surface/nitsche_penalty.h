@@ -55,7 +55,10 @@ namespace Morula
 
     /** Which of Nitsche's terms. */
     NitscheForm
-    form() const;
+    form() const
+    {
+      return form_;
+    }
 
   private:
     double      relative; // β h / E

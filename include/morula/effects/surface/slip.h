@@ -22,7 +22,10 @@ namespace Morula
     KeyList
     list() override;
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "slip (Nitsche)";
+    }
   };
 
   /** Points that are held along their own initial normal. */

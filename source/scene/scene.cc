@@ -4,7 +4,6 @@
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/scene.h>
 
@@ -274,9 +273,9 @@ namespace Morula
     // that a type overrides go into the keys of all cells.
     for (ExpressionKey *key : keys_of_cells(list()))
       key->set_fields(fields.name_list());
-    keys<NeighbourParameters>().find_in(keys_of_cells(list()),
-                                        cell_types.name_list(),
-                                        fields.name_list());
+    catalogue.see_expressions(keys_of_cells(list()),
+                              cell_types.name_list(),
+                              fields.name_list());
     keys<TypeSurfaceTensionParameters>().pulls =
       keys<TypeTensionParameters>().force;
     if (!cell_types.present())

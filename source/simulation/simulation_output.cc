@@ -65,7 +65,10 @@ namespace Morula
     set_state(model, tissue, time_steps.time(), row);
     if (model.development.is_mortal())
       of_step["pieces"] = pieces.n_pieces();
-    describe_lumen(model, tissue, run_state.kept, of_step);
+    const CellReader<dim> reader = model.development.reader(time_steps.time());
+    for (const auto &[name, effect] : model.moments)
+      effect->describe(
+        tissue, {time_steps.time(), 0., reader, run_state.kept, of_step});
     fields.describe(tissue, of_step);
     for (const auto &column : model.tables.columns())
       {

@@ -25,6 +25,7 @@ namespace Morula
 {
   using namespace dealii;
 
+  class ExpressionKey;
   struct MaterialParameters;
 
   /**
@@ -62,6 +63,15 @@ namespace Morula
      */
     virtual void
     declare_types(const std::vector<std::string> &)
+    {}
+
+    /** Looks at the keys of cells, when all have their values, for what their
+     *  expressions say of the effect. @param types, fields names
+     *  @throws InputError */
+    virtual void
+    see_expressions(const std::vector<ExpressionKey *> &,
+                    const std::vector<std::string> &,
+                    const std::vector<std::string> &)
     {}
 
     /** How a scene gets the effect, a sentence without its end, for values that

@@ -90,7 +90,7 @@ namespace Morula
     bool
     carve();
     void
-    begin_step_effects();
+    begin_moments();
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);
@@ -109,13 +109,11 @@ namespace Morula
      *  by cell. Collective. */
     double
     error_of_step(const std::vector<double> &missed) const;
-    using MomentOfStep =
-      void (StepEffect<dim>::*)(Tissue<dim> &, const MomentOfRun<dim> &) const;
-    /** Calls this moment of all step effects. Collective. */
+    using MomentOfStep = void (Moments<dim>::*)(Tissue<dim> &,
+                                                const MomentOfRun<dim> &) const;
+    /** Calls this moment of all effects that have moments. Collective. */
     void
-    for_step_effects(const MomentOfStep moment,
-                     const double       t,
-                     const double       dt);
+    for_moments(const MomentOfStep moment, const double t, const double dt);
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution

@@ -14,6 +14,8 @@
 #include <mpi.h>
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -35,6 +37,8 @@ namespace Morula
     const std::vector<std::unique_ptr<const Trait<dim>>> traits;
     const std::vector<typename SceneEffects<dim>::NamedStepEffect> step_effects;
     const std::vector<typename SceneEffects<dim>::NamedForce>      forces;
+    /** Of step effects, then of conditions, with the effects' names. */
+    const std::vector<std::pair<std::string, const Moments<dim> *>> moments;
 
     /** The columns of the boundary points that the scene needs. */
     BoundaryColumns<dim>

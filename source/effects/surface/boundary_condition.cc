@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_condition.h>
 
 #include <utility>
@@ -24,6 +25,14 @@ namespace Morula
     if (auto whole = term(points, t))
       list.push_back({"", std::move(whole)});
     return list;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<PartOfStep<dim>>
+  BoundaryCondition<dim>::part_of_step(const AttemptAtStep<dim> &) const
+  {
+    return nullptr;
   }
 
 

@@ -45,9 +45,9 @@ namespace Morula
      *         which the stress depends
      */
     void
-    find_in(const std::vector<ExpressionKey *> &keys,
-            const std::vector<std::string>     &types,
-            const std::vector<std::string>     &fields);
+    see_expressions(const std::vector<ExpressionKey *> &keys,
+                    const std::vector<std::string>     &types,
+                    const std::vector<std::string>     &fields) override;
   };
 
   /** Tells cells of their neighbours: writes the columns of the variables, at

@@ -50,6 +50,11 @@ namespace Morula
     double youngs_modulus = 0.;
   };
 
+  template <int dim>
+  class PartOfStep;
+  template <int dim>
+  struct AttemptAtStep;
+
   /**
    * A condition on the surface. It holds its points, in all directions or along
    * their normal, or it loads them by a term of its own. One Nitsche term does
@@ -99,6 +104,18 @@ namespace Morula
     /** The parts of a condition that loads, with terms as term() makes them. */
     virtual std::vector<Part>
     parts(const LoadedPoints<dim> &points, const double t) const;
+
+    /** The part that the condition as a whole has in an attempt at a step
+     *  besides its terms, which may keep a reference to @p attempt; null: none.
+     *  Collective. */
+    virtual std::unique_ptr<PartOfStep<dim>>
+    part_of_step(const AttemptAtStep<dim> &attempt) const;
+
+    /** Refuses a surface at t = 0 on which it cannot act. @param areas of the
+     *  boundary points, µm^(dim-1). Collective. @throws InputError */
+    virtual void
+    check_surface(const Preview<dim> &, const std::vector<double> &) const
+    {}
 
     /** Whether it only pushes tissue that it touches, and never holds it. */
     virtual bool

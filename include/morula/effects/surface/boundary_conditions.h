@@ -5,7 +5,6 @@
 #define morula_effects_surface_boundary_conditions_h
 
 #include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/nitsche_penalty.h>
 #include <morula/particles/boundary_state.h>
 
@@ -71,9 +70,10 @@ namespace Morula
     bool
     has_pushing() const;
 
-    /** The lumen, or null. */
-    const Lumen<dim> *
-    lumen() const;
+    /** What conditions besides their terms have in an attempt at a step, to
+     *  which references are kept. Collective. */
+    std::vector<std::unique_ptr<PartOfStep<dim>>>
+    parts_of_step(const AttemptAtStep<dim> &attempt) const;
 
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &

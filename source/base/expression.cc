@@ -338,13 +338,6 @@ namespace Morula
   }
 
 
-  const Vocabulary &
-  Expression::vocabulary() const
-  {
-    return *vocabulary_;
-  }
-
-
   bool
   Expression::follows_state() const
   {
@@ -399,13 +392,6 @@ namespace Morula
   Expression::number() const
   {
     return constants.empty() ? std::optional<double>() : constants[0];
-  }
-
-
-  bool
-  Expression::depends_on_time() const
-  {
-    return uses(Variable::t);
   }
 
 

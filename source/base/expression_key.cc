@@ -175,13 +175,6 @@ namespace Morula
   }
 
 
-  bool
-  ExpressionKey::is_of_cells() const
-  {
-    return evaluated_ != Evaluated::founder && evaluated_ != Evaluated::place;
-  }
-
-
   void
   ExpressionKey::set_types(const std::map<std::string, double> &names)
   {

@@ -50,13 +50,6 @@ namespace Morula
   }
 
 
-  std::string
-  AnyKey::short_name() const
-  {
-    return symbol_.empty() ? path_.substr(path_.rfind('/') + 1) : symbol_;
-  }
-
-
   bool
   AnyKey::is_default() const
   {
@@ -89,13 +82,6 @@ namespace Morula
   AnyKey::refuse(const std::string &allowed, const std::string &remedy) const
   {
     throw InputError(path_, shown(), allowed, remedy);
-  }
-
-
-  std::string
-  AnyKey::shown() const
-  {
-    return text();
   }
 
 

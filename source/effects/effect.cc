@@ -18,15 +18,6 @@ namespace Morula
 
 
   std::string
-  EffectKeys::how_to_switch_on() const
-  {
-    return switch_key() == nullptr ?
-             "" :
-             "Say where it acts by " + switch_key()->path();
-  }
-
-
-  std::string
   EffectKeys::details() const
   {
     // The list begins with a comma since the name of the effect stands before

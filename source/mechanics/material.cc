@@ -64,15 +64,6 @@ namespace Morula
   }
 
 
-  VolumetricStrain
-  MaterialParameters::volumetric_form() const
-  {
-    return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
-           volumetric_strain == "projected" ? VolumetricStrain::projected :
-                                              VolumetricStrain::pooled;
-  }
-
-
   void
   MaterialParameters::review(Review &review) const
   {

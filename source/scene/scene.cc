@@ -181,33 +181,11 @@ namespace Morula
 
 
   bool
-  Scene::has_growth() const
-  {
-    return law_of_growth() != "none";
-  }
-
-
-  bool
   Scene::grows(const unsigned int type) const
   {
     if (!cell_types.present() || cell_types.types[type].growth_law.empty())
       return growth_law != "none";
     return cell_types.types[type].growth_law != "none";
-  }
-
-
-  bool
-  Scene::has_active_tissue() const
-  {
-    return has_growth() || has_any(catalogue.growth_factors) ||
-           has_proliferation();
-  }
-
-
-  bool
-  Scene::flows() const
-  {
-    return has_any(catalogue.flows);
   }
 
 

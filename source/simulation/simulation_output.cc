@@ -21,26 +21,12 @@ namespace Morula
   }
 
   template <int dim>
-  const StatisticsRow &
-  Simulation<dim>::last_row() const
-  {
-    return row;
-  }
-
-  template <int dim>
   CellQuantities
   Simulation<dim>::quantities(const unsigned int p) const
   {
     // The reader evaluates expressions of the cells with the present time.
     const CellReader<dim> reader = model.development.reader(time_steps.time());
     return present_cell(tissue, p, reader).quantities();
-  }
-
-  template <int dim>
-  unsigned int
-  Simulation<dim>::n_unknowns()
-  {
-    return dim * splines().n_unknowns();
   }
 
   template <int dim>

@@ -423,14 +423,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  StepEquilibrium<dim>::has_contact() const
-  {
-    return contact != nullptr && contact->any();
-  }
-
-
-  template <int dim>
   std::vector<Equilibrium::Vector>
   StepEquilibrium<dim>::inertia() const
   {

@@ -80,14 +80,6 @@ namespace Morula
 
 
   template <int dim>
-  Tissue<dim>
-  TissueModel<dim>::empty_tissue(const MPI_Comm comm) const
-  {
-    return {scene.grid, development.columns(), comm, boundary_columns()};
-  }
-
-
-  template <int dim>
   bool
   TissueModel<dim>::is_held(const PresentCell<dim> &cell, const double t) const
   {

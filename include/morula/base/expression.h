@@ -112,7 +112,10 @@ namespace Morula
 
     /** The variables that the text may use, and their names. */
     const Vocabulary &
-    vocabulary() const;
+    vocabulary() const
+    {
+      return *vocabulary_;
+    }
 
     /** Whether it uses other variables than X, Y, Z and t. */
     bool
@@ -150,7 +153,10 @@ namespace Morula
 
     /** Whether t occurs in the text. */
     bool
-    depends_on_time() const;
+    depends_on_time() const
+    {
+      return uses(Variable::t);
+    }
 
     /**
      * Refuses Z and z in two dimensions: they would be 0 at all cells, and Z >

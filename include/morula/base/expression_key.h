@@ -111,7 +111,10 @@ namespace Morula
     /** Whether it is evaluated for cells during the run. Then it may use their
      *  types, and may differ between types. */
     bool
-    is_of_cells() const;
+    is_of_cells() const
+    {
+      return evaluated_ != Evaluated::founder && evaluated_ != Evaluated::place;
+    }
 
     /** Sets names that the text may use: the types of cells, with their
      *  numbers. */

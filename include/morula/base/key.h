@@ -59,7 +59,10 @@ namespace Morula
 
     /** What --explain calls the key: its symbol, or its name. */
     std::string
-    short_name() const;
+    short_name() const
+    {
+      return symbol_.empty() ? path_.substr(path_.rfind('/') + 1) : symbol_;
+    }
 
     /** The texts that the key gets from values of `Method`, by these values. */
     const std::map<std::string, std::string> &
@@ -139,7 +142,10 @@ namespace Morula
 
     /** The value as a message shows it: a number with six digits. */
     virtual std::string
-    shown() const;
+    shown() const
+    {
+      return text();
+    }
 
   protected:
     AnyKey(const std::string &path,

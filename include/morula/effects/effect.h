@@ -77,7 +77,12 @@ namespace Morula
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
     virtual std::string
-    how_to_switch_on() const;
+    how_to_switch_on() const
+    {
+      return switch_key() == nullptr ?
+               "" :
+               "Say where it acts by " + switch_key()->path();
+    }
 
     /** Whether cells divide by the effect, so that the scene's division axes
      *  are its own. */

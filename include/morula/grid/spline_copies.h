@@ -57,7 +57,10 @@ namespace Morula
     /** All copies, in the order of their splines' numbers in the window; copies
      *  of one spline in the order of their lowest grid cells. */
     const std::vector<SplineCopy> &
-    list() const;
+    list() const
+    {
+      return copies;
+    }
 
     /** The copy of the spline centred on @p spline that the active grid cell
      *  @p grid_cell of its support uses: a position in list(). */
@@ -66,7 +69,10 @@ namespace Morula
 
     /** Copies that stand before this one in list() and have the same spline. */
     unsigned int
-    place(const unsigned int copy) const;
+    place(const unsigned int copy) const
+    {
+      return copy - first[copies[copy].spline];
+    }
 
     /** The copy of a spline that has that place. */
     unsigned int
@@ -74,28 +80,46 @@ namespace Morula
 
     /** Coordinates of the grid cell that a copy's spline is centred on. */
     GridIndex<dim>
-    center(const unsigned int copy) const;
+    center(const unsigned int copy) const
+    {
+      return boxes.index(copies[copy].spline);
+    }
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
     bool
-    is_own(const SplineCopy &copy) const;
+    is_own(const SplineCopy &copy) const
+    {
+      return own[copy.spline];
+    }
 
     /** The piece of an active grid cell that this rank owns: 0, ...,
      *  n_pieces() - 1 in the order of the pieces' lowest grid cells. */
     unsigned int
-    piece(const unsigned int number) const;
+    piece(const unsigned int number) const
+    {
+      return pieces[number];
+    }
 
     unsigned int
-    n_pieces() const;
+    n_pieces() const
+    {
+      return lowest.size();
+    }
 
     /** Lowest grid cell of a piece: its number in the grid's box. */
     unsigned int
-    lowest_grid_cell(const unsigned int piece) const;
+    lowest_grid_cell(const unsigned int piece) const
+    {
+      return lowest[piece];
+    }
 
     /** The active grid cells that this rank owns, in the order of their numbers
      *  in the grid's box. */
     const std::vector<unsigned int> &
-    own_grid_cells() const;
+    own_grid_cells() const
+    {
+      return own_active;
+    }
 
   private:
     void

@@ -102,26 +102,47 @@ namespace Morula
     /** This rank's active grid cells in the order of their numbers, then of
      *  their bodies. */
     const std::vector<GridCell> &
-    grid_cells() const;
+    grid_cells() const
+    {
+      return grid_cells_;
+    }
 
     /** The unknowns that this rank owns. */
     const IndexSet &
-    owned() const;
+    owned() const
+    {
+      return owned_;
+    }
 
     /** The unknowns that this rank's active grid cells use, and those that it
      *  owns. */
     const IndexSet &
-    relevant() const;
+    relevant() const
+    {
+      return relevant_;
+    }
 
     /** Counts over all ranks. */
     unsigned int
-    n_unknowns() const;
+    n_unknowns() const
+    {
+      return owned_.size();
+    }
     unsigned int
-    n_active_grid_cells() const;
+    n_active_grid_cells() const
+    {
+      return n_active;
+    }
     unsigned int
-    n_inner_splines() const;
+    n_inner_splines() const
+    {
+      return n_inner;
+    }
     unsigned int
-    n_outer_splines() const;
+    n_outer_splines() const
+    {
+      return n_outer;
+    }
 
     /** The piece of an active grid cell of this rank, by its number in the
      *  grid's box, and of one of the bodies there; see SplineCopies. */
@@ -129,11 +150,17 @@ namespace Morula
     piece(const unsigned int number, const unsigned int body = 0) const;
 
     unsigned int
-    n_pieces() const;
+    n_pieces() const
+    {
+      return is_parted() ? first_piece.back() : copies.n_pieces();
+    }
 
     /** The box of the grid. */
     const GridBox<dim> &
-    box() const;
+    box() const
+    {
+      return occupancy().window().whole();
+    }
 
     /** What the grid cells hold of a body; of the tissue where bodies are not
      *  parted. */
@@ -153,7 +180,10 @@ namespace Morula
 
     /** The piece of each of this rank's unknowns, in the order of owned(). */
     const std::vector<unsigned int> &
-    pieces_of_unknowns() const;
+    pieces_of_unknowns() const
+    {
+      return pieces_;
+    }
 
   private:
     using Terms = std::vector<std::pair<unsigned int, double>>;
@@ -170,7 +200,10 @@ namespace Morula
     void
     count(const MPI_Comm comm);
     bool
-    is_unknown(const SplineCopy &copy) const;
+    is_unknown(const SplineCopy &copy) const
+    {
+      return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
+    }
 
     /** Copies that are unknowns of this rank. */
     std::vector<unsigned int>

@@ -38,7 +38,12 @@ namespace Morula
     }
 
     VolumetricStrain
-    volumetric_form() const;
+    volumetric_form() const
+    {
+      return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
+             volumetric_strain == "projected" ? VolumetricStrain::projected :
+                                                VolumetricStrain::pooled;
+    }
 
     /** Whether cells forget their stress when they change their type. */
     bool

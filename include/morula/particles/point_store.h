@@ -99,7 +99,10 @@ namespace Morula
 
     /** Grid cells of this rank that hold points, by number. */
     const std::vector<GridCell> &
-    grid_cells() const;
+    grid_cells() const
+    {
+      return grid_cells_;
+    }
 
     /** How many points this rank has. */
     unsigned int

@@ -63,7 +63,10 @@ namespace Morula
     /** The row of statistics.csv for the present state and the step that led to
      *  it. */
     const StatisticsRow &
-    last_row() const;
+    last_row() const
+    {
+      return row;
+    }
 
     /** Mechanics of cell number @p p of the present state, in the order of
      *  Tissue::cells(), as in cells-NNNN.csv. */
@@ -72,7 +75,10 @@ namespace Morula
 
     /** Size of the first step's equations, for --explain. Collective. */
     unsigned int
-    n_unknowns();
+    n_unknowns()
+    {
+      return dim * splines().n_unknowns();
+    }
 
   private:
     Simulation(const Scene &scene, const MPI_Comm comm);

@@ -122,7 +122,10 @@ namespace Morula
     add_loads(const Attempt &attempt, TermList &list) const;
     /** Whether some bodies may touch in the step. */
     bool
-    has_contact() const;
+    has_contact() const
+    {
+      return contact != nullptr && contact->any();
+    }
 
     /** A drag that is too weak to matter elsewhere. It decides where pieces go
      *  that loads push and nothing holds: doc/theory.md (4.8f). */

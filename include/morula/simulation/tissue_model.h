@@ -47,7 +47,10 @@ namespace Morula
     /** An empty tissue whose cells and boundary points have the columns that
      *  the effects need. */
     Tissue<dim>
-    empty_tissue(const MPI_Comm comm) const;
+    empty_tissue(const MPI_Comm comm) const
+    {
+      return {scene.grid, development.columns(), comm, boundary_columns()};
+    }
 
     /** Whether the cell waits at the size checkpoint at @p t, day. */
     bool

@@ -110,20 +110,6 @@ namespace Morula
   }
 
 
-  bool
-  FieldKeys::has_value() const
-  {
-    return !fixed_where.empty() || !transfer.empty();
-  }
-
-
-  bool
-  FieldKeys::has_surface() const
-  {
-    return has_value() || !flux_where.empty();
-  }
-
-
   void
   FieldKeys::check(const unsigned int dim) const
   {

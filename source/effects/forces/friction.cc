@@ -33,13 +33,6 @@ namespace Morula
   }
 
 
-  std::string
-  FrictionParameters::details() const
-  {
-    return coefficient.text() + " kPa day/um^2";
-  }
-
-
   template <int dim>
   Friction<dim>::Friction(const Parameters         &parameters,
                           const EffectSetting<dim> &setting)

@@ -48,21 +48,6 @@ namespace Morula
   }
 
 
-  std::string
-  ContractionParameters::details() const
-  {
-    return "gamma = " + stretch.text() + ", along " + direction.text() +
-           (keep_volume ? ", keeps volume" : "");
-  }
-
-
-  KeyList
-  ContractionParameters::list()
-  {
-    return {&stretch, &direction, &keep_volume};
-  }
-
-
   template <int dim>
   Tensor<2, dim>
   active_strain(const Tensor<1, dim> &a,

@@ -61,14 +61,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  IsotropicGrowth<dim>::stretch(const Point<dim> &X, const double t) const
-  {
-    return checked(theta.value(X, t), X, t);
-  }
-
-
-  template <int dim>
   Tensor<2, dim>
   IsotropicGrowth<dim>::growth(const GrowingCell<dim> &cell,
                                const double /*t0*/,

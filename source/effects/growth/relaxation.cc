@@ -81,21 +81,6 @@ namespace Morula
   }
 
 
-  std::string
-  RelaxationParameters::details() const
-  {
-    return "tau = " + time.text() +
-           " day, yield stress = " + yield_stress.text() + " kPa";
-  }
-
-
-  KeyList
-  RelaxationParameters::list()
-  {
-    return {&time, &yield_stress, &passes};
-  }
-
-
   template <int dim>
   Relaxation<dim>::Relaxation(const Parameters         &parameters,
                               const EffectSetting<dim> &setting)

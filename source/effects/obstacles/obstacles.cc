@@ -113,14 +113,6 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceCondition
-  Obstacles<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
   std::unique_ptr<Term<dim>>
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {

@@ -104,13 +104,6 @@ namespace Morula
   }
 
 
-  KeyList
-  NeighbourParameters::list()
-  {
-    return {&found_by, &reach};
-  }
-
-
   void
   NeighbourParameters::see_expressions(const std::vector<ExpressionKey *> &keys,
                                        const std::vector<std::string> &types,

@@ -154,14 +154,6 @@ namespace Morula
 
   template <int dim>
   bool
-  StateColumns<dim>::needs_surface() const
-  {
-    return depth.exists() || present_depth.exists() || surface_normal.exists();
-  }
-
-
-  template <int dim>
-  bool
   StateColumns<dim>::uses(const Variable variable) const
   {
     return std::binary_search(used.begin(), used.end(), variable);

@@ -28,6 +28,7 @@ namespace Morula
   }
 
 
+  // Here, as a null pointer to an unknown class could not be deleted.
   template <int dim>
   std::unique_ptr<PartOfStep<dim>>
   BoundaryCondition<dim>::part_of_step(const AttemptAtStep<dim> &) const

@@ -87,13 +87,6 @@ namespace Morula
     });
   }
 
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::has_dirichlet() const
-  {
-    return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);
-  }
-
 
   template <int dim>
   bool

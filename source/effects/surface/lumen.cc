@@ -100,13 +100,6 @@ namespace Morula
   }
 
 
-  KeyList
-  LumenParameters::list()
-  {
-    return {&where, &volume, &pressure};
-  }
-
-
   std::string
   LumenParameters::details() const
   {
@@ -169,14 +162,6 @@ namespace Morula
                      volume_->text(),
                      "a value > 0 times the volume at t = 0",
                      place.str());
-  }
-
-
-  template <int dim>
-  double
-  Lumen<dim>::pressure(const double t) const
-  {
-    return pressure_->value(Point<dim>(), t);
   }
 
 

@@ -51,13 +51,6 @@ namespace Morula
   }
 
 
-  KeyList
-  NitscheParameters::list()
-  {
-    return {&penalty, &form};
-  }
-
-
   void
   NitscheParameters::review(const MaterialParameters &material,
                             const bool                all_is_fixed,

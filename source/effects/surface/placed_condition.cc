@@ -14,15 +14,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  PlacedCondition<dim>::acts_on(const Point<dim> &X,
-                                const Tensor<1, dim> &) const
-  {
-    return holds(X);
-  }
-
-
-  template <int dim>
   void
   PlacedCondition<dim>::check(const Preview<dim> &scene) const
   {

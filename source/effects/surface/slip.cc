@@ -20,13 +20,6 @@ namespace Morula
   {}
 
 
-  KeyList
-  SlipParameters::list()
-  {
-    return {&where, &normal};
-  }
-
-
   template <int dim>
   Slip<dim>::Slip(const Parameters &parameters)
     : PlacedCondition<dim>(SurfaceCondition::slip, parameters)

@@ -73,14 +73,6 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceCondition
-  TypeSurfaceTension<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
   std::unique_ptr<Term<dim>>
   TypeSurfaceTension<dim>::term(const LoadedPoints<dim> &points,
                                 const double) const

@@ -40,11 +40,17 @@ namespace Morula
 
     /** Whether there is a value that it has at the surface, or outside. */
     bool
-    has_value() const;
+    has_value() const
+    {
+      return !fixed_where.empty() || !transfer.empty();
+    }
 
     /** Whether something is done to it at the surface. */
     bool
-    has_surface() const;
+    has_surface() const
+    {
+      return has_value() || !flux_where.empty();
+    }
 
     /**
      * Refuses what contradicts itself.

@@ -21,7 +21,10 @@ namespace Morula
     bool
     is_on() const override;
     std::string
-    details() const override;
+    details() const override
+    {
+      return coefficient.text() + " kPa day/um^2";
+    }
     using Keys::list;
     KeyList
     list() override

@@ -39,11 +39,18 @@ namespace Morula
     }
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "gamma = " + stretch.text() + ", along " + direction.text() +
+             (keep_volume ? ", keeps volume" : "");
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&stretch, &direction, &keep_volume};
+    }
   };
 
   /**

@@ -46,7 +46,10 @@ namespace Morula
      * @throws InputError if it is not positive
      */
     double
-    stretch(const Point<dim> &X, const double t) const;
+    stretch(const Point<dim> &X, const double t) const
+    {
+      return checked(theta.value(X, t), X, t);
+    }
 
     Tensor<2, dim>
     growth(const GrowingCell<dim> &cell,

@@ -76,7 +76,10 @@ namespace Morula
     }
 
     double
-    missed(const GrowingCell<dim> &cell) const override;
+    missed(const GrowingCell<dim> &cell) const override
+    {
+      return size_of(missed_tensor(cell));
+    }
 
     void
     check(const Preview<dim> &scene) const override;

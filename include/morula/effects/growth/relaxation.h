@@ -27,11 +27,18 @@ namespace Morula
     is_on() const override;
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "tau = " + time.text() +
+             " day, yield stress = " + yield_stress.text() + " kPa";
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&time, &yield_stress, &passes};
+    }
   };
 
   /**

@@ -26,7 +26,10 @@ namespace Morula
     explicit Obstacles(const Parameters &parameters);
 
     SurfaceCondition
-    kind() const override;
+    kind() const override
+    {
+      return SurfaceCondition::loaded;
+    }
     bool
     acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
     {

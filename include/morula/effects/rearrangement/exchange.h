@@ -84,11 +84,17 @@ namespace Morula
 
     /** γ between two types. */
     double
-    between(const unsigned int a, const unsigned int b) const;
+    between(const unsigned int a, const unsigned int b) const
+    {
+      return tensions.between.empty() ? 0. : tensions.between[a][b];
+    }
 
     /** γ of the free surface of a type. */
     double
-    with_surface(const unsigned int a) const;
+    with_surface(const unsigned int a) const
+    {
+      return tensions.with_surface.empty() ? 0. : tensions.with_surface[a];
+    }
 
   private:
     const TypeTensions tensions;

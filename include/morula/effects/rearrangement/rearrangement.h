@@ -24,7 +24,10 @@ namespace Morula
     ExpressionKey drive;          // f, kPa µm^(dim-1)
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !diffusion.is_default() || diffusion.differs_by_type();
+    }
     const AnyKey *
     switch_key() const override
     {
@@ -39,7 +42,10 @@ namespace Morula
     check_with(const MaterialParameters &material) const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&diffusion, &energy, &shear_released, &drive};
+    }
   };
 
   /** Cells exchange their places with neighbours: doc/theory.md, section 12.3.

@@ -35,7 +35,10 @@ namespace Morula
     details() const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&found_by, &reach};
+    }
 
     /**
      * Looks for names of such variables in the texts of keys, and lets the keys

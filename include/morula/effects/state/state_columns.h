@@ -69,7 +69,11 @@ namespace Morula
 
     /** Whether a column needs the surface near the founders. */
     bool
-    needs_surface() const;
+    needs_surface() const
+    {
+      return depth.exists() || present_depth.exists() ||
+             surface_normal.exists();
+    }
 
     /** Whether some expression uses the variable. */
     bool

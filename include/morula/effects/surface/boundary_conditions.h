@@ -60,7 +60,10 @@ namespace Morula
 
     /** Whether the scene has conditions that fix or let slip. */
     bool
-    has_dirichlet() const;
+    has_dirichlet() const
+    {
+      return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);
+    }
 
     /** Whether one of this kind exists. */
     bool

@@ -17,7 +17,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &displacement};
+    }
     std::string
     topic() const override
     {
@@ -38,7 +41,10 @@ namespace Morula
     explicit Fixed(const Parameters &parameters);
 
     Tensor<1, dim>
-    displacement(const Point<dim> &X, const double t) const override;
+    displacement(const Point<dim> &X, const double t) const override
+    {
+      return displacement_.vector(X, t);
+    }
     bool
     moves() const override;
 

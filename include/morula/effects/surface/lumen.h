@@ -25,7 +25,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &volume, &pressure};
+    }
     std::string
     details() const override;
   };
@@ -78,7 +81,10 @@ namespace Morula
 
     /** Pressure at the volume of t = 0, kPa. @throws InputError */
     double
-    pressure(const double t) const;
+    pressure(const double t) const
+    {
+      return pressure_->value(Point<dim>(), t);
+    }
 
     /**
      * Refuses a surface that does not enclose anything. Collective.

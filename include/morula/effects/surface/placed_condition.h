@@ -22,7 +22,10 @@ namespace Morula
       return kind_;
     }
     bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &) const override
+    {
+      return holds(X);
+    }
     void
     check(const Preview<dim> &scene) const override;
 

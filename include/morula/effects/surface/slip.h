@@ -20,7 +20,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &normal};
+    }
     std::string
     topic() const override
     {

@@ -50,7 +50,10 @@ namespace Morula
                        const EffectSetting<dim> &setting);
 
     SurfaceCondition
-    kind() const override;
+    kind() const override
+    {
+      return SurfaceCondition::loaded;
+    }
     bool
     acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
     {

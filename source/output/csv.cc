@@ -18,7 +18,7 @@ namespace Morula
 {
   namespace
   {
-    /** The numbers of rows, which know their places in the file. */
+    /** The numbers of rows, each behind its id. */
     class Rows
     {
     public:
@@ -31,35 +31,38 @@ namespace Morula
         // A row's place among those of all ranks tells which rank writes it.
         // Rows travel as numbers, since the text of a number takes more time to
         // make, which the other thread has, and more room.
-        const GlobalOrder   order   = global_order(fields.ids, comm);
         const std::uint64_t n_ranks = Utilities::MPI::n_mpi_processes(comm);
+        GlobalOrder         order;
+        if (n_ranks > 1)
+          order = global_order(fields.ids, comm);
         std::map<unsigned int, std::vector<double>> sent;
         for (std::size_t i = 0; i < fields.size(); ++i)
           {
-            const std::uint64_t  place = order.places[i];
-            std::vector<double> &to    = sent[place * n_ranks / order.n_keys];
+            std::vector<double> &to =
+              sent[n_ranks > 1 ? order.places[i] * n_ranks / order.n_keys : 0];
             if (to.empty())
               to.reserve((1 + n_columns) * fields.size() / n_ranks);
-            to.push_back(place);
+            to.push_back(fields.ids[i]);
             to.insert(to.end(), fields.row(i), fields.row(i) + n_columns);
           }
         received = n_ranks == 1 ? std::move(sent) :
                                   Utilities::MPI::some_to_some(comm, sent);
       }
 
-      /** Appends all rows, in their order. */
+      /** Appends all rows, in the order of their ids. */
       void
       append_to(std::string &text) const
       {
-        std::vector<const double *> rows; // each begins with its place
+        std::vector<std::pair<double, const double *>> rows;
         for (const auto &[rank, numbers] : received)
           for (std::size_t i = 0; i < numbers.size(); i += 1 + n_columns)
-            rows.push_back(&numbers[i]);
-        std::sort(rows.begin(), rows.end(), [](const auto a, const auto b) {
-          return *a < *b;
-        });
-        for (const double *row : rows)
-          append_row(text, row + 1, n_columns);
+            rows.emplace_back(numbers[i], &numbers[i + 1]);
+        std::sort(rows.begin(), rows.end());
+        // A number has about a dozen characters; moving a longer and longer
+        // text would take as long as making it.
+        text.reserve(text.size() + 12 * n_columns * rows.size());
+        for (const auto &[id, row] : rows)
+          append_row(text, row, n_columns);
       }
 
     private:

@@ -89,4 +89,18 @@ namespace Morula
                                         lowest_of[sets.find_set(part)]) -
                        lowest_.begin());
   }
+
+
+  unsigned int
+  PartsOnRanks::whole_of(const unsigned int part) const
+  {
+    return wholes[part];
+  }
+
+
+  const std::vector<unsigned int> &
+  PartsOnRanks::lowest() const
+  {
+    return lowest_;
+  }
 } // namespace Morula

@@ -288,6 +288,13 @@ namespace Morula
   }
 
   template <int dim>
+  const std::vector<SplineCopy> &
+  SplineCopies<dim>::list() const
+  {
+    return copies;
+  }
+
+  template <int dim>
   unsigned int
   SplineCopies<dim>::at(const GridIndex<dim> &spline,
                         const GridIndex<dim> &grid_cell) const
@@ -309,12 +316,61 @@ namespace Morula
 
   template <int dim>
   unsigned int
+  SplineCopies<dim>::place(const unsigned int copy) const
+  {
+    return copy - first[copies[copy].spline];
+  }
+
+  template <int dim>
+  unsigned int
   SplineCopies<dim>::copy_at(const GridIndex<dim> &spline,
                              const unsigned int    place) const
   {
     const unsigned int number = boxes.number(spline);
     AssertThrow(first[number] + place < first[number + 1], ExcInternalError());
     return first[number] + place;
+  }
+
+  template <int dim>
+  GridIndex<dim>
+  SplineCopies<dim>::center(const unsigned int copy) const
+  {
+    return boxes.index(copies[copy].spline);
+  }
+
+  template <int dim>
+  bool
+  SplineCopies<dim>::is_own(const SplineCopy &copy) const
+  {
+    return own[copy.spline];
+  }
+
+  template <int dim>
+  const std::vector<unsigned int> &
+  SplineCopies<dim>::own_grid_cells() const
+  {
+    return own_active;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::piece(const unsigned int number) const
+  {
+    return pieces[number];
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::n_pieces() const
+  {
+    return lowest.size();
+  }
+
+  template <int dim>
+  unsigned int
+  SplineCopies<dim>::lowest_grid_cell(const unsigned int piece) const
+  {
+    return lowest[piece];
   }
 
   template class SplineCopies<2>;

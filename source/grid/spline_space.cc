@@ -97,6 +97,13 @@ namespace Morula
   }
 
   template <int dim>
+  bool
+  SplineSpace<dim>::is_unknown(const SplineCopy &copy) const
+  {
+    return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
+  }
+
+  template <int dim>
   unsigned int
   SplineSpace<dim>::copy_at(const GridIndex<dim> &grid_cell,
                             const unsigned int    a) const
@@ -304,6 +311,62 @@ namespace Morula
   }
 
   template <int dim>
+  const std::vector<unsigned int> &
+  SplineSpace<dim>::pieces_of_unknowns() const
+  {
+    return pieces_;
+  }
+
+  template <int dim>
+  const std::vector<typename SplineSpace<dim>::GridCell> &
+  SplineSpace<dim>::grid_cells() const
+  {
+    return grid_cells_;
+  }
+
+  template <int dim>
+  const IndexSet &
+  SplineSpace<dim>::owned() const
+  {
+    return owned_;
+  }
+
+  template <int dim>
+  const IndexSet &
+  SplineSpace<dim>::relevant() const
+  {
+    return relevant_;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_unknowns() const
+  {
+    return owned_.size();
+  }
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_active_grid_cells() const
+  {
+    return n_active;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_inner_splines() const
+  {
+    return n_inner;
+  }
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_outer_splines() const
+  {
+    return n_outer;
+  }
+
+  template <int dim>
   unsigned int
   SplineSpace<dim>::piece(const unsigned int number,
                           const unsigned int body) const
@@ -311,6 +374,20 @@ namespace Morula
     if (is_parted())
       return first_piece[body] + bodies[body].piece(number);
     return copies.piece(boxes.number(box().index(number)));
+  }
+
+  template <int dim>
+  unsigned int
+  SplineSpace<dim>::n_pieces() const
+  {
+    return is_parted() ? first_piece.back() : copies.n_pieces();
+  }
+
+  template <int dim>
+  const GridBox<dim> &
+  SplineSpace<dim>::box() const
+  {
+    return occupancy().window().whole();
   }
 
   template <int dim>

@@ -263,6 +263,13 @@ namespace Morula
   }
 
   template <int dim>
+  const std::vector<typename PointStore<dim>::GridCell> &
+  PointStore<dim>::grid_cells() const
+  {
+    return grid_cells_;
+  }
+
+  template <int dim>
   std::vector<unsigned int>
   PointStore<dim>::bodies() const
   {

@@ -71,10 +71,7 @@ namespace Morula
     /** Whether a particle of this rank has more than one quadrature point, or
      *  one that several grid cells share; after the second round. */
     bool
-    subdivides() const
-    {
-      return subdivides_;
-    }
+    subdivides() const;
 
     /** Sums the second round over all ranks. Collective. */
     void
@@ -117,10 +114,7 @@ namespace Morula
     /** Volume of particles in the grid cell divided by h^dim: doc/theory.md
      *  (3.1). */
     double
-    fill(const unsigned int number) const
-    {
-      return contents.volume(number) / GridCellContents<dim>::resolution;
-    }
+    fill(const unsigned int number) const;
 
     /**
      * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
@@ -129,20 +123,14 @@ namespace Morula
      * so that the tip of a large body is not thin.
      */
     double
-    thickness(const unsigned int number) const
-    {
-      return rows.thickness(number, contents) * boxes().spacing();
-    }
+    thickness(const unsigned int number) const;
 
     /**
      * Whether the tissue around a grid cell is thin: the grid cell and each
      * of its neighbours with tissue has a row that is shorter than 1.5 h.
      */
     bool
-    is_thin(const unsigned int number) const
-    {
-      return rows.is_thin(number, contents);
-    }
+    is_thin(const unsigned int number) const;
 
     /**
      * Whether the grid cell is the inner candidate of each of its thin rows
@@ -153,10 +141,7 @@ namespace Morula
      * one side.
      */
     bool
-    is_inner_candidate(const unsigned int number) const
-    {
-      return rows.is_inner_candidate(number);
-    }
+    is_inner_candidate(const unsigned int number) const;
 
     /** Corners (µm) of the smallest box around the particles' cubes in the
      *  grid cell. If there are none, the upper corner is below the lower one.
@@ -166,17 +151,11 @@ namespace Morula
 
     /** Particles in a grid cell. */
     std::uint64_t
-    n_particles(const unsigned int number) const
-    {
-      return contents.n_particles(number);
-    }
+    n_particles(const unsigned int number) const;
 
     /** Quadrature points in a grid cell. */
     unsigned int
-    n_quadrature_points(const unsigned int number) const
-    {
-      return contents.n_quadrature_points(number);
-    }
+    n_quadrature_points(const unsigned int number) const;
 
     /** Whether the grid cell of @p x holds more than 4^dim boundary points,
      *  which is more than a surface needs. @p x may lie outside the box. */
@@ -186,31 +165,19 @@ namespace Morula
     /** Whether the grid cell holds a particle, a quadrature point or a
      *  boundary point. */
     bool
-    active(const unsigned int number) const
-    {
-      return contents.active(number);
-    }
+    active(const unsigned int number) const;
 
     /** The grid cells of this rank's window. */
     const GridBoxes<dim> &
-    boxes() const
-    {
-      return contents.boxes();
-    }
+    boxes() const;
 
     const GridWindow<dim> &
-    window() const
-    {
-      return contents.window();
-    }
+    window() const;
 
     /** Grid cells with tissue or points that this rank owned when they were
      *  summed. */
     const std::vector<unsigned int> &
-    own() const
-    {
-      return contents.own();
-    }
+    own() const;
 
   private:
     void

@@ -43,17 +43,11 @@ namespace Morula
 
     /** Number of the whole that this rank's part belongs to. */
     unsigned int
-    whole_of(const unsigned int part) const
-    {
-      return wholes[part];
-    }
+    whole_of(const unsigned int part) const;
 
     /** The lowest grid cell of each whole, increasing. */
     const std::vector<unsigned int> &
-    lowest() const
-    {
-      return lowest_;
-    }
+    lowest() const;
 
   private:
     std::vector<unsigned int> wholes; // of this rank's parts

@@ -57,10 +57,7 @@ namespace Morula
     /** All copies, in the order of their splines' numbers in the window; copies
      *  of one spline in the order of their lowest grid cells. */
     const std::vector<SplineCopy> &
-    list() const
-    {
-      return copies;
-    }
+    list() const;
 
     /** The copy of the spline centred on @p spline that the active grid cell
      *  @p grid_cell of its support uses: a position in list(). */
@@ -69,10 +66,7 @@ namespace Morula
 
     /** Copies that stand before this one in list() and have the same spline. */
     unsigned int
-    place(const unsigned int copy) const
-    {
-      return copy - first[copies[copy].spline];
-    }
+    place(const unsigned int copy) const;
 
     /** The copy of a spline that has that place. */
     unsigned int
@@ -80,46 +74,28 @@ namespace Morula
 
     /** Coordinates of the grid cell that a copy's spline is centred on. */
     GridIndex<dim>
-    center(const unsigned int copy) const
-    {
-      return boxes.index(copies[copy].spline);
-    }
+    center(const unsigned int copy) const;
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
     bool
-    is_own(const SplineCopy &copy) const
-    {
-      return own[copy.spline];
-    }
+    is_own(const SplineCopy &copy) const;
 
     /** The piece of an active grid cell that this rank owns: 0, ...,
      *  n_pieces() - 1 in the order of the pieces' lowest grid cells. */
     unsigned int
-    piece(const unsigned int number) const
-    {
-      return pieces[number];
-    }
+    piece(const unsigned int number) const;
 
     unsigned int
-    n_pieces() const
-    {
-      return lowest.size();
-    }
+    n_pieces() const;
 
     /** Lowest grid cell of a piece: its number in the grid's box. */
     unsigned int
-    lowest_grid_cell(const unsigned int piece) const
-    {
-      return lowest[piece];
-    }
+    lowest_grid_cell(const unsigned int piece) const;
 
     /** The active grid cells that this rank owns, in the order of their numbers
      *  in the grid's box. */
     const std::vector<unsigned int> &
-    own_grid_cells() const
-    {
-      return own_active;
-    }
+    own_grid_cells() const;
 
   private:
     void

@@ -102,47 +102,26 @@ namespace Morula
     /** This rank's active grid cells in the order of their numbers, then of
      *  their bodies. */
     const std::vector<GridCell> &
-    grid_cells() const
-    {
-      return grid_cells_;
-    }
+    grid_cells() const;
 
     /** The unknowns that this rank owns. */
     const IndexSet &
-    owned() const
-    {
-      return owned_;
-    }
+    owned() const;
 
     /** The unknowns that this rank's active grid cells use, and those that it
      *  owns. */
     const IndexSet &
-    relevant() const
-    {
-      return relevant_;
-    }
+    relevant() const;
 
     /** Counts over all ranks. */
     unsigned int
-    n_unknowns() const
-    {
-      return owned_.size();
-    }
+    n_unknowns() const;
     unsigned int
-    n_active_grid_cells() const
-    {
-      return n_active;
-    }
+    n_active_grid_cells() const;
     unsigned int
-    n_inner_splines() const
-    {
-      return n_inner;
-    }
+    n_inner_splines() const;
     unsigned int
-    n_outer_splines() const
-    {
-      return n_outer;
-    }
+    n_outer_splines() const;
 
     /** The piece of an active grid cell of this rank, by its number in the
      *  grid's box, and of one of the bodies there; see SplineCopies. */
@@ -150,17 +129,11 @@ namespace Morula
     piece(const unsigned int number, const unsigned int body = 0) const;
 
     unsigned int
-    n_pieces() const
-    {
-      return is_parted() ? first_piece.back() : copies.n_pieces();
-    }
+    n_pieces() const;
 
     /** The box of the grid. */
     const GridBox<dim> &
-    box() const
-    {
-      return occupancy().window().whole();
-    }
+    box() const;
 
     /** What the grid cells hold of a body; of the tissue where bodies are not
      *  parted. */
@@ -180,10 +153,7 @@ namespace Morula
 
     /** The piece of each of this rank's unknowns, in the order of owned(). */
     const std::vector<unsigned int> &
-    pieces_of_unknowns() const
-    {
-      return pieces_;
-    }
+    pieces_of_unknowns() const;
 
   private:
     using Terms = std::vector<std::pair<unsigned int, double>>;
@@ -200,10 +170,7 @@ namespace Morula
     void
     count(const MPI_Comm comm);
     bool
-    is_unknown(const SplineCopy &copy) const
-    {
-      return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
-    }
+    is_unknown(const SplineCopy &copy) const;
 
     /** Copies that are unknowns of this rank. */
     std::vector<unsigned int>

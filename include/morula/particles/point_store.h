@@ -99,10 +99,7 @@ namespace Morula
 
     /** Grid cells of this rank that hold points, by number. */
     const std::vector<GridCell> &
-    grid_cells() const
-    {
-      return grid_cells_;
-    }
+    grid_cells() const;
 
     /** How many points this rank has. */
     unsigned int

@@ -47,6 +47,14 @@ namespace Morula
 
 
   template <int dim>
+  const std::vector<std::unique_ptr<const DivisionRule<dim>>> &
+  DivisionAxes<dim>::rules() const
+  {
+    return all.list;
+  }
+
+
+  template <int dim>
   const DivisionRule<dim> *
   DivisionAxes<dim>::rule(const unsigned int type) const
   {
@@ -93,6 +101,14 @@ namespace Morula
     else if (follows_rotation)
       now = cell.elastic_deformation() * axis;
     return now / now.norm();
+  }
+
+
+  template <int dim>
+  bool
+  DivisionAxes<dim>::stay_inside() const
+  {
+    return stay_inside_;
   }
 
 

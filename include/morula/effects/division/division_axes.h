@@ -65,10 +65,7 @@ namespace Morula
 
     /** All rules. */
     const std::vector<std::unique_ptr<const DivisionRule<dim>>> &
-    rules() const
-    {
-      return all.list;
-    }
+    rules() const;
 
     /** The rule of a type of cells, or null. */
     const DivisionRule<dim> *
@@ -88,10 +85,7 @@ namespace Morula
 
     /** Whether daughters stay inside the whole surface. */
     bool
-    stay_inside() const
-    {
-      return stay_inside_;
-    }
+    stay_inside() const;
 
   private:
     Expression    spread, least_anisotropy;

@@ -331,24 +331,10 @@ namespace Morula
   }
 
 
-  const std::vector<Variable> &
-  Expression::used() const
-  {
-    return used_;
-  }
-
-
   bool
   Expression::uses(const Variable variable) const
   {
     return std::binary_search(used_.begin(), used_.end(), variable);
-  }
-
-
-  const Vocabulary &
-  Expression::vocabulary() const
-  {
-    return *vocabulary_;
   }
 
 
@@ -387,13 +373,6 @@ namespace Morula
 
 
   bool
-  Expression::is_constant() const
-  {
-    return !constants.empty() && of_types.empty();
-  }
-
-
-  bool
   Expression::is_always(const double       number,
                         const unsigned int n_components) const
   {
@@ -416,20 +395,6 @@ namespace Morula
   }
 
 
-  const std::map<unsigned int, Expression> &
-  Expression::types() const
-  {
-    return of_types;
-  }
-
-
-  bool
-  Expression::depends_on_time() const
-  {
-    return uses(Variable::t);
-  }
-
-
   void
   Expression::check_dimension(const unsigned int dim) const
   {
@@ -441,20 +406,6 @@ namespace Morula
         "The tissue lies in the plane of X and Y, and Z would be "
         "0 everywhere: write it with X and Y, or set Dimension "
         "= 3.");
-  }
-
-
-  const std::string &
-  Expression::key() const
-  {
-    return key_;
-  }
-
-
-  const std::string &
-  Expression::text() const
-  {
-    return text_;
   }
 
 

@@ -175,34 +175,6 @@ namespace Morula
   }
 
 
-  Evaluated
-  ExpressionKey::evaluated() const
-  {
-    return evaluated_;
-  }
-
-
-  unsigned int
-  ExpressionKey::components() const
-  {
-    return n_components;
-  }
-
-
-  bool
-  ExpressionKey::is_of_cells() const
-  {
-    return evaluated_ != Evaluated::founder && evaluated_ != Evaluated::place;
-  }
-
-
-  bool
-  ExpressionKey::differs_by_type() const
-  {
-    return !of_types.empty();
-  }
-
-
   void
   ExpressionKey::set_types(const std::map<std::string, double> &names)
   {
@@ -218,13 +190,6 @@ namespace Morula
     if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
       fields = names;
     parsed.reset();
-  }
-
-
-  const std::vector<std::string> &
-  ExpressionKey::field_names() const
-  {
-    return fields;
   }
 
 
@@ -248,13 +213,6 @@ namespace Morula
   {
     of_types[type] = {path, text};
     parsed.reset();
-  }
-
-
-  bool
-  ExpressionKey::empty() const
-  {
-    return text_.empty();
   }
 
 
@@ -304,13 +262,6 @@ namespace Morula
   }
 
 
-  std::string
-  ExpressionKey::text() const
-  {
-    return text_;
-  }
-
-
   void
   ExpressionKey::assign(const std::string &text)
   {
@@ -322,13 +273,6 @@ namespace Morula
   ExpressionKey::pattern() const
   {
     return std::make_unique<Patterns::Anything>();
-  }
-
-
-  std::string
-  ExpressionKey::allowed() const
-  {
-    return "";
   }
 
 

@@ -215,13 +215,6 @@ namespace Morula
   }
 
 
-  const std::vector<Variable> &
-  ExpressionParser::used() const
-  {
-    return used_;
-  }
-
-
   // 9 * 0.05 is a little more than 0.45, and 3 * 0.1 a little more than 0.3.
   double
   decimal(const double t)

@@ -22,31 +22,10 @@ namespace Morula
   {}
 
 
-  const std::string &
-  AnyKey::path() const
-  {
-    return path_;
-  }
-
-
   void
   AnyKey::place_in(const std::string &section)
   {
     path_ = section + "/" + path_;
-  }
-
-
-  const std::string &
-  AnyKey::default_text() const
-  {
-    return default_text_;
-  }
-
-
-  const std::string &
-  AnyKey::documentation() const
-  {
-    return documentation_;
   }
 
 
@@ -69,53 +48,6 @@ namespace Morula
                                                              word.size()),
                                        boost::is_any_of("."));
   }
-
-
-  std::string
-  AnyKey::short_name() const
-  {
-    return symbol_.empty() ? path_.substr(path_.rfind('/') + 1) : symbol_;
-  }
-
-
-  const std::map<std::string, std::string> &
-  AnyKey::texts_by_method() const
-  {
-    return with_method;
-  }
-
-
-  const std::vector<std::string> &
-  AnyKey::former_paths() const
-  {
-    return former_paths_;
-  }
-
-
-  std::vector<std::string>
-  AnyKey::choices() const
-  {
-    return {};
-  }
-
-
-  bool
-  AnyKey::is_of_numbers() const
-  {
-    return false;
-  }
-
-
-  bool
-  AnyKey::names_file() const
-  {
-    return names_file_;
-  }
-
-
-  void
-  AnyKey::check(const unsigned int) const
-  {}
 
 
   bool
@@ -150,13 +82,6 @@ namespace Morula
   AnyKey::refuse(const std::string &allowed, const std::string &remedy) const
   {
     throw InputError(path_, shown(), allowed, remedy);
-  }
-
-
-  std::string
-  AnyKey::shown() const
-  {
-    return text();
   }
 
 

@@ -304,12 +304,6 @@ namespace Morula
 
   SurfaceMesh::~SurfaceMesh() = default;
 
-  const std::vector<SurfaceTriangle> &
-  SurfaceMesh::triangles() const
-  {
-    return all_triangles;
-  }
-
   BoundingBox<3>
   SurfaceMesh::bounding_box() const
   {

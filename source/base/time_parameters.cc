@@ -47,20 +47,6 @@ namespace Morula
   }
 
 
-  KeyList
-  TimeParameters::list()
-  {
-    return {&end_time, &step, &smallest_step, &stop_at_cells, &tolerance};
-  }
-
-
-  double
-  TimeParameters::slack() const
-  {
-    return time_slack * step;
-  }
-
-
   void
   TimeParameters::check() const
   {

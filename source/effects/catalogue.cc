@@ -17,6 +17,7 @@
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
+#include <morula/effects/state/present_depth.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/pressure.h>
@@ -65,6 +66,7 @@ namespace Morula
     add<TangentialAxis>(division_rules, "tangential");
     add<Rearrangement>(step_effects, "rearrangement");
     add<NeighbourColumns>(step_effects, "neighbours");
+    add<PresentDepth>(step_effects, "present depth");
     add<CellShapeAxis>(division_rules, "cell shape");
     add<BodyForce>(forces, "body force");
     add<Friction>(forces, "friction");
@@ -84,6 +86,17 @@ namespace Morula
   Catalogue::declare_types(const std::vector<std::string> &types)
   {
     for_each([&](auto &choice) { choice.keys().declare_types(types); });
+  }
+
+
+  void
+  Catalogue::see_expressions(const std::vector<ExpressionKey *> &keys,
+                             const std::vector<std::string>     &types,
+                             const std::vector<std::string>     &fields)
+  {
+    for_each([&](auto &choice) {
+      choice.keys().see_expressions(keys, types, fields);
+    });
   }
 
 

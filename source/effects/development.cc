@@ -84,55 +84,6 @@ namespace Morula
 
   template <int dim>
   bool
-  CellDevelopment<dim>::grows() const
-  {
-    return effects.law || effects.proliferation || !effects.factors.empty() ||
-           !effects.flows.empty() || is_mortal();
-  }
-
-
-  template <int dim>
-  bool
-  CellDevelopment<dim>::present() const
-  {
-    return grows() || keeps_rows;
-  }
-
-
-  template <int dim>
-  const CellCycle<dim> *
-  CellDevelopment<dim>::cycle() const
-  {
-    return effects.proliferation ? &effects.proliferation->cycle() : nullptr;
-  }
-
-
-  template <int dim>
-  const CellColumns<dim> &
-  CellDevelopment<dim>::columns() const
-  {
-    return columns_;
-  }
-
-
-  template <int dim>
-  const StateColumns<dim> &
-  CellDevelopment<dim>::state() const
-  {
-    return state_;
-  }
-
-
-  template <int dim>
-  const Fates<dim> &
-  CellDevelopment<dim>::fates() const
-  {
-    return effects.fates;
-  }
-
-
-  template <int dim>
-  bool
   CellDevelopment<dim>::is_mortal() const
   {
     return std::any_of(effects.fates.begin(),
@@ -163,23 +114,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  CellDevelopment<dim>::time_of_division(
-    const CellView<dim, const double> &cell, const double t) const
-  {
-    return dividing_fate().time_of_division(cell, t);
-  }
-
-
-  template <int dim>
-  bool
-  CellDevelopment<dim>::stays_inside() const
-  {
-    return dividing_fate().stays_inside();
-  }
-
-
-  template <int dim>
   CellReader<dim>
   CellDevelopment<dim>::reader(const double t, const PastStep &past) const
   {
@@ -193,14 +127,6 @@ namespace Morula
             random_seed,
             t,
             past};
-  }
-
-
-  template <int dim>
-  CycleState<dim>
-  CellDevelopment<dim>::clock(const CellView<dim, const double> &cell) const
-  {
-    return effects.proliferation->clock(cell);
   }
 
 
@@ -331,16 +257,6 @@ namespace Morula
         live(effects.fates, cell, daughter, birth, t1, events);
       }
     return own;
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  CellDevelopment<dim>::placement_axis(
-    const CellView<dim, const double> &cell) const
-  {
-    return dividing_fate().placement_axis(
-      cell, state_.type.exists() ? cell.get(state_.type) : 0);
   }
 
 

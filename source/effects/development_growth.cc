@@ -206,14 +206,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  CellDevelopment<dim>::states_error() const
-  {
-    return effects.states_error();
-  }
-
-
-  template <int dim>
   void
   CellDevelopment<dim>::remember_motion(const CellView<dim, double> &cell,
                                         const Tensor<2, dim>        &f) const

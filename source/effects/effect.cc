@@ -17,58 +17,6 @@ namespace Morula
   }
 
 
-  const AnyKey *
-  EffectKeys::switch_key() const
-  {
-    return nullptr;
-  }
-
-
-  const AnyKey *
-  EffectKeys::names_key() const
-  {
-    return nullptr;
-  }
-
-
-  void
-  EffectKeys::declare_sections(const std::string &)
-  {}
-
-
-  void
-  EffectKeys::declare_types(const std::vector<std::string> &)
-  {}
-
-
-  std::string
-  EffectKeys::how_to_switch_on() const
-  {
-    return switch_key() == nullptr ?
-             "" :
-             "Say where it acts by " + switch_key()->path();
-  }
-
-
-  bool
-  EffectKeys::divides_cells() const
-  {
-    return false;
-  }
-
-
-  void
-  EffectKeys::check_with(const MaterialParameters &) const
-  {}
-
-
-  std::string
-  EffectKeys::topic() const
-  {
-    return "";
-  }
-
-
   std::string
   EffectKeys::details() const
   {
@@ -79,45 +27,6 @@ namespace Morula
       text += ", " + key->short_name() + " = " + key->text();
     return text;
   }
-
-
-  template <int dim>
-  void
-  Effect<dim>::declare(Tables<dim> &) const
-  {}
-
-
-  template <int dim>
-  void
-  Effect<dim>::begin(const CellView<dim, double> &) const
-  {}
-
-
-  template <int dim>
-  void
-  Effect<dim>::advance(const PresentCell<dim> &,
-                       const CellView<dim, double> &,
-                       const double,
-                       const double) const
-  {}
-
-
-  template <int dim>
-  void
-  Effect<dim>::check_cell(const PresentCell<dim> &, const double) const
-  {}
-
-
-  template <int dim>
-  void
-  Effect<dim>::check(const Preview<dim> &) const
-  {}
-
-
-  template <int dim>
-  void
-  Effect<dim>::review(const Preview<dim> &, Review &) const
-  {}
 
 
   template class Effect<2>;

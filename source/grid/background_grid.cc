@@ -231,27 +231,6 @@ namespace Morula
   }
 
   template <int dim>
-  const GridCellCounts &
-  BackgroundGrid<dim>::weights() const
-  {
-    return weights_;
-  }
-
-  template <int dim>
-  double
-  BackgroundGrid<dim>::total_weight() const
-  {
-    return total_weight_;
-  }
-
-  template <int dim>
-  const GridBox<dim> &
-  BackgroundGrid<dim>::box() const
-  {
-    return box_;
-  }
-
-  template <int dim>
   unsigned int
   BackgroundGrid<dim>::owner(const unsigned int number) const
   {
@@ -263,13 +242,6 @@ namespace Morula
   BackgroundGrid<dim>::owner(const GridIndex<dim> &index) const
   {
     return owners(index);
-  }
-
-  template <int dim>
-  const std::vector<typename BackgroundGrid<dim>::OwnedGridCell> &
-  BackgroundGrid<dim>::owned_grid_cells() const
-  {
-    return owned;
   }
 
   template <int dim>
@@ -286,34 +258,6 @@ namespace Morula
     return found != owned.end() && found->number == number ?
              found->cell :
              CellIterator(tria.end());
-  }
-
-  template <int dim>
-  GridCellCounts
-  BackgroundGrid<dim>::sum_at_owners(const GridCellCounts &counts) const
-  {
-    return Morula::sum_at_owners(counts, box_, owners, comm);
-  }
-
-  template <int dim>
-  const Triangulation<dim> &
-  BackgroundGrid<dim>::triangulation() const
-  {
-    return tria;
-  }
-
-  template <int dim>
-  MPI_Comm
-  BackgroundGrid<dim>::communicator() const
-  {
-    return comm;
-  }
-
-  template <int dim>
-  GridIndex<dim>
-  BackgroundGrid<dim>::locate(const Point<dim> &x) const
-  {
-    return box_.locate(x);
   }
 
   template class BackgroundGrid<2>;

@@ -196,13 +196,6 @@ namespace Morula
       }
   }
 
-  template <int dim>
-  bool
-  ExtensionSearch<dim>::needs_wider_window() const
-  {
-    return met_edge;
-  }
-
   template std::array<double, 9>
   extension_weights(const GridIndex<2> &, const GridIndex<2> &);
   template std::array<double, 27>

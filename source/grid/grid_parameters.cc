@@ -40,12 +40,4 @@ namespace Morula
       "a share > 0 and <= 1",
       "0.85 is a good choice.");
   }
-
-
-  KeyList
-  GridParameters::list()
-  {
-    return {
-      &spacing, &offset, &occupation_parameter, &extension, &points_per_cell};
-  }
 } // namespace Morula

@@ -157,22 +157,6 @@ namespace Morula
 
 
   template <int dim>
-  const GridBoxes<dim> &
-  GridWindow<dim>::boxes() const
-  {
-    return boxes_;
-  }
-
-
-  template <int dim>
-  const GridBox<dim> &
-  GridWindow<dim>::whole() const
-  {
-    return whole_;
-  }
-
-
-  template <int dim>
   bool
   GridWindow<dim>::holds(const GridIndex<dim> &center, const int radius) const
   {
@@ -194,14 +178,6 @@ namespace Morula
     for (const GridBox<dim> &box : boxes_.boxes())
       ranges.push_back(shrunk(box, alone ? 0 : rings, whole_));
     return ranges;
-  }
-
-
-  template <int dim>
-  MPI_Comm
-  GridWindow<dim>::communicator() const
-  {
-    return comm;
   }
 
 

@@ -67,13 +67,6 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  unsigned int
-  PiecePolynomial<dim>::n_unknowns() const
-  {
-    return quadratic ? (dim + 1) * (dim + 2) / 2 : dim + 1;
-  }
-
-  template <int dim>
   std::vector<std::pair<unsigned int, double>>
   PiecePolynomial<dim>::expression(const Point<dim> &x, const double h) const
   {

@@ -191,24 +191,10 @@ namespace Morula
 
   template <int dim>
   float
-  TissueRows<dim>::least_thickness(const unsigned int number) const
-  {
-    return thicknesses[number];
-  }
-
-  template <int dim>
-  float
   TissueRows<dim>::thickness(const unsigned int           number,
                              const GridCellContents<dim> &contents) const
   {
     return largest_around(thicknesses, number, contents);
-  }
-
-  template <int dim>
-  unsigned int
-  TissueRows<dim>::n_thin(const unsigned int number) const
-  {
-    return n_thin_[number];
   }
 
   template <int dim>
@@ -218,13 +204,6 @@ namespace Morula
   {
     return n_thin_[number] > 0 &&
            largest_around(lengths, number, contents) < thin_row;
-  }
-
-  template <int dim>
-  bool
-  TissueRows<dim>::is_inner_candidate(const unsigned int number) const
-  {
-    return candidates[number];
   }
 
   template class TissueRows<2>;

@@ -367,14 +367,6 @@ namespace Morula
       }
   }
 
-  template <int dim>
-  double
-  InternalForce<dim>::log_volume_ratio(const unsigned int     grid_cell,
-                                       const LocalField<dim> &field) const
-  {
-    return mean(grid_cell, field, GrowthAt::current).theta();
-  }
-
   template class InternalForce<2>;
   template class InternalForce<3>;
 } // namespace Morula

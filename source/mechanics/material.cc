@@ -64,22 +64,6 @@ namespace Morula
   }
 
 
-  bool
-  MaterialParameters::per_grown_volume() const
-  {
-    return energy_per == "grown volume";
-  }
-
-
-  VolumetricStrain
-  MaterialParameters::volumetric_form() const
-  {
-    return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
-           volumetric_strain == "projected" ? VolumetricStrain::projected :
-                                              VolumetricStrain::pooled;
-  }
-
-
   void
   MaterialParameters::review(Review &review) const
   {
@@ -114,13 +98,6 @@ namespace Morula
             &volumetric_strain,
             &law,
             &on_transition};
-  }
-
-
-  bool
-  MaterialParameters::forgets_stress() const
-  {
-    return on_transition == "forget stress";
   }
 
 

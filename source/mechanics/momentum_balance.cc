@@ -38,20 +38,6 @@ namespace Morula
   }
 
   template <int dim>
-  std::vector<double>
-  MomentumBalance<dim>::relevant_values(const Vector &u) const
-  {
-    return assembly.unknowns().fetch(u);
-  }
-
-  template <int dim>
-  Equilibrium::Vector
-  MomentumBalance<dim>::rest() const
-  {
-    return assembly.unknowns().zero();
-  }
-
-  template <int dim>
   Equilibrium::Evaluation
   MomentumBalance<dim>::sum_up(const Vector &u,
                                Vector       &R,
@@ -114,13 +100,6 @@ namespace Morula
 
   template <int dim>
   Equilibrium::Evaluation
-  MomentumBalance<dim>::residual(const Vector &u, Vector &R) const
-  {
-    return evaluate(u, R, nullptr);
-  }
-
-  template <int dim>
-  Equilibrium::Evaluation
   MomentumBalance<dim>::residual_and_magnitude(const Vector &u,
                                                Vector       &R,
                                                double       &magnitude) const
@@ -153,14 +132,6 @@ namespace Morula
     if (enclosure != nullptr && std::isfinite(evaluation.energy))
       add_content(u, evaluation, R, magnitudes);
     return evaluation;
-  }
-
-  template <int dim>
-  typename LocalSystem<dim>::Wanted
-  MomentumBalance<dim>::wanted(const Vector *magnitudes)
-  {
-    return magnitudes != nullptr ? LocalSystem<dim>::rounding :
-                                   LocalSystem<dim>::energy_and_residual;
   }
 
   template <int dim>
@@ -309,13 +280,6 @@ namespace Morula
                              const TimerOutput::Scope section(timer, "contact");
                              pairs->add_tangent(values, add_link);
                            });
-  }
-
-  template <int dim>
-  const Equilibrium::RankOne *
-  MomentumBalance<dim>::rank_one() const
-  {
-    return of_content ? &*of_content : nullptr;
   }
 
   template <int dim>

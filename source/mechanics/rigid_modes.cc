@@ -280,13 +280,6 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  RigidModes<dim>::has_free_motion(const unsigned int piece) const
-  {
-    return !pieces[piece].free.empty();
-  }
-
-  template <int dim>
   std::vector<Equilibrium::Vector>
   RigidModes<dim>::null_space() const
   {

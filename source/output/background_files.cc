@@ -30,52 +30,68 @@ namespace Morula
     files.erase(std::remove(files.begin(), files.end(), nullptr), files.end());
     if (files.empty())
       return;
-    // std::async is used, as a task of deal.II would run in this thread if
-    // deal.II was told to use one. It also keeps what the thread throws.
-    const auto write = [this]() {
-      for (const auto &file : files)
-        file->write();
-    };
-    thread =
-      std::async(wait ? std::launch::deferred : std::launch::async, write);
+    launch(wait ? std::launch::deferred : std::launch::async);
     if (wait)
       finish();
   }
 
-  bool
-  BackgroundFiles::pending() const
-  {
-    return !files.empty();
-  }
-
-  bool
-  BackgroundFiles::written() const
-  {
-    if (!pending())
-      return false;
-    // A rank asks its own thread. All ranks must get the same answer, as the
-    // next step depends on it.
-    const bool mine =
-      thread.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    return Utilities::MPI::min(mine ? 1 : 0, comm) == 1;
-  }
-
   void
-  BackgroundFiles::finish()
+  BackgroundFiles::launch(const std::launch policy)
   {
-    if (!pending())
-      return;
+    // std::async is used, as a task of deal.II would run in this thread if
+    // deal.II was told to use one. It also keeps what the thread throws. What
+    // has been written is forgotten at once, as it may hold much memory.
+    thread = std::async(policy, [this]() {
+      for (const auto &file : files)
+        if (const auto write = std::exchange(file->write, nullptr))
+          write();
+    });
+  }
+
+  bool
+  BackgroundFiles::end_stage()
+  {
     try
       {
         // An error of any rank's thread is thrown on all ranks; then no file
         // takes the place of an old one.
         everywhere(comm, [this]() { thread.get(); });
+        bool more = false;
+        for (auto &file : files)
+          if (file->next)
+            {
+              file = file->next();
+              more = true;
+            }
+        if (more)
+          launch(std::launch::async);
+        return more;
       }
     catch (...)
       {
         files.clear();
         throw;
       }
+  }
+
+  bool
+  BackgroundFiles::written()
+  {
+    if (!pending())
+      return false;
+    // A rank asks its own thread. All ranks must get the same answer, as the
+    // next step depends on it.
+    const bool mine =
+      !thread.valid() ||
+      thread.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    return Utilities::MPI::min(mine ? 1 : 0, comm) == 1 &&
+           (!thread.valid() || !end_stage());
+  }
+
+  void
+  BackgroundFiles::finish()
+  {
+    while (thread.valid() && end_stage()) {}
     // All ranks have written their parts, so the files are whole.
     for (const auto &file : std::exchange(files, {}))
       file->commit();

@@ -28,12 +28,6 @@ namespace Morula
     return H5Ewalk2(stack, H5E_WALK_DOWNWARD, read, &reason);
   }
 
-  const std::string &
-  Hdf5Silence::reason() const
-  {
-    return reason_;
-  }
-
   Hdf5Silence::~Hdf5Silence()
   {
     H5Eset_auto2(H5E_DEFAULT, function, data);

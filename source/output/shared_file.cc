@@ -6,9 +6,80 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <sys/vfs.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
 namespace Morula
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** File systems by their number in statfs(2): NFS, SMB, CIFS, SMB2, and
+     *  what runs in user space, such as sshfs. Their nodes write back whole
+     *  pages of their own, so that two nodes may destroy each other's parts. */
+    constexpr unsigned long incoherent[] = {
+      0x6969, 0x517b, 0xff534d42, 0xfe534d42, 0x65735546};
+
+    bool
+    is_coherent(const std::string &path)
+    {
+      struct statfs found{};
+      return ::statfs(path.c_str(), &found) == 0 &&
+             std::find(std::begin(incoherent),
+                       std::end(incoherent),
+                       found.f_type & 0xffffffffu) == std::end(incoherent);
+    }
+
+    /** Another node may have a file of that name on a disk of its own, which
+     *  has another size. */
+    bool
+    has_size(const std::string &path, const std::uint64_t n_bytes)
+    {
+      std::error_code error;
+      return std::filesystem::file_size(path, error) == n_bytes && !error;
+    }
+  } // namespace
+
+  PartOfFile::PartOfFile(const std::string  &path,
+                         const std::uint64_t n_bytes,
+                         const MPI_Comm      comm)
+  {
+    // One rank alone can always write. Several can if each sees the same file
+    // on a file system that keeps what several nodes write. All use their
+    // parts, or none does: the last line makes that one decision for all.
+    bool usable = Utilities::MPI::n_mpi_processes(comm) == 1 ||
+                  (is_coherent(path) && has_size(path, n_bytes));
+    if (usable)
+      try
+        {
+          file.emplace(path, PosixFile::Mode::overwrite);
+        }
+      catch (const std::runtime_error &)
+        {
+          usable = false;
+        }
+    if (Utilities::MPI::min(usable ? 1 : 0, comm) == 0)
+      file.reset();
+  }
+
+  void
+  PartOfFile::write(const std::string_view text, const std::uint64_t offset)
+  {
+    file->write_at(text, offset);
+  }
+
+  void
+  PartOfFile::close()
+  {
+    file->sync();
+    file->close();
+  }
 
   std::unique_ptr<SharedFile>
   SharedFile::make(const std::string  &path,
@@ -38,20 +109,23 @@ namespace Morula
   }
 
   void
-  SharedFile::write(const std::string_view text, const std::uint64_t offset)
-  {
-    part->write(text, offset);
-  }
-
-  void
-  SharedFile::close()
-  {
-    part->close();
-  }
-
-  void
   SharedFile::commit()
   {
     on_root(comm, [&]() { whole->commit(); });
+  }
+
+  std::unique_ptr<PendingFile>
+  pending(std::unique_ptr<SharedFile>       file,
+          std::function<void(SharedFile &)> content)
+  {
+    // The functions of a pending file may be copied, so they share the file.
+    const std::shared_ptr<SharedFile> shared = std::move(file);
+    return std::make_unique<PendingFile>(
+      PendingFile{[shared, content = std::move(content)]() {
+                    content(*shared);
+                    shared->close();
+                  },
+                  [shared]() { shared->commit(); },
+                  {}});
   }
 } // namespace Morula

@@ -18,13 +18,6 @@ namespace Morula
   }
 
 
-  double
-  StatisticsRow::of_effect(const std::string &name) const
-  {
-    return const_cast<StatisticsRow *>(this)->of_effect(name);
-  }
-
-
   std::vector<std::pair<std::string, double>>
   StatisticsRow::columns() const
   {

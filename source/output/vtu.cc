@@ -107,15 +107,15 @@ namespace Morula
         write_gathered(path, head, piece, fields, comm);
         return nullptr;
       }
-    return std::make_unique<PendingFile>(
-      std::move(file), [=, fields = std::move(fields)](SharedFile &file) {
-        // Rank 0 also writes the head, the last one the end.
-        if (rank == 0)
-          file.write(head, 0);
-        write_piece(file, piece, fields, begin);
-        if (rank + 1 == n_points.size())
-          file.write(vtu_end, end);
-      });
+    return pending(std::move(file),
+                   [=, fields = std::move(fields)](SharedFile &file) {
+                     // Rank 0 also writes the head, the last one the end.
+                     if (rank == 0)
+                       file.write(head, 0);
+                     write_piece(file, piece, fields, begin);
+                     if (rank + 1 == n_points.size())
+                       file.write(vtu_end, end);
+                   });
   }
 
   void

@@ -341,13 +341,6 @@ namespace Morula
   {}
 
   template <int dim>
-  std::size_t
-  VtuPiece<dim>::n_parts() const
-  {
-    return parts.size();
-  }
-
-  template <int dim>
   std::uint64_t
   VtuPiece<dim>::n_bytes(const std::uint64_t n_points) const
   {

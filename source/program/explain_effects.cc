@@ -62,10 +62,12 @@ namespace Morula
     add_effects(EffectRows &rows, const Choices<Interface> &choices)
     {
       for (const auto &choice : choices)
-        add_effect(rows,
-                   topic_of(choice),
-                   choice.keys().is_on(),
-                   choice.keys().details());
+        // What has no keys is a part of others.
+        if (!choice.keys().list().empty())
+          add_effect(rows,
+                     topic_of(choice),
+                     choice.keys().is_on(),
+                     choice.keys().details());
     }
 
     void

@@ -203,9 +203,9 @@ namespace Morula
                    const MPI_Comm             comm)
   {
     // Three checks follow one another: conditions at the points of this rank,
-    // the wall of a lumen, and fields at the surface. The lumen must be closed,
-    // for which its patches on all ranks are needed. Then the counts are added
-    // up over the ranks, and a condition that holds nowhere is refused.
+    // the surface as a whole, for which the patches of all ranks are needed,
+    // and fields at the surface. Then the counts are added up over the ranks,
+    // and a condition that holds nowhere is refused.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
     const std::vector<Point<dim>> no_founders;
@@ -215,15 +215,8 @@ namespace Morula
     everywhere(comm,
                [&] { acting = check_points(conditions, scene.material, at); });
 
-    if (const Lumen<dim> *lumen = conditions.lumen())
-      {
-        std::vector<LumenPatch<dim>> patches;
-        for (std::size_t i = 0; i < surface.positions.size(); ++i)
-          if (lumen->acts_on(surface.positions[i], surface.normals[i]))
-            patches.push_back(
-              {surface.positions[i], surface.areas[i] * surface.normals[i]});
-        lumen->check_surface(patches, comm);
-      }
+    for (const auto &[name, condition] : conditions.list())
+      condition->check_surface(at, surface.areas);
 
     effects_of<dim>(scene).fields.check_surface(scene.fields,
                                                 surface.positions,

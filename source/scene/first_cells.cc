@@ -118,14 +118,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  const CellDevelopment<dim> &
-  FirstCells<dim>::development() const
-  {
-    return development_;
-  }
-
-
 #define INSTANTIATE(dim)                                  \
   template std::vector<NearSurface<dim>> near_surface_of( \
     const StateColumns<dim> &,                            \

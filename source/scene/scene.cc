@@ -4,7 +4,6 @@
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/scene.h>
 
@@ -182,33 +181,11 @@ namespace Morula
 
 
   bool
-  Scene::has_growth() const
-  {
-    return law_of_growth() != "none";
-  }
-
-
-  bool
   Scene::grows(const unsigned int type) const
   {
     if (!cell_types.present() || cell_types.types[type].growth_law.empty())
       return growth_law != "none";
     return cell_types.types[type].growth_law != "none";
-  }
-
-
-  bool
-  Scene::has_active_tissue() const
-  {
-    return has_growth() || has_any(catalogue.growth_factors) ||
-           has_proliferation();
-  }
-
-
-  bool
-  Scene::flows() const
-  {
-    return has_any(catalogue.flows);
   }
 
 
@@ -274,9 +251,9 @@ namespace Morula
     // that a type overrides go into the keys of all cells.
     for (ExpressionKey *key : keys_of_cells(list()))
       key->set_fields(fields.name_list());
-    keys<NeighbourParameters>().find_in(keys_of_cells(list()),
-                                        cell_types.name_list(),
-                                        fields.name_list());
+    catalogue.see_expressions(keys_of_cells(list()),
+                              cell_types.name_list(),
+                              fields.name_list());
     keys<TypeSurfaceTensionParameters>().pulls =
       keys<TypeTensionParameters>().force;
     if (!cell_types.present())
@@ -293,13 +270,6 @@ namespace Morula
         if (law == "none")
           cell_cycle.exit_rate.set_for_type(i, law.path(), "0");
       }
-  }
-
-
-  bool
-  Scene::has_set(const AnyKey &key) const
-  {
-    return as_written.count(key.path()) > 0;
   }
 
 

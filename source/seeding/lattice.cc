@@ -71,13 +71,6 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  Lattice<dim>::site_spacing() const
-  {
-    return spacing;
-  }
-
-  template <int dim>
   std::vector<std::uint64_t>
   Lattice<dim>::neighbors(const std::uint64_t site) const
   {

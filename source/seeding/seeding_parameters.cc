@@ -276,47 +276,10 @@ namespace Morula
   } // namespace
 
   bool
-  TissueParameters::has_radius() const
-  {
-    return shape == "sphere" || shape == "cylinder";
-  }
-
-  bool
   TissueParameters::has_size(const unsigned int d) const
   {
     return shape == "box" || shape == "ellipsoid" ||
            (shape == "cylinder" && d == 2); // its axis
-  }
-
-  bool
-  TissueParameters::is_mesh() const
-  {
-    return shape == "mesh";
-  }
-
-  bool
-  TissueParameters::is_points() const
-  {
-    return shape == "points";
-  }
-
-  bool
-  TissueParameters::is_from_file() const
-  {
-    return is_mesh() || is_points();
-  }
-
-  bool
-  TissueParameters::has_no_surface() const
-  {
-    return is_points() && points_surface == "none";
-  }
-
-  bool
-  TissueParameters::has_surface_file() const
-  {
-    return is_points() && points_surface != "automatic" &&
-           points_surface != "always" && points_surface != "none";
   }
 
   void

@@ -67,14 +67,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  unsigned int
-  PieceWarnings<dim>::n_pieces() const
-  {
-    return n_pieces_;
-  }
-
-
   template class PieceWarnings<2>;
   template class PieceWarnings<3>;
 } // namespace Morula

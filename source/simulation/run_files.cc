@@ -193,26 +193,12 @@ namespace Morula
   }
 
   template <int dim>
-  std::string
-  RunFiles<dim>::path(const std::string &file) const
-  {
-    return scene.output_directory + "/" + file;
-  }
-
-  template <int dim>
   bool
   RunFiles<dim>::has_format(const std::string &format) const
   {
     return std::find(scene.output.formats.begin(),
                      scene.output.formats.end(),
                      format) != scene.output.formats.end();
-  }
-
-  template <int dim>
-  double
-  RunFiles<dim>::wall_seconds() const
-  {
-    return wall_seconds_before + clock.wall_time();
   }
 
   template <int dim>
@@ -263,13 +249,6 @@ namespace Morula
                         const std::vector<NewtonIteration> &trace)
   {
     tables.at("newton").append(newton_rows(step, trace));
-  }
-
-  template <int dim>
-  bool
-  RunFiles<dim>::writes_points() const
-  {
-    return has_format("vtu") || has_format("csv");
   }
 
   template <int dim>

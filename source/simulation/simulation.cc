@@ -8,7 +8,6 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
-#include <morula/simulation/present_depth.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_supports.h>
 
@@ -84,7 +83,7 @@ namespace Morula
     if (run_state.n_steps > 1)
       find_fields(
         [&]() { fields.set_steady(tissue, of_fields, time_steps.time()); });
-    for_step_effects(&StepEffect<dim>::before, time_steps.time(), 0.);
+    for_moments(&Moments<dim>::before, time_steps.time(), 0.);
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();
@@ -114,24 +113,24 @@ namespace Morula
     // which conditions its patches had.
     const PointList<dim> former = surface.before_losses(tissue);
     remove_the_dead();
-    for_step_effects(&StepEffect<dim>::rearrange, time_steps.time(), row.dt);
+    for_moments(&Moments<dim>::rearrange, time_steps.time(), row.dt);
     count(space);
     follow_surface(space, former);
     renew_carriers(tissue);
-    set_present_depth(tissue, model.development.state());
-    for_step_effects(&StepEffect<dim>::after, time_steps.time(), row.dt);
+    for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
+    for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
     complete_row();
   }
 
   template <int dim>
   void
-  Simulation<dim>::for_step_effects(const MomentOfStep moment,
-                                    const double       t,
-                                    const double       dt)
+  Simulation<dim>::for_moments(const MomentOfStep moment,
+                               const double       t,
+                               const double       dt)
   {
     // The effects change the tissue and the kept numbers in the order of the
     // scene's list, each in a section of its own in timings.csv.
-    for (const auto &[name, effect] : model.step_effects)
+    for (const auto &[name, effect] : model.moments)
       {
         const TimerOutput::Scope section(timer, name);
         const CellReader<dim>    reader = model.development.reader(t);
@@ -296,7 +295,7 @@ namespace Morula
                               t_next,
                               growth_of_step,
                               typical_stiffness,
-                              saved_lumen(model, run_state.kept),
+                              run_state.kept,
                               time_steps.can_halve() &&
                                 time_steps.state().level < most_plain_halves},
                              newton_report,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/elastic_volumes.h>
 #include <morula/mechanics/point_motions.h>
-#include <morula/simulation/elastic_volumes.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
@@ -202,8 +202,8 @@ namespace Morula
         tissue.boundary_point(p).deform(surface.motions[p].f);
     set_forces(solution.forces, tissue);
     forces = solution.forces.rows;
-    if (solution.lumen)
-      keep_lumen(*solution.lumen, run_state.kept);
+    for (const auto &[name, number] : solution.kept)
+      run_state.kept[name] = number;
     events         = std::move(growth_of_step.events);
     growth_of_step = {};
     tissue.move(cells.positions, surface.positions);

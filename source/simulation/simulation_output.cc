@@ -22,26 +22,12 @@ namespace Morula
   }
 
   template <int dim>
-  const StatisticsRow &
-  Simulation<dim>::last_row() const
-  {
-    return row;
-  }
-
-  template <int dim>
   CellQuantities
   Simulation<dim>::quantities(const unsigned int p) const
   {
     // The reader evaluates expressions of the cells with the present time.
     const CellReader<dim> reader = model.development.reader(time_steps.time());
     return present_cell(tissue, p, reader).quantities();
-  }
-
-  template <int dim>
-  unsigned int
-  Simulation<dim>::n_unknowns()
-  {
-    return dim * splines().n_unknowns();
   }
 
   template <int dim>
@@ -66,7 +52,10 @@ namespace Morula
     set_state(model, tissue, time_steps.time(), row);
     if (model.development.is_mortal())
       of_step["pieces"] = pieces.n_pieces();
-    describe_lumen(model, tissue, run_state.kept, of_step);
+    const CellReader<dim> reader = model.development.reader(time_steps.time());
+    for (const auto &[name, effect] : model.moments)
+      effect->describe(
+        tissue, {time_steps.time(), 0., reader, run_state.kept, of_step});
     fields.describe(tissue, of_step);
     for (const auto &column : model.tables.columns())
       {

@@ -7,7 +7,6 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/simulation/former_columns.h>
 #include <morula/simulation/founding.h>
-#include <morula/simulation/present_depth.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/tissue_tables.h>
@@ -70,8 +69,8 @@ namespace Morula
     // The cells and boundary points get their first state and then their ranks:
     // place() makes the grid and sends points to the owners of their grid
     // cells. The surface is refined before anything is measured on it: the
-    // lumen's volume and the carriers of held points belong to the refined
-    // points. No file is touched, as begin() opens them.
+    // carriers of held points belong to the refined points. No file is touched,
+    // as begin() opens them.
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births   = std::move(points.births);
@@ -90,8 +89,7 @@ namespace Morula
     run_state.next_boundary_id = seeded.surface.n_global;
     run_state.enclosed_share   = surface.begin(tissue);
     renew_carriers(tissue);
-    set_present_depth(tissue, model.development.state());
-    begin_lumen(model, tissue, run_state.kept);
+    for_moments(&Moments<dim>::surfaced, 0., 0.);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
   }
 
@@ -223,8 +221,8 @@ namespace Morula
         // fields.
         if (carve())
           find_steady();
-        begin_step_effects();
-        for_step_effects(&StepEffect<dim>::settle, time_steps.time(), 0.);
+        begin_moments();
+        for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
         pieces.count(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
@@ -235,7 +233,7 @@ namespace Morula
       {
         for (const std::string &warning : warnings)
           files->message(warning);
-        begin_step_effects();
+        begin_moments();
       }
     resumed_from.reset();
     // What holds at the beginning already needs no message from a step on: the
@@ -246,11 +244,11 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::begin_step_effects()
+  Simulation<dim>::begin_moments()
   {
     const double          t      = time_steps.time();
     const CellReader<dim> reader = model.development.reader(t);
-    for (const auto &[name, effect] : model.step_effects)
+    for (const auto &[name, effect] : model.moments)
       effect->start(tissue, {t, 0., reader, run_state.kept, of_step});
   }
 
@@ -269,7 +267,7 @@ namespace Morula
       return false;
     run_state.enclosed_share = surface.close_cuts(tissue);
     renew_carriers(tissue);
-    begin_lumen(model, tissue, run_state.kept);
+    for_moments(&Moments<dim>::surfaced, 0., 0.);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     return true;
   }
@@ -413,9 +411,8 @@ namespace Morula
       }
     step.pointwise =
       model.material.volumetric_form() == VolumetricStrain::pointwise;
-    step.loaded = conditions.has(SurfaceCondition::loaded) ||
-                  !model.forces.empty() ||
-                  model.boundary_conditions.lumen() != nullptr;
+    step.loaded =
+      conditions.has(SurfaceCondition::loaded) || !model.forces.empty();
     // The friction is that for the whole step, as the user would set it, and
     // not for the last halved attempt.
     step.friction = friction_against(step.curvature,

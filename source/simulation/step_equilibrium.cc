@@ -2,15 +2,14 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/lumen.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/simulation/contact_of_step.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
-#include <morula/simulation/step_points.h>
 #include <morula/solver/proximal_path.h>
 
 #include <algorithm>
@@ -90,28 +89,34 @@ namespace Morula
     std::optional<ConditionEstimate> &condition) const
   {
     // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
-    // turn by turn (5.6), and reads the forces out of the terms. The held
-    // traction comes before the terms, which keep a reference to it, and is
-    // predicted after them from the start of the displacement, before the first
-    // residual needs it. The report is completed in both outcomes, as the
-    // diagnosis of a failed step reads it.
-    const double                     stiffness = attempt.typical_stiffness;
-    std::optional<HeldTraction<dim>> traction;
-    if (model.boundary_conditions.has_dirichlet() &&
-        model.boundary_conditions.nitsche().form() == NitscheForm::bounded)
+    // turn by turn (5.6), and reads the forces out of the terms. The parts of
+    // effects come before the terms, which may keep references to them, and
+    // begin after them, before the first residual needs them. The report is
+    // completed in both outcomes, as the diagnosis of a failed step reads it.
+    const double             stiffness = attempt.typical_stiffness;
+    const AttemptAtStep<dim> of_parts{tissue,
+                                      space,
+                                      model.material,
+                                      attempt.growth,
+                                      attempt.t,
+                                      attempt.t_next,
+                                      stiffness,
+                                      !attempt.halve_first,
+                                      model.scene.solver.kernel,
+                                      model.scene.solver.newton_tolerance,
+                                      attempt.kept,
+                                      timer,
+                                      comm};
+    const Parts     parts = model.boundary_conditions.parts_of_step(of_parts);
+    TermList        list  = terms(attempt, points, parts);
+    Enclosure<dim> *enclosure = nullptr;
+    bool            is_exact  = false;
+    for (const auto &part : parts)
       {
-        const TimerOutput::Scope section(timer, "nitsche");
-        everywhere(comm, [&]() {
-          traction.emplace(model,
-                           tissue,
-                           space,
-                           attempt.growth,
-                           stiffness,
-                           !attempt.halve_first);
-        });
+        if (enclosure == nullptr)
+          enclosure = part->enclosure();
+        is_exact = is_exact || part->is_exact();
       }
-    TermList list = terms(attempt, points, traction ? &*traction : nullptr);
-    std::optional<Enclosure<dim>>    lumen = lumen_of(attempt);
     std::optional<ContactPairs<dim>> pairs;
     Drag<dim>                       *drag = nullptr;
     const double                     h    = space.box().spacing();
@@ -128,35 +133,20 @@ namespace Morula
         drag      = weak.get();
         list.push_back(std::move(weak));
       }
-    MomentumBalance<dim> balance(space,
-                                 list,
-                                 timer,
-                                 comm,
-                                 lumen ? &*lumen : nullptr,
-                                 pairs ? &*pairs : nullptr);
-    const LinearProblem  linear =
+    MomentumBalance<dim> balance(
+      space, list, timer, comm, enclosure, pairs ? &*pairs : nullptr);
+    const LinearProblem linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
-    Solution solution{start(attempt).value_or(balance.rest()),
-                      attempt.lumen,
-                      {}};
-    if (traction)
-      traction->predict(solution.u);
+    Solution solution{start(attempt).value_or(balance.rest()), {}, {}};
     // The participants hold their quantities fixed while Newton's method runs
-    // and renew them at its end: the lumen its pressure (4.8j), the held points
-    // their traction (4.6b).
-    std::optional<LumenPressure<dim>> pressure;
-    std::vector<TurnParticipant *>    participants;
-    if (lumen)
-      participants.push_back(
-        &pressure.emplace(*model.boundary_conditions.lumen(),
-                          tissue,
-                          space,
-                          balance,
-                          lumen->content,
-                          timer));
-    if (traction)
-      participants.push_back(&*traction);
+    // and renew them at its end.
+    std::vector<TurnParticipant *> participants;
+    for (const auto &part : parts)
+      {
+        part->begin(balance, solution.u);
+        participants.push_back(part.get());
+      }
     std::optional<ContactTurn<dim>> touching;
     if (pairs)
       participants.push_back(&touching.emplace(tissue,
@@ -176,7 +166,9 @@ namespace Morula
         evaluation = balance_in_turns(
           balance,
           participants,
-          [&]() { return find(attempt, balance, linear, solution.u, report); },
+          [&]() {
+            return find(attempt, is_exact, balance, linear, solution.u, report);
+          },
           solution.u,
           report);
         share_extremes(balance, n_traced, report);
@@ -201,14 +193,13 @@ namespace Morula
       throw StepFailed(
         "bodies pass through each other, so that the step is too "
         "long for their contact");
-    // The forces below and the next step see the pressure at the equilibrium
-    // that was found last.
-    if (pressure)
-      solution.lumen->pressure = pressure->pressure();
+    // The next step sees what belongs to the equilibrium that was found last.
+    for (const auto &part : parts)
+      part->keep(solution.kept);
     std::vector<ContactForce<dim>> of_contact;
     if (touching)
       of_contact = touching->forces(solution.u);
-    solution.forces = forces(attempt, list, lumen, of_contact, solution);
+    solution.forces = forces(attempt, list, parts, of_contact, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -220,6 +211,7 @@ namespace Morula
   template <int dim>
   Equilibrium::Evaluation
   StepEquilibrium<dim>::find(const Attempt        &attempt,
+                             const bool            is_exact,
                              MomentumBalance<dim> &balance,
                              const LinearProblem  &linear,
                              Equilibrium::Vector  &u,
@@ -232,10 +224,10 @@ namespace Morula
     // to fold, or where something jumps.
     const Equilibrium::Vector begin(u);
     NewtonScales scales = balance.scales(attempt.typical_stiffness);
-    // A later turn begins near its equilibrium: only the renewed traction is
+    // A later turn begins near its equilibrium: only what was renewed is
     // not balanced. Forces count as small in relation to those of the first
     // turn, or it would be balanced more exactly than that one.
-    if (report.place.turn > 1 && !attempt.lumen)
+    if (report.place.turn > 1 && !is_exact)
       scales.small_force = std::max(scales.small_force, report.first_residual);
     try
       {
@@ -259,7 +251,7 @@ namespace Morula
   SurfaceForces<dim>
   StepEquilibrium<dim>::forces(const Attempt                        &attempt,
                                const TermList                       &list,
-                               const std::optional<Enclosure<dim>>  &lumen,
+                               const Parts                          &parts,
                                const std::vector<ContactForce<dim>> &of_contact,
                                const Solution &solution) const
   {
@@ -283,35 +275,12 @@ namespace Morula
         points.youngs_modulus    = attempt.typical_stiffness;
         sums.add_loads(conditions, points, attempt.t_next);
       }
-    if (lumen)
-      sums.add_lumen(*conditions.lumen(),
-                     lumen->gain,
-                     solution.lumen->pressure);
+    for (const auto &part : parts)
+      if (const auto force = part->force())
+        sums.add_part(*force);
     if (model.scene.contact.is_on())
       sums.add_contact(of_contact);
     return sums.result();
-  }
-
-
-  template <int dim>
-  std::optional<Enclosure<dim>>
-  StepEquilibrium<dim>::lumen_of(const Attempt &attempt) const
-  {
-    if (!attempt.lumen)
-      return {};
-    // The volume is found by all ranks together. The content may need
-    // expressions, which can fail on one rank.
-    const TimerOutput::Scope section(timer, "lumen");
-    const Lumen<dim>        &lumen = *model.boundary_conditions.lumen();
-    Enclosure<dim>           found = enclosure(lumen, tissue, space, comm);
-    everywhere(comm, [&]() {
-      found.content = lumen_content(lumen,
-                                    *attempt.lumen,
-                                    attempt.t_next,
-                                    found.volume,
-                                    attempt.typical_stiffness);
-    });
-    return found;
   }
 
 
@@ -354,7 +323,7 @@ namespace Morula
   typename StepEquilibrium<dim>::TermList
   StepEquilibrium<dim>::terms(const Attempt             &attempt,
                               const MaterialPoints<dim> &points,
-                              const HeldTraction<dim>   *traction) const
+                              const Parts               &parts) const
   {
     // The list has the terms of doc/theory.md (2.1) that the scene calls for:
     // the stress of the cells first, then forces on cells, held points (4.2) or
@@ -380,17 +349,12 @@ namespace Morula
                                  attempt.t,
                                  t);
       });
-    if (model.boundary_conditions.has_dirichlet())
+    for (const auto &part : parts)
+      if (auto term = part->term())
+        list.push_back(std::move(term));
+    if (model.boundary_conditions.has_dirichlet() &&
+        model.boundary_conditions.nitsche().form() != NitscheForm::bounded)
       add("nitsche", [&]() {
-        if (traction != nullptr)
-          return bounded_nitsche_term(model.boundary_conditions,
-                                      model.material,
-                                      tissue,
-                                      space,
-                                      attempt.growth,
-                                      t,
-                                      traction->stiffnesses(),
-                                      traction->tractions());
         return nitsche_term(model.boundary_conditions,
                             model.material,
                             tissue,
@@ -466,14 +430,6 @@ namespace Morula
                         cells.position(p),
                         cells.initial_volume(p)});
     return list;
-  }
-
-
-  template <int dim>
-  bool
-  StepEquilibrium<dim>::has_contact() const
-  {
-    return contact != nullptr && contact->any();
   }
 
 

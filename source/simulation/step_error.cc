@@ -20,13 +20,6 @@ namespace Morula
   }
 
 
-  double
-  ErrorInTime::total() const
-  {
-    return changes + last;
-  }
-
-
   template <int dim>
   double
   mean_over_tissue(const Tissue<dim>                               &tissue,

@@ -238,24 +238,19 @@ namespace Morula
 
   template <int dim>
   void
-  ForceSums<dim>::add_lumen(const Lumen<dim> &lumen,
-                            const Term<dim>  &gain,
-                            const double      pressure)
+  ForceSums<dim>::add_part(const ForceOnPoints<dim> &force)
   {
+    // The term has its points in the order of this group.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
-    // The enclosure's term has its points in this order. The term is the gain
-    // of volume as if that were an energy; its forces times minus the pressure
-    // are those of doc/theory.md (4.8i).
-    const PointGroups groups =
-      group_points(store, space, [&](const unsigned int p) {
-        return lumen.acts_on(store[p].seed_position(),
-                             store[p].initial_normal());
-      });
-    add_row("lumen",
-            "lumen",
-            groups,
-            gain,
-            -pressure,
+    add_row(force.kind,
+            force.name,
+            group_points(store,
+                         space,
+                         [&](const unsigned int p) {
+                           return force.acts_on(store[p]);
+                         }),
+            *force.term,
+            force.factor,
             [](const unsigned int, const Tensor<1, dim> &) { return true; });
   }
 

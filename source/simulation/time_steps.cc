@@ -16,12 +16,6 @@ namespace Morula
     begin_anew();
   }
 
-  TimeSteps::State
-  TimeSteps::state() const
-  {
-    return state_;
-  }
-
   void
   TimeSteps::restore(const State &state)
   {
@@ -43,12 +37,6 @@ namespace Morula
               state.anew};
   }
 
-  PastStep
-  TimeSteps::past() const
-  {
-    return {state_.past, time()};
-  }
-
   double
   TimeSteps::end_of_interval() const
   {
@@ -68,18 +56,6 @@ namespace Morula
     return part == parts ?
              end_of_interval() :
              state_.begin + part * ((end_of_interval() - state_.begin) / parts);
-  }
-
-  double
-  TimeSteps::time() const
-  {
-    return at(state_.part);
-  }
-
-  double
-  TimeSteps::next() const
-  {
-    return at(state_.part + 1);
   }
 
   void
@@ -132,12 +108,6 @@ namespace Morula
     state_.anew = true;
     while (state_.level < first_level && can_halve())
       halve();
-  }
-
-  bool
-  TimeSteps::finished() const
-  {
-    return time() >= parameters.end_time - time_slack * parameters.step;
   }
 
   void

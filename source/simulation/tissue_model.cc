@@ -11,6 +11,27 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** What has moments, with names. */
+    template <int dim>
+    std::vector<std::pair<std::string, const Moments<dim> *>>
+    moments_of(
+      const std::vector<typename SceneEffects<dim>::NamedStepEffect> &effects,
+      const BoundaryConditions<dim> &conditions)
+    {
+      std::vector<std::pair<std::string, const Moments<dim> *>> list;
+      for (const auto &[name, effect] : effects)
+        list.emplace_back(name, effect.get());
+      for (const auto &[name, condition] : conditions.list())
+        if (const auto *moments =
+              dynamic_cast<const Moments<dim> *>(condition.get()))
+          list.emplace_back(name, moments);
+      return list;
+    }
+  } // namespace
+
+
   template <int dim>
   TissueModel<dim>::TissueModel(const Scene &scene)
     : TissueModel(scene, effects_of<dim>(scene))
@@ -32,6 +53,7 @@ namespace Morula
     , traits(std::move(effects.traits))
     , step_effects(std::move(effects.step_effects))
     , forces(std::move(effects.forces))
+    , moments(moments_of<dim>(step_effects, boundary_conditions))
   {}
 
 
@@ -55,14 +77,6 @@ namespace Morula
         boundary_conditions.nitsche().form() != NitscheForm::bounded)
       add_carriers(columns);
     return columns;
-  }
-
-
-  template <int dim>
-  Tissue<dim>
-  TissueModel<dim>::empty_tissue(const MPI_Comm comm) const
-  {
-    return {scene.grid, development.columns(), comm, boundary_columns()};
   }
 
 

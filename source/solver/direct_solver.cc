@@ -46,12 +46,6 @@ namespace Morula
     shift = least_shift;
   }
 
-  bool
-  DirectSolver::has_shifted() const
-  {
-    return shift > least_shift;
-  }
-
   void
   DirectSolver::factorize(const Matrix &K)
   {

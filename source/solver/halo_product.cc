@@ -37,12 +37,6 @@ namespace Morula
     by_column.resize(columns.NumMyElements());
   }
 
-  const HaloProduct::Matrix &
-  HaloProduct::matrix() const
-  {
-    return K;
-  }
-
   bool
   HaloProduct::is_of(const Matrix &other) const
   {

@@ -63,18 +63,6 @@ namespace Morula
     , direct(problem)
   {}
 
-  double
-  LinearSolver::curvature() const
-  {
-    return curvature_;
-  }
-
-  bool
-  LinearSolver::has_shifted() const
-  {
-    return has_shifted_;
-  }
-
   void
   LinearSolver::solve(const Matrix               &K,
                       Vector                     &x,

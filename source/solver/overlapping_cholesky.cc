@@ -197,12 +197,6 @@ namespace Morula
     factor = make_factor(n_components, gathered.size(), row_of, of_block);
   }
 
-  bool
-  OverlappingCholesky::is_positive() const
-  {
-    return factor->is_positive();
-  }
-
   void
   OverlappingCholesky::vmult(Vector &y, const Vector &x) const
   {

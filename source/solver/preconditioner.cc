@@ -52,12 +52,6 @@ namespace Morula
     , n_tried(problem.n_components > 1 ? first_of_vectors : 0)
   {}
 
-  const OverlappingCholesky *
-  Preconditioner::factorisation() const
-  {
-    return factorisation_.get();
-  }
-
   void
   Preconditioner::make_next(const Matrix &K)
   {

@@ -70,13 +70,6 @@ namespace Morula
   }
 
 
-  double
-  ProximalEquilibrium::residual_magnitude(const Vector &u) const
-  {
-    return problem.residual_magnitude(u);
-  }
-
-
   const Equilibrium::Matrix &
   ProximalEquilibrium::tangent(const Vector &u, const GrowthAt growth)
   {
@@ -99,13 +92,6 @@ namespace Morula
   ProximalEquilibrium::use_growth_at_end()
   {
     problem.use_growth_at_end();
-  }
-
-
-  const Equilibrium::RankOne *
-  ProximalEquilibrium::rank_one() const
-  {
-    return problem.rank_one();
   }
 
 

@@ -37,10 +37,4 @@ namespace Morula
     last_norm = norm;
     return *last;
   }
-
-  bool
-  Tangents::kept() const
-  {
-    return kept_;
-  }
 } // namespace Morula

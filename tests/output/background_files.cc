@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/background_files.h>
+#include <morula/output/shared_file.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -52,12 +52,12 @@ namespace
   one_file(const std::string &path, std::shared_future<void> go)
   {
     std::vector<std::unique_ptr<PendingFile>> files;
-    files.push_back(std::make_unique<PendingFile>(
-      SharedFile::make(path, n_ranks() * 1000, MPI_COMM_WORLD, 0),
-      [go, r = rank()](SharedFile &file) {
-        go.wait();
-        file.write(part(r), r * 1000);
-      }));
+    files.push_back(
+      pending(SharedFile::make(path, n_ranks() * 1000, MPI_COMM_WORLD, 0),
+              [go, r = rank()](SharedFile &file) {
+                go.wait();
+                file.write(part(r), r * 1000);
+              }));
     files.push_back(nullptr); // was written at once
     return files;
   }
@@ -96,6 +96,40 @@ TEST(BackgroundFiles, AreWrittenMeanwhile)
   EXPECT_FALSE(background.written());
   EXPECT_EQ(content(directory / "a"), all_parts());
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a"});
+}
+
+// The text of a file whose length is not known before it is made.
+TEST(BackgroundFiles, HaveStages)
+{
+  const ScratchDirectory directory;
+  BackgroundFiles        background(MPI_COMM_WORLD);
+  std::promise<void>     first, second;
+  const auto             begin = [&]() {
+    std::vector<std::unique_ptr<PendingFile>> files;
+    files.push_back(std::make_unique<PendingFile>(
+      PendingFile{[go = first.get_future().share()]() { go.wait(); },
+                              {},
+                  [path = directory / "a", go = second.get_future().share()]() {
+                    return std::move(one_file(path, go)[0]);
+                  }}));
+    return files;
+  };
+  background.start(begin(), false);
+  EXPECT_FALSE(background.written());
+  EXPECT_EQ(directory.files(), std::vector<std::string>{});
+  first.set_value();
+  MPI_Barrier(MPI_COMM_WORLD);
+  // The second stage begins once all ranks have done the first one.
+  while (directory.files().empty())
+    {
+      EXPECT_FALSE(background.written());
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+  second.set_value();
+  while (!background.written())
+    ;
+  background.finish();
+  EXPECT_EQ(content(directory / "a"), all_parts());
 }
 
 TEST(BackgroundFiles, FinishThoseBefore)

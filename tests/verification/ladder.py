@@ -53,13 +53,18 @@ class Ladder:
 
     def sentence(self):
         """What the ladder asserts, for its page."""
-        words = [f"{name} falls with order {order:g} or more"
-                 for name, order in self.least_orders.items()]
-        words += [f"{name} is at most {with_powers(f'{most:g}')}"
-                  for name, most in self.most.items()]
+        words = []
+        if self.least_orders:
+            words.append("orders at least " + ", ".join(
+                f"{order:g} ({name})"
+                for name, order in self.least_orders.items()))
+        if self.most:
+            words.append("errors at most " + ", ".join(
+                f"{with_powers(f'{most:g}')} ({name})"
+                for name, most in self.most.items()))
         size = self.varied.split(" [")[0]
-        return (f"`{self.name}`, {size} varied, {self.fixed}: the error of "
-                + ", of ".join(words) + ".")
+        return (f"`{self.name}`, {size} varied, {self.fixed}: "
+                + "; ".join(words) + ".")
 
 
 @dataclass

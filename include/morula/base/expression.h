@@ -101,7 +101,10 @@ namespace Morula
 
     /** The variables in the text and in the texts of types. */
     const std::vector<Variable> &
-    used() const;
+    used() const
+    {
+      return used_;
+    }
 
     /** Whether the variable is in used(). */
     bool
@@ -109,7 +112,10 @@ namespace Morula
 
     /** The variables that the text may use, and their names. */
     const Vocabulary &
-    vocabulary() const;
+    vocabulary() const
+    {
+      return *vocabulary_;
+    }
 
     /** Whether it uses other variables than X, Y, Z and t. */
     bool
@@ -123,7 +129,10 @@ namespace Morula
     /** Whether no component has a variable, as 1 and 2*pi have none, and all
      *  types have the same. */
     bool
-    is_constant() const;
+    is_constant() const
+    {
+      return !constants.empty() && of_types.empty();
+    }
 
     /** Whether each of the first @p n_components is this number, without any
      *  variable, for all types of cells. */
@@ -137,11 +146,17 @@ namespace Morula
 
     /** The expressions of types that have one of their own. */
     const std::map<unsigned int, Expression> &
-    types() const;
+    types() const
+    {
+      return of_types;
+    }
 
     /** Whether t occurs in the text. */
     bool
-    depends_on_time() const;
+    depends_on_time() const
+    {
+      return uses(Variable::t);
+    }
 
     /**
      * Refuses Z and z in two dimensions: they would be 0 at all cells, and Z >
@@ -153,11 +168,17 @@ namespace Morula
 
     /** Full path of the key. */
     const std::string &
-    key() const;
+    key() const
+    {
+      return key_;
+    }
 
     /** What the user wrote. */
     const std::string &
-    text() const;
+    text() const
+    {
+      return text_;
+    }
 
   private:
     /** Makes constants of what has no variables: cells need not ask a parser

@@ -96,16 +96,25 @@ namespace Morula
 
     /** When it is evaluated. */
     Evaluated
-    evaluated() const;
+    evaluated() const
+    {
+      return evaluated_;
+    }
 
     /** 1, or 3 for a vector. */
     unsigned int
-    components() const;
+    components() const
+    {
+      return n_components;
+    }
 
     /** Whether it is evaluated for cells during the run. Then it may use their
      *  types, and may differ between types. */
     bool
-    is_of_cells() const;
+    is_of_cells() const
+    {
+      return evaluated_ != Evaluated::founder && evaluated_ != Evaluated::place;
+    }
 
     /** Sets names that the text may use: the types of cells, with their
      *  numbers. */
@@ -119,7 +128,10 @@ namespace Morula
 
     /** The names of fields that the text may use. */
     const std::vector<std::string> &
-    field_names() const;
+    field_names() const
+    {
+      return fields;
+    }
 
     /** As this key, in the section of a type of cells. It is empty if the type
      *  has no value of its own. */
@@ -135,7 +147,10 @@ namespace Morula
 
     /** Whether there is no text. */
     bool
-    empty() const;
+    empty() const
+    {
+      return text_.empty();
+    }
 
     /**
      * The expression for @p dim dimensions, parsed when first asked for.
@@ -150,19 +165,28 @@ namespace Morula
     optional(const unsigned int dim) const;
 
     std::string
-    text() const override;
+    text() const override
+    {
+      return text_;
+    }
     void
     assign(const std::string &text) override;
     std::unique_ptr<Patterns::PatternBase>
     pattern() const override;
     std::string
-    allowed() const override;
+    allowed() const override
+    {
+      return "";
+    }
     void
     check(const unsigned int dim) const override;
 
     /** Whether some type of cells has another value. */
     bool
-    differs_by_type() const;
+    differs_by_type() const
+    {
+      return !of_types.empty();
+    }
 
     /** Compares the text. */
     friend bool

@@ -41,7 +41,10 @@ namespace Morula
 
     /** The variables in the text. */
     const std::vector<Variable> &
-    used() const;
+    used() const
+    {
+      return used_;
+    }
 
     /** The value, which may be infinite or NaN. */
     double

@@ -30,7 +30,10 @@ namespace Morula
 
     /** Full path, separated by '/'. Spelt in no other place of the code. */
     const std::string &
-    path() const;
+    path() const
+    {
+      return path_;
+    }
 
     /** Puts the key into a section: "A" becomes "Section/A". */
     void
@@ -38,11 +41,17 @@ namespace Morula
 
     /** The default as text. */
     const std::string &
-    default_text() const;
+    default_text() const
+    {
+      return default_text_;
+    }
 
     /** What --parameters prints; a unit stands at its end: "Units: um." */
     const std::string &
-    documentation() const;
+    documentation() const
+    {
+      return documentation_;
+    }
 
     /** What follows "Units: " in the documentation, or empty. */
     std::string
@@ -50,11 +59,17 @@ namespace Morula
 
     /** What --explain calls the key: its symbol, or its name. */
     std::string
-    short_name() const;
+    short_name() const
+    {
+      return symbol_.empty() ? path_.substr(path_.rfind('/') + 1) : symbol_;
+    }
 
     /** The texts that the key gets from values of `Method`, by these values. */
     const std::map<std::string, std::string> &
-    texts_by_method() const;
+    texts_by_method() const
+    {
+      return with_method;
+    }
 
     /** Adds a sentence about what a program adds to the key. */
     void
@@ -62,7 +77,10 @@ namespace Morula
 
     /** Full paths that the key had before. */
     const std::vector<std::string> &
-    former_paths() const;
+    former_paths() const
+    {
+      return former_paths_;
+    }
 
     /** The value as text: as the scene wrote it, unless a program has changed
      *  the value since. */
@@ -83,22 +101,32 @@ namespace Morula
 
     /** The words from which the value, or each entry of a list, is chosen. */
     virtual std::vector<std::string>
-    choices() const;
+    choices() const
+    {
+      return {};
+    }
 
     /** Whether the value consists of real numbers. */
     virtual bool
-    is_of_numbers() const;
+    is_of_numbers() const
+    {
+      return false;
+    }
 
     /** Whether the value names a file, or may do so. */
     bool
-    names_file() const;
+    names_file() const
+    {
+      return names_file_;
+    }
 
     /**
      * Refuses a value that is wrong by itself, in @p dim dimensions.
      * @throws InputError
      */
     virtual void
-    check(const unsigned int dim) const;
+    check(const unsigned int) const
+    {}
 
     /** Whether the value is the default, in whatever way it is written. */
     bool
@@ -114,7 +142,10 @@ namespace Morula
 
     /** The value as a message shows it: a number with six digits. */
     virtual std::string
-    shown() const;
+    shown() const
+    {
+      return text();
+    }
 
   protected:
     AnyKey(const std::string &path,

@@ -65,7 +65,10 @@ namespace Morula
     ~SurfaceMesh();
 
     const std::vector<SurfaceTriangle> &
-    triangles() const;
+    triangles() const
+    {
+      return all_triangles;
+    }
 
     BoundingBox<3>
     bounding_box() const;

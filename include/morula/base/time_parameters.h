@@ -27,7 +27,10 @@ namespace Morula
 
     /** Times closer than this count as equal, day. */
     double
-    slack() const;
+    slack() const
+    {
+      return time_slack * step;
+    }
 
     /** Checks each key, and refuses times that contradict each other. @throws
      *  InputError */
@@ -36,7 +39,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&end_time, &step, &smallest_step, &stop_at_cells, &tolerance};
+    }
   };
 } // namespace Morula
 

@@ -156,6 +156,12 @@ namespace Morula
     void
     declare_types(const std::vector<std::string> &types);
 
+    /** See EffectKeys. @throws InputError */
+    void
+    see_expressions(const std::vector<ExpressionKey *> &keys,
+                    const std::vector<std::string>     &types,
+                    const std::vector<std::string>     &fields);
+
     /** A copy whose keys have their defaults. */
     Catalogue
     with_defaults() const;

@@ -135,23 +135,39 @@ namespace Morula
 
     /** Whether anything grows. */
     bool
-    grows() const;
+    grows() const
+    {
+      return effects.law || effects.proliferation || !effects.factors.empty() ||
+             !effects.flows.empty() || is_mortal();
+    }
 
     /** Whether any effect changes cells. */
     bool
-    present() const;
+    present() const
+    {
+      return grows() || keeps_rows;
+    }
 
     /** The cell cycle, or null. */
     const CellCycle<dim> *
-    cycle() const;
+    cycle() const
+    {
+      return effects.proliferation ? &effects.proliferation->cycle() : nullptr;
+    }
 
     /** The columns of the cells. */
     const CellColumns<dim> &
-    columns() const;
+    columns() const
+    {
+      return columns_;
+    }
 
     /** The columns behind the variables of expressions. */
     const StateColumns<dim> &
-    state() const;
+    state() const
+    {
+      return state_;
+    }
 
     /** A reader for cells whose state is that of time @p t, day.
      *  @param past the step that led to it */
@@ -160,7 +176,10 @@ namespace Morula
 
     /** A cell's clock. Only with a cycle. */
     CycleState<dim>
-    clock(const CellView<dim, const double> &cell) const;
+    clock(const CellView<dim, const double> &cell) const
+    {
+      return effects.proliferation->clock(cell);
+    }
 
     /** Sets a cell's clock. Only with a cycle. */
     void
@@ -219,7 +238,10 @@ namespace Morula
 
     /** Whether a step's error is known: something follows the state. */
     bool
-    states_error() const;
+    states_error() const
+    {
+      return effects.states_error();
+    }
 
     /** Sets all columns but F to their values at the end of the step. F must
      *  still be that at @p t0. */
@@ -243,7 +265,10 @@ namespace Morula
 
     /** What befalls cells. */
     const Fates<dim> &
-    fates() const;
+    fates() const
+    {
+      return effects.fates;
+    }
 
     /** Whether cells can divide. */
     bool
@@ -253,12 +278,18 @@ namespace Morula
      */
     double
     time_of_division(const CellView<dim, const double> &cell,
-                     const double                       t) const;
+                     const double                       t) const
+    {
+      return dividing_fate().time_of_division(cell, t);
+    }
 
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. Only where cells divide. */
     bool
-    stays_inside() const;
+    stays_inside() const
+    {
+      return dividing_fate().stays_inside();
+    }
 
     /** Whether cells can die. */
     bool
@@ -285,7 +316,11 @@ namespace Morula
     /** Unit direction along which the daughters of a cell are placed. Only
      *  where cells divide. */
     Tensor<1, dim>
-    placement_axis(const CellView<dim, const double> &cell) const;
+    placement_axis(const CellView<dim, const double> &cell) const
+    {
+      return dividing_fate().placement_axis(
+        cell, state_.type.exists() ? cell.get(state_.type) : 0);
+    }
 
     /** Chooses the axis of a founder in @p cell anew that is in a cycle at
      *  t = 0, when the steady fields are known. */

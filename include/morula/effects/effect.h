@@ -25,6 +25,7 @@ namespace Morula
 {
   using namespace dealii;
 
+  class ExpressionKey;
   struct MaterialParameters;
 
   /**
@@ -39,40 +40,69 @@ namespace Morula
 
     /** The key that switches the effect on, or null if a name does. */
     virtual const AnyKey *
-    switch_key() const;
+    switch_key() const
+    {
+      return nullptr;
+    }
 
     /** The key whose value names sections of the effect, or null. */
     virtual const AnyKey *
-    names_key() const;
+    names_key() const
+    {
+      return nullptr;
+    }
 
     /** Makes the sections with the names in @p text, before any key has its
      *  value. @throws InputError */
     virtual void
-    declare_sections(const std::string &text);
+    declare_sections(const std::string &)
+    {}
 
     /** Makes the keys that stand in the sections of the cells' types, before
      * any key has its value. @param types names, in the order of their numbers
      */
     virtual void
-    declare_types(const std::vector<std::string> &types);
+    declare_types(const std::vector<std::string> &)
+    {}
+
+    /** Looks at the keys of cells, when all have their values, for what their
+     *  expressions say of the effect. @param types, fields names
+     *  @throws InputError */
+    virtual void
+    see_expressions(const std::vector<ExpressionKey *> &,
+                    const std::vector<std::string> &,
+                    const std::vector<std::string> &)
+    {}
 
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
     virtual std::string
-    how_to_switch_on() const;
+    how_to_switch_on() const
+    {
+      return switch_key() == nullptr ?
+               "" :
+               "Say where it acts by " + switch_key()->path();
+    }
 
     /** Whether cells divide by the effect, so that the scene's division axes
      *  are its own. */
     virtual bool
-    divides_cells() const;
+    divides_cells() const
+    {
+      return false;
+    }
 
     /** Refuses what the keys contradict in the material. @throws InputError */
     virtual void
-    check_with(const MaterialParameters &material) const;
+    check_with(const MaterialParameters &) const
+    {}
 
     /** What it is called in --explain; empty: the effect's name. */
     virtual std::string
-    topic() const;
+    topic() const
+    {
+      return "";
+    }
 
     /** What --explain says of its values: ", Key = value" for each. */
     virtual std::string
@@ -151,12 +181,14 @@ namespace Morula
     /** Says what the effect adds to the tables of a run, and which of its
      *  numbers outlive a step. */
     virtual void
-    declare(Tables<dim> &tables) const;
+    declare(Tables<dim> &) const
+    {}
 
     /** Sets the effect's columns of a founder at t = 0, if they differ from the
      *  declared values. Only called if the effect has columns. */
     virtual void
-    begin(const CellView<dim, double> &cell) const;
+    begin(const CellView<dim, double> &) const
+    {}
 
     /**
      * Sets the effect's columns of a cell at the end @p t1 (day) of a step.
@@ -166,15 +198,17 @@ namespace Morula
      *               have written already
      */
     virtual void
-    advance(const PresentCell<dim>      &before,
-            const CellView<dim, double> &after,
-            const double                 t0,
-            const double                 t1) const;
+    advance(const PresentCell<dim> &,
+            const CellView<dim, double> &,
+            const double,
+            const double) const
+    {}
 
     /** Refuses a founder that the effect cannot handle, in its state at t = 0
      *  and with steps of @p step days. @throws InputError */
     virtual void
-    check_cell(const PresentCell<dim> &founder, const double step) const;
+    check_cell(const PresentCell<dim> &, const double) const
+    {}
 
     /**
      * Refuses what the effect cannot do at these founders and boundary points,
@@ -182,11 +216,13 @@ namespace Morula
      * @throws InputError
      */
     virtual void
-    check(const Preview<dim> &scene) const;
+    check(const Preview<dim> &) const
+    {}
 
     /** Adds warnings. Collective. */
     virtual void
-    review(const Preview<dim> &scene, Review &review) const;
+    review(const Preview<dim> &, Review &) const
+    {}
   };
 } // namespace Morula
 

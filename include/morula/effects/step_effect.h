@@ -26,39 +26,64 @@ namespace Morula
   };
 
   /**
-   * Something that happens to the tissue as a whole once a step, or that a run
-   * keeps account of. Both moments see a tissue that is whole: no attempt is
-   * under way, so that a step that is halved calls nothing twice. Collective.
+   * The moments of a run at which an effect may act on the tissue as a whole,
+   * or keep account of it. They see a tissue that is whole: no attempt is under
+   * way, so that a step that is halved calls nothing twice. Collective.
    */
   template <int dim>
-  class StepEffect : public Effect<dim>
+  class Moments
   {
   public:
+    virtual ~Moments() = default;
+
     /** The run begins at t = 0, or goes on from a snapshot whose numbers are in
      *  @p moment already. */
     virtual void
-    start(const Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    start(const Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The run begins at t = 0, after start(): may write the cells' columns,
      * but for deformation and growth. Not called where a run is resumed. */
     virtual void
-    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    settle(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The cells have moved, divided and been removed, at @p moment.t the end
      * of the step: may let cells change places, before the surface follows. */
     virtual void
-    rearrange(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    rearrange(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
+
+    /** The surface has its points at @p moment.t, which the next step begins
+     *  with: at t = 0, and at the end of each step, before after(). May write
+     *  columns likewise. */
+    virtual void
+    surfaced(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The step begins, at @p moment.t: may write the cells' columns, but for
      *  deformation and growth. */
     virtual void
-    before(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    before(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
 
     /** The step is done, at @p moment.t its end: cells have moved, divided and
      *  been removed. May write columns likewise. */
     virtual void
-    after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+    after(Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
+
+    /** Gives the values of the columns of Tables::add_number() that follow from
+     *  the state at @p moment.t. Nothing is to be kept. */
+    virtual void
+    describe(const Tissue<dim> &, const MomentOfRun<dim> &) const
+    {}
   };
+
+  /** Something that happens to the tissue as a whole once a step. */
+  template <int dim>
+  class StepEffect : public Effect<dim>, public Moments<dim>
+  {};
 } // namespace Morula
 
 #endif

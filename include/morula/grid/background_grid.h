@@ -73,14 +73,23 @@ namespace Morula
     /** This rank's part of the weights of the last partition. With the parts of
      *  all ranks the partition can be made again. */
     const GridCellCounts &
-    weights() const;
+    weights() const
+    {
+      return weights_;
+    }
 
     /** Sum of the weights of the last partition over all ranks. */
     double
-    total_weight() const;
+    total_weight() const
+    {
+      return total_weight_;
+    }
 
     const GridBox<dim> &
-    box() const;
+    box() const
+    {
+      return box_;
+    }
 
     /** Rank that owns the grid cell of the box with this number. */
     unsigned int
@@ -92,7 +101,10 @@ namespace Morula
 
     /** This rank's grid cells of the box, in the order of their numbers. */
     const std::vector<OwnedGridCell> &
-    owned_grid_cells() const;
+    owned_grid_cells() const
+    {
+      return owned;
+    }
 
     /** The triangulation's cell of a grid cell that this rank owns; the
      *  triangulation's end() for one of another rank. */
@@ -101,18 +113,30 @@ namespace Morula
 
     /** Sums counts over all ranks, see sum_at_owners(). Collective. */
     GridCellCounts
-    sum_at_owners(const GridCellCounts &counts) const;
+    sum_at_owners(const GridCellCounts &counts) const
+    {
+      return Morula::sum_at_owners(counts, box_, owners, comm);
+    }
 
     const Triangulation<dim> &
-    triangulation() const;
+    triangulation() const
+    {
+      return tria;
+    }
 
     MPI_Comm
-    communicator() const;
+    communicator() const
+    {
+      return comm;
+    }
 
     /** Coordinates of the grid cell that holds @p x, in the box or not. The
      *  grid lines stand at offset + i h. */
     GridIndex<dim>
-    locate(const Point<dim> &x) const;
+    locate(const Point<dim> &x) const
+    {
+      return box_.locate(x);
+    }
 
   private:
     unsigned int

@@ -60,7 +60,10 @@ namespace Morula
 
     /** Whether some search has met the window's edge. */
     bool
-    needs_wider_window() const;
+    needs_wider_window() const
+    {
+      return met_edge;
+    }
 
   private:
     std::vector<unsigned int>

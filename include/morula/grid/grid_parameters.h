@@ -21,7 +21,11 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {
+        &spacing, &offset, &occupation_parameter, &extension, &points_per_cell};
+    }
   };
 } // namespace Morula
 

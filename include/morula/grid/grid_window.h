@@ -46,11 +46,17 @@ namespace Morula
 
     /** The window's grid cells and their numbers. */
     const GridBoxes<dim> &
-    boxes() const;
+    boxes() const
+    {
+      return boxes_;
+    }
 
     /** The grid's box. */
     const GridBox<dim> &
-    whole() const;
+    whole() const
+    {
+      return whole_;
+    }
 
     /** Whether the window holds all grid cells of the grid whose coordinates
      *  differ by at most @p radius from those of @p center, but for those that
@@ -113,7 +119,10 @@ namespace Morula
     }
 
     MPI_Comm
-    communicator() const;
+    communicator() const
+    {
+      return comm;
+    }
 
   private:
     using Ranges = std::vector<GridRange<dim>>;

@@ -28,7 +28,10 @@ namespace Morula
     unsigned int first_unknown = numbers::invalid_unsigned_int;
 
     unsigned int
-    n_unknowns() const;
+    n_unknowns() const
+    {
+      return quadratic ? (dim + 1) * (dim + 2) / 2 : dim + 1;
+    }
 
     /** The unknowns of the spline centred at @p x (µm) and their weights.
      *  @param h grid spacing, µm */

@@ -33,7 +33,10 @@ namespace Morula
 
     /** Smallest thickness of a grid cell's rows in units of h, at most 1. */
     float
-    least_thickness(const unsigned int number) const;
+    least_thickness(const unsigned int number) const
+    {
+      return thicknesses[number];
+    }
 
     /** The largest of these among the grid cell and its neighbours with
      *  tissue, so that the tip of a large body is not thin. */
@@ -44,7 +47,10 @@ namespace Morula
     /** Number of directions in which the grid cell's row is shorter than
      *  1.5 h. */
     unsigned int
-    n_thin(const unsigned int number) const;
+    n_thin(const unsigned int number) const
+    {
+      return n_thin_[number];
+    }
 
     /** See Occupancy. */
     bool
@@ -53,7 +59,10 @@ namespace Morula
 
     /** See Occupancy. */
     bool
-    is_inner_candidate(const unsigned int number) const;
+    is_inner_candidate(const unsigned int number) const
+    {
+      return candidates[number];
+    }
 
   private:
     void

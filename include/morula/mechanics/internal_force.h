@@ -50,7 +50,10 @@ namespace Morula
      *  points. Not pointwise. */
     double
     log_volume_ratio(const unsigned int     grid_cell,
-                     const LocalField<dim> &field) const;
+                     const LocalField<dim> &field) const
+    {
+      return mean(grid_cell, field, GrowthAt::current).theta();
+    }
 
   protected:
     const MaterialPoints<dim> &points;

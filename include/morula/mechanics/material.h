@@ -32,14 +32,25 @@ namespace Morula
 
     /** Whether the energy is counted per grown volume, W = V⁰ det F_g. */
     bool
-    per_grown_volume() const;
+    per_grown_volume() const
+    {
+      return energy_per == "grown volume";
+    }
 
     VolumetricStrain
-    volumetric_form() const;
+    volumetric_form() const
+    {
+      return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
+             volumetric_strain == "projected" ? VolumetricStrain::projected :
+                                                VolumetricStrain::pooled;
+    }
 
     /** Whether cells forget their stress when they change their type. */
     bool
-    forgets_stress() const;
+    forgets_stress() const
+    {
+      return on_transition == "forget stress";
+    }
 
     /** Warns of tissue that locks. */
     void

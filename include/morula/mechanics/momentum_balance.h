@@ -64,14 +64,23 @@ namespace Morula
     /** The values of @p u at the relevant unknowns, as a pair term wants them.
      *  Collective. */
     std::vector<double>
-    relevant_values(const Vector &u) const;
+    relevant_values(const Vector &u) const
+    {
+      return assembly.unknowns().fetch(u);
+    }
 
     /** u = 0. Collective. */
     Vector
-    rest() const;
+    rest() const
+    {
+      return assembly.unknowns().zero();
+    }
 
     Evaluation
-    residual(const Vector &u, Vector &R) const override;
+    residual(const Vector &u, Vector &R) const override
+    {
+      return evaluate(u, R, nullptr);
+    }
 
     double
     residual_magnitude(const Vector &u) const override;
@@ -106,7 +115,10 @@ namespace Morula
     tangent(const Vector &u, const GrowthAt growth) override;
 
     const RankOne *
-    rank_one() const override;
+    rank_one() const override
+    {
+      return of_content ? &*of_content : nullptr;
+    }
 
     /** Volume of the enclosure at u, µm^dim. Collective. */
     double
@@ -156,7 +168,11 @@ namespace Morula
                 Vector       *magnitudes) const;
 
     static typename LocalSystem<dim>::Wanted
-    wanted(const Vector *magnitudes);
+    wanted(const Vector *magnitudes)
+    {
+      return magnitudes != nullptr ? LocalSystem<dim>::rounding :
+                                     LocalSystem<dim>::energy_and_residual;
+    }
 
     /** Takes a grid cell's extremes into account. */
     void

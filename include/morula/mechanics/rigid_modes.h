@@ -74,7 +74,10 @@ namespace Morula
 
     /** Whether a piece has an unsupported rigid motion. */
     bool
-    has_free_motion(const unsigned int piece) const;
+    has_free_motion(const unsigned int piece) const
+    {
+      return !pieces[piece].free.empty();
+    }
 
     static constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
     static constexpr unsigned int n_modes     = dim + n_rotations;

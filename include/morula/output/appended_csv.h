@@ -5,7 +5,7 @@
 #define morula_output_appended_csv_h
 
 #include <morula/output/digest.h>
-#include <morula/output/part_of_file.h>
+#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 

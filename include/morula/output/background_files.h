@@ -4,16 +4,29 @@
 #ifndef morula_output_background_files_h
 #define morula_output_background_files_h
 
-#include <morula/output/pending_file.h>
-
 #include <mpi.h>
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <vector>
 
 namespace Morula
 {
+  /** A file that has begun, as what is left to do. All throw a
+   *  std::runtime_error with path and reason. */
+  struct PendingFile
+  {
+    /** Writes this rank's part, or makes what will be written. No
+     *  communication: another thread does it. */
+    std::function<void()> write;
+    /** Replaces the old file, when all ranks have written. Collective. */
+    std::function<void()> commit;
+    /** Where the file has another stage: begins it, when all ranks have done
+     * this one, which then has no commit(). Collective. */
+    std::function<std::unique_ptr<PendingFile>()> next;
+  };
+
   /**
    * Files that are written while the run goes on: a thread of each rank writes
    * its parts, without messages. At most one lot of them is in memory. All
@@ -36,12 +49,16 @@ namespace Morula
 
     /** Whether there are files that are not finished. */
     bool
-    pending() const;
+    pending() const
+    {
+      return !files.empty();
+    }
 
     /** Whether there are, and all ranks have written them, so that finish()
-     * need not wait. */
+     * need not wait. Begins the next stage of files that have one.
+     * @throws as finish() */
     bool
-    written() const;
+    written();
 
     /**
      * Waits for the files, if there are any, and replaces the old ones.
@@ -52,6 +69,13 @@ namespace Morula
     finish();
 
   private:
+    void
+    launch(const std::launch policy);
+    /** Waits for the thread. @return whether files have another stage, which
+     *  has begun now */
+    bool
+    end_stage();
+
     const MPI_Comm                            comm;
     std::vector<std::unique_ptr<PendingFile>> files;
     // Behind the files, as its end waits for the thread that writes them.

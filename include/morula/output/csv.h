@@ -4,9 +4,8 @@
 #ifndef morula_output_csv_h
 #define morula_output_csv_h
 
-#include <morula/output/part_of_file.h>
-#include <morula/output/pending_file.h>
 #include <morula/output/point_fields.h>
+#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
@@ -22,8 +21,7 @@ namespace Morula
    * appears when it is complete. Collective.
    * @param shared_from size, bytes, from which on several ranks write the file
    *        together if the file system allows that; else rank 0 does
-   * @return the file with the text that is to be written; nullptr, on all
-   * ranks, if rank 0 has written the file
+   * @return the file in two stages: its text is made, then written
    * @throws std::runtime_error, on all ranks, with path and reason
    */
   template <int dim>

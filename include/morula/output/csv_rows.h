@@ -28,6 +28,10 @@ namespace Morula
   std::string
   csv_header(const std::vector<std::string> &names);
 
+  /** Appends one row of @p n values, with the newline. */
+  void
+  append_row(std::string &text, const double *values, const unsigned int n);
+
   /** One row of @p n values, with the newline. */
   std::string
   csv_row(const double *values, const unsigned int n);

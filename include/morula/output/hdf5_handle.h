@@ -66,7 +66,10 @@ namespace Morula
     /** What the library has said of its first error on this rank; empty: it had
      *  none. */
     const std::string &
-    reason() const;
+    reason() const
+    {
+      return reason_;
+    }
 
     Hdf5Silence(const Hdf5Silence &) = delete;
     Hdf5Silence &

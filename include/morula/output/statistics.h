@@ -50,7 +50,10 @@ namespace Morula
     double &
     of_effect(const std::string &name);
     double
-    of_effect(const std::string &name) const;
+    of_effect(const std::string &name) const
+    {
+      return const_cast<StatisticsRow *>(this)->of_effect(name);
+    }
 
     /** Names and values of the file's columns, in their order. */
     std::vector<std::pair<std::string, double>>

@@ -4,9 +4,8 @@
 #ifndef morula_output_vtu_h
 #define morula_output_vtu_h
 
-#include <morula/output/part_of_file.h>
-#include <morula/output/pending_file.h>
 #include <morula/output/point_fields.h>
+#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 

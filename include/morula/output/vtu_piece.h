@@ -56,7 +56,10 @@ namespace Morula
     explicit VtuPiece(const PointFields<dim> &fields);
 
     std::size_t
-    n_parts() const;
+    n_parts() const
+    {
+      return parts.size();
+    }
 
     /** Bytes of a piece with so many points. */
     std::uint64_t

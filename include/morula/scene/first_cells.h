@@ -64,7 +64,10 @@ namespace Morula
 
     /** The rules by which the founders develop. */
     const CellDevelopment<dim> &
-    development() const;
+    development() const
+    {
+      return development_;
+    }
 
   private:
     const Founders<dim>          &founders;

@@ -105,7 +105,10 @@ namespace Morula
 
     /** Whether there is a growth law. */
     bool
-    has_growth() const;
+    has_growth() const
+    {
+      return law_of_growth() != "none";
+    }
 
     /** Whether cells of the type number @p type grow by the law. */
     bool
@@ -123,11 +126,18 @@ namespace Morula
 
     /** Whether anything lets the tissue grow, shrink or change its shape. */
     bool
-    has_active_tissue() const;
+    has_active_tissue() const
+    {
+      return has_growth() || has_any(catalogue.growth_factors) ||
+             has_proliferation();
+    }
 
     /** Whether the shear of some cells relaxes. */
     bool
-    flows() const;
+    flows() const
+    {
+      return has_any(catalogue.flows);
+    }
 
     bool
     has_proliferation() const;
@@ -154,7 +164,10 @@ namespace Morula
 
     /** Whether the file or an override has set the key. */
     bool
-    has_set(const AnyKey &key) const;
+    has_set(const AnyKey &key) const
+    {
+      return as_written.count(key.path()) > 0;
+    }
 
     /** All keys but those of the types of cells. */
     KeyList

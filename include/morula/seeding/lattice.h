@@ -40,7 +40,10 @@ namespace Morula
 
     /** L_p, µm. */
     double
-    site_spacing() const;
+    site_spacing() const
+    {
+      return spacing;
+    }
 
     /** The numbers of the up to 3^dim - 1 sites around a site, ascending. */
     std::vector<std::uint64_t>

@@ -67,7 +67,10 @@ namespace Morula
 
     /** Whether the shape has a Radius. */
     bool
-    has_radius() const;
+    has_radius() const
+    {
+      return shape == "sphere" || shape == "cylinder";
+    }
 
     /** Whether Size is an extent of the shape in direction @p d. */
     bool
@@ -75,23 +78,39 @@ namespace Morula
 
     /** Whether the cells fill a closed surface from a file. */
     bool
-    is_mesh() const;
+    is_mesh() const
+    {
+      return shape == "mesh";
+    }
 
     /** Whether the cells themselves come from a file. */
     bool
-    is_points() const;
+    is_points() const
+    {
+      return shape == "points";
+    }
 
     /** Whether the tissue comes from a file, and may lie anywhere. */
     bool
-    is_from_file() const;
+    is_from_file() const
+    {
+      return is_mesh() || is_points();
+    }
 
     /** Whether there are no boundary points. */
     bool
-    has_no_surface() const;
+    has_no_surface() const
+    {
+      return is_points() && points_surface == "none";
+    }
 
     /** Whether the surface around the cells comes from a file, too. */
     bool
-    has_surface_file() const;
+    has_surface_file() const
+    {
+      return is_points() && points_surface != "automatic" &&
+             points_surface != "always" && points_surface != "none";
+    }
   };
 
   /**

@@ -30,7 +30,10 @@ namespace Morula
 
     /** The last count. */
     unsigned int
-    n_pieces() const;
+    n_pieces() const
+    {
+      return n_pieces_;
+    }
 
   private:
     const bool      counts;

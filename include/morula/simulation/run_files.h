@@ -83,7 +83,10 @@ namespace Morula
 
     /** Whether the scene asks for cells and surface in any format. */
     bool
-    writes_points() const;
+    writes_points() const
+    {
+      return has_format("vtu") || has_format("csv");
+    }
 
     /** Whether output is due at @p time (day). Always true for the last state.
      */
@@ -127,7 +130,10 @@ namespace Morula
 
     /** Wall seconds since the start of the run, over all resumptions. */
     double
-    wall_seconds() const;
+    wall_seconds() const
+    {
+      return wall_seconds_before + clock.wall_time();
+    }
 
   private:
     void
@@ -140,7 +146,10 @@ namespace Morula
     setup() const;
 
     std::string
-    path(const std::string &file) const;
+    path(const std::string &file) const
+    {
+      return scene.output_directory + "/" + file;
+    }
 
     /** Whether the clock asks for a snapshot. Collective. */
     bool

@@ -63,7 +63,10 @@ namespace Morula
     /** The row of statistics.csv for the present state and the step that led to
      *  it. */
     const StatisticsRow &
-    last_row() const;
+    last_row() const
+    {
+      return row;
+    }
 
     /** Mechanics of cell number @p p of the present state, in the order of
      *  Tissue::cells(), as in cells-NNNN.csv. */
@@ -72,7 +75,10 @@ namespace Morula
 
     /** Size of the first step's equations, for --explain. Collective. */
     unsigned int
-    n_unknowns();
+    n_unknowns()
+    {
+      return dim * splines().n_unknowns();
+    }
 
   private:
     Simulation(const Scene &scene, const MPI_Comm comm);
@@ -90,7 +96,7 @@ namespace Morula
     bool
     carve();
     void
-    begin_step_effects();
+    begin_moments();
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);
@@ -109,13 +115,11 @@ namespace Morula
      *  by cell. Collective. */
     double
     error_of_step(const std::vector<double> &missed) const;
-    using MomentOfStep =
-      void (StepEffect<dim>::*)(Tissue<dim> &, const MomentOfRun<dim> &) const;
-    /** Calls this moment of all step effects. Collective. */
+    using MomentOfStep = void (Moments<dim>::*)(Tissue<dim> &,
+                                                const MomentOfRun<dim> &) const;
+    /** Calls this moment of all effects that have moments. Collective. */
     void
-    for_step_effects(const MomentOfStep moment,
-                     const double       t,
-                     const double       dt);
+    for_moments(const MomentOfStep moment, const double t, const double dt);
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution

@@ -5,11 +5,10 @@
 #define morula_simulation_step_equilibrium_h
 
 #include <morula/effects/contact/contact_pairs.h>
+#include <morula/effects/part_of_step.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
-#include <morula/simulation/held_traction.h>
-#include <morula/simulation/lumen_of_run.h>
 #include <morula/simulation/surface_forces.h>
 #include <morula/simulation/tissue_model.h>
 #include <morula/solver/condition_estimate.h>
@@ -36,8 +35,8 @@ namespace Morula
       double                        t, t_next; // day
       const DevelopmentOfStep<dim> &growth;
       double                        typical_stiffness; // kPa
-      /** The lumen before the step. There is nothing without a lumen. */
-      std::optional<LumenMemory> lumen;
+      /** What outlives a step, as it was before. */
+      const NamedNumbers &kept;
       /** Whether half the step is to be tried, before a proximal path, where
        * the step is plainly too long. */
       bool halve_first = true;
@@ -59,9 +58,9 @@ namespace Morula
     /** What was found for a step. */
     struct Solution
     {
-      Equilibrium::Vector        u;      // displacement, µm
-      std::optional<LumenMemory> lumen;  // after the step
-      SurfaceForces<dim>         forces; // at its end
+      Equilibrium::Vector u;      // displacement, µm
+      NamedNumbers        kept;   // what the step has changed of it
+      SurfaceForces<dim>  forces; // at its end
     };
 
     using Supports = std::vector<typename RigidModes<dim>::Support>;
@@ -92,15 +91,18 @@ namespace Morula
   private:
     using TermList = typename MomentumBalance<dim>::TermList;
     using MassList = std::vector<typename RigidModes<dim>::Mass>;
+    using Parts    = std::vector<std::unique_ptr<PartOfStep<dim>>>;
 
     Solution
     balance(const Attempt                    &attempt,
             const MaterialPoints<dim>        &points,
             NewtonReport                     &report,
             std::optional<ConditionEstimate> &condition) const;
-    /** Newton's method from u on, and a proximal path where it fails. */
+    /** Newton's method from u on, and a proximal path where it fails.
+     *  @param is_exact as PartOfStep::is_exact() of any part */
     Equilibrium::Evaluation
     find(const Attempt        &attempt,
+         const bool            is_exact,
          MomentumBalance<dim> &balance,
          const LinearProblem  &linear,
          Equilibrium::Vector  &u,
@@ -109,12 +111,9 @@ namespace Morula
     SurfaceForces<dim>
     forces(const Attempt                        &attempt,
            const TermList                       &list,
-           const std::optional<Enclosure<dim>>  &lumen,
+           const Parts                          &parts,
            const std::vector<ContactForce<dim>> &of_contact,
            const Solution                       &solution) const;
-    /** The lumen at the beginning of the step, if there is one. */
-    std::optional<Enclosure<dim>>
-    lumen_of(const Attempt &attempt) const;
     /** Where Newton's iterations begin; nothing if they begin at u = 0. */
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const;
@@ -126,18 +125,20 @@ namespace Morula
     std::vector<Equilibrium::Vector>
     inertia() const;
 
-    /** @param traction of held points, or null if it belongs to the term */
     TermList
     terms(const Attempt             &attempt,
           const MaterialPoints<dim> &points,
-          const HeldTraction<dim>   *traction) const;
+          const Parts               &parts) const;
     /** Adds the terms of the conditions that load the surface. @throws
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
     /** Whether some bodies may touch in the step. */
     bool
-    has_contact() const;
+    has_contact() const
+    {
+      return contact != nullptr && contact->any();
+    }
 
     /** A drag that is too weak to matter elsewhere. It decides where pieces go
      *  that loads push and nothing holds: doc/theory.md (4.8f). */

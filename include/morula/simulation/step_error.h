@@ -29,7 +29,10 @@ namespace Morula
     /** The error of the whole run, E of (5.10): relative, as a volume or a
      *  strain. */
     double
-    total() const;
+    total() const
+    {
+      return changes + last;
+    }
   };
 
   /**

@@ -5,6 +5,7 @@
 #define morula_simulation_surface_forces_h
 
 #include <morula/effects/contact/contact_forces.h>
+#include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
@@ -70,12 +71,9 @@ namespace Morula
               const LoadedPoints<dim>       &points,
               const double                   t);
 
-    /** Adds a row for a lumen at this pressure (kPa). @param gain the term of
-     * its change of volume */
+    /** Adds a row for a force that an effect has as a whole. */
     void
-    add_lumen(const Lumen<dim> &lumen,
-              const Term<dim>  &gain,
-              const double      pressure);
+    add_part(const ForceOnPoints<dim> &force);
 
     /** Adds a row for each two bodies that touch, with the force of the one
      * with the lower number on the other, and the pressure at all points.

@@ -35,7 +35,10 @@ namespace Morula
     };
 
     State
-    state() const;
+    state() const
+    {
+      return state_;
+    }
 
     /** Continues from @p state. Step and End time may have changed. */
     void
@@ -43,15 +46,24 @@ namespace Morula
 
     /** Present time, day. */
     double
-    time() const;
+    time() const
+    {
+      return at(state_.part);
+    }
 
     /** The step that led to the present state. */
     PastStep
-    past() const;
+    past() const
+    {
+      return {state_.past, time()};
+    }
 
     /** End of the next step, day. */
     double
-    next() const;
+    next() const
+    {
+      return at(state_.part + 1);
+    }
 
     /** Makes the next step as long as the error @p mu of the last one allows,
      *  doc/theory.md (5.11): shorter at once, longer by a factor 2 at most.
@@ -65,7 +77,10 @@ namespace Morula
     begin_anew();
 
     bool
-    finished() const;
+    finished() const
+    {
+      return time() >= parameters.end_time - time_slack * parameters.step;
+    }
 
     /** Records that the step has succeeded. */
     void

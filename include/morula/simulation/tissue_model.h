@@ -14,6 +14,8 @@
 #include <mpi.h>
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -35,6 +37,8 @@ namespace Morula
     const std::vector<std::unique_ptr<const Trait<dim>>> traits;
     const std::vector<typename SceneEffects<dim>::NamedStepEffect> step_effects;
     const std::vector<typename SceneEffects<dim>::NamedForce>      forces;
+    /** Of step effects, then of conditions, with the effects' names. */
+    const std::vector<std::pair<std::string, const Moments<dim> *>> moments;
 
     /** The columns of the boundary points that the scene needs. */
     BoundaryColumns<dim>
@@ -43,7 +47,10 @@ namespace Morula
     /** An empty tissue whose cells and boundary points have the columns that
      *  the effects need. */
     Tissue<dim>
-    empty_tissue(const MPI_Comm comm) const;
+    empty_tissue(const MPI_Comm comm) const
+    {
+      return {scene.grid, development.columns(), comm, boundary_columns()};
+    }
 
     /** Whether the cell waits at the size checkpoint at @p t, day. */
     bool

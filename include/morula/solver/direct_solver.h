@@ -52,7 +52,10 @@ namespace Morula
     /** Whether the factor is that of a raised diagonal. The least shift, which
      *  supports unsupported motions, does not count. */
     bool
-    has_shifted() const;
+    has_shifted() const
+    {
+      return shift > least_shift;
+    }
 
   private:
     void

@@ -38,7 +38,10 @@ namespace Morula
     read();
 
     const Matrix &
-    matrix() const;
+    matrix() const
+    {
+      return K;
+    }
 
     /** Whether this is @p K, with the pattern that it has now. */
     bool

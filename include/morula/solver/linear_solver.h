@@ -63,12 +63,18 @@ namespace Morula
     /** The most negative p·Kp / p·|diag K|p that the last solve met; 0: it met
      *  none. A direct solver sees no curvature: then it is minus σ. */
     double
-    curvature() const;
+    curvature() const
+    {
+      return curvature_;
+    }
 
     /** Whether any tangent was indefinite, so that a diagonal has been raised.
      */
     bool
-    has_shifted() const;
+    has_shifted() const
+    {
+      return has_shifted_;
+    }
 
   private:
     void

@@ -53,7 +53,10 @@ namespace Morula
 
     /** Whether this rank's factorisation is positive. */
     bool
-    is_positive() const;
+    is_positive() const
+    {
+      return factor->is_positive();
+    }
 
     /** Neighbours have to do the same. */
     void

@@ -34,7 +34,10 @@ namespace Morula
     /** The last factorisation; null: there is none, and Jacobi's preconditioner
      *  has to do. */
     const OverlappingCholesky *
-    factorisation() const;
+    factorisation() const
+    {
+      return factorisation_.get();
+    }
 
   private:
     const LinearProblem                 &problem;

@@ -27,13 +27,19 @@ namespace Morula
     Evaluation
     residual(const Vector &u, Vector &R) const override;
     double
-    residual_magnitude(const Vector &u) const override;
+    residual_magnitude(const Vector &u) const override
+    {
+      return problem.residual_magnitude(u);
+    }
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
     void
     use_growth_at_end() override;
     const RankOne *
-    rank_one() const override;
+    rank_one() const override
+    {
+      return problem.rank_one();
+    }
 
   private:
     Equilibrium &problem;

@@ -38,7 +38,10 @@ namespace Morula
 
     /** Whether at() has returned the same matrix once more. */
     bool
-    kept() const;
+    kept() const
+    {
+      return kept_;
+    }
 
   private:
     Equilibrium  &problem;

@@ -50,13 +50,6 @@ namespace Morula
   }
 
 
-  KeyList
-  FixedAxisParameters::list()
-  {
-    return {&axis};
-  }
-
-
   template <int dim>
   FixedAxis<dim>::FixedAxis(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)
@@ -67,12 +60,6 @@ namespace Morula
     if (direction.is_always(0., dim))
       parameters.axis.refuse(zero_is_refused<dim>(), remedy_of_zero);
   }
-
-
-  template <int dim>
-  void
-  FixedAxis<dim>::check(const Preview<dim> &) const
-  {}
 
 
   template <int dim>
@@ -134,13 +121,6 @@ namespace Morula
              Evaluated::event,
              3)
   {}
-
-
-  KeyList
-  RadialAxisParameters::list()
-  {
-    return {&center};
-  }
 
 
   template <int dim>

@@ -35,14 +35,6 @@ namespace Morula
 
   template <int dim>
   double
-  CellAt<dim>::value(const Expression &expression) const
-  {
-    return value(expression, t);
-  }
-
-
-  template <int dim>
-  double
   CellAt<dim>::value(const Expression &expression, const double when) const
   {
     // An expression of X alone keeps the founder's value, also where there is
@@ -266,52 +258,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  CellCycle<dim>::stays_inside() const
-  {
-    return stay_inside;
-  }
-
-
-  template <int dim>
-  double
-  CellCycle<dim>::axis_spread(const PresentCell<dim> &cell,
-                              const double            t) const
-  {
-    return cell.value(axis_spread_, t);
-  }
-
-
-  template <int dim>
-  double
-  CellCycle<dim>::least_anisotropy(const PresentCell<dim> &cell,
-                                   const double            t) const
-  {
-    return cell.value(least_anisotropy_, t);
-  }
-
-
-  template <int dim>
-  bool
-  CellCycle<dim>::has_checkpoint() const
-  {
-    return !size_checkpoint.is_always(0.);
-  }
-
-
-  template <int dim>
-  bool
-  CellCycle<dim>::is_held(const CycleState<dim> &state,
-                          const CellAt<dim>     &at,
-                          const double           t,
-                          const double           J_e) const
-  {
-    return state.phase == CyclePhase::waiting &&
-           state.event_time <= t + slack && !passes_checkpoint(at, J_e, t);
-  }
-
-
-  template <int dim>
   unsigned int
   CellCycle<dim>::phase_number(const CycleState<dim> &state,
                                const CellAt<dim>     &at,
@@ -390,15 +336,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  CellCycle<dim>::cycle_duration(const CycleState<dim> &state,
-                                 const CellAt<dim>     &at) const
-  {
-    return has_own_duration() ? state.duration : at.value(duration);
-  }
-
-
-  template <int dim>
   void
   CellCycle<dim>::wait(CycleState<dim>   &state,
                        const CellAt<dim> &at,
@@ -437,22 +374,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  CellCycle<dim>::keeps_exit_rate() const
-  {
-    return exit_rate_follows_state;
-  }
-
-
-  template <int dim>
-  double
-  CellCycle<dim>::exit_rate_at(const CellAt<dim> &at) const
-  {
-    return at.value(exit_rate);
-  }
-
-
-  template <int dim>
   void
   CellCycle<dim>::make_good(CycleState<dim>   &state,
                             const CellAt<dim> &at,
@@ -465,22 +386,6 @@ namespace Morula
                                  exit_rate_at(at),
                                  state.exit_rate,
                                  past.length());
-  }
-
-
-  template <int dim>
-  bool
-  CellCycle<dim>::has_own_duration() const
-  {
-    return own_duration;
-  }
-
-
-  template <int dim>
-  bool
-  CellCycle<dim>::has_own_hazard() const
-  {
-    return own_hazard;
   }
 
 

@@ -272,14 +272,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  unsigned int
-  CellTypes<dim>::size() const
-  {
-    return transitions.size();
-  }
-
-
   template class CellTypes<2>;
   template class CellTypes<3>;
 } // namespace Morula

@@ -49,14 +49,6 @@ namespace Morula
 
 
   template <int dim>
-  std::uint64_t
-  CycleColumns<dim>::lineage_key(const CellView<dim, const double> &cell) const
-  {
-    return cell.get(lineage_key_);
-  }
-
-
-  template <int dim>
   CycleState<dim>
   CycleColumns<dim>::load(const CellView<dim, const double> &cell) const
   {

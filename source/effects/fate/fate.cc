@@ -19,74 +19,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  Fate<dim>::pass(const PresentCell<dim> &,
-                  const CellView<dim, double> &,
-                  const Stretch &,
-                  const double) const
-  {}
-
-
-  template <int dim>
-  void
-  Fate<dim>::expect(const PresentCell<dim> &,
-                    const CellView<dim, double> &,
-                    const double,
-                    const bool) const
-  {}
-
-
-  template <int dim>
-  void
-  Fate<dim>::end_of_life(const PresentCell<dim> &,
-                         const CellView<dim, double> &,
-                         const double) const
-  {}
-
-
-  template <int dim>
-  void
-  Fate<dim>::inherit(const CellView<dim, double> &,
-                     const StateColumns<dim> &,
-                     const unsigned int,
-                     const double) const
-  {}
-
-
-  template <int dim>
-  std::vector<const Expression *>
-  Fate<dim>::rates(const unsigned int) const
-  {
-    return {};
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::divides() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::follows_growth() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  void
-  Fate<dim>::grow(const PresentCell<dim> &,
-                  const CellView<dim, double> &,
-                  const double,
-                  const Stretch &) const
-  {}
-
-
-  template <int dim>
   double
   Fate<dim>::time_of_division(const CellView<dim, const double> &,
                               const double) const
@@ -104,47 +36,6 @@ namespace Morula
     Assert(false, ExcNotImplemented());
     return {};
   }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::stays_inside() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::is_deadly() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::may_strike() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::strikes(const PresentCell<dim> &, const double) const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  void
-  Fate<dim>::strike(const PresentCell<dim> &,
-                    const CellView<dim, double> &,
-                    const double,
-                    std::vector<CellEvent> &) const
-  {}
 
 
   template <int dim>
@@ -171,23 +62,6 @@ namespace Morula
   Fate<dim>::removal_time(const CellView<dim, const double> &) const
   {
     return std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::is_due_for_removal(const CellView<dim, const double> &cell,
-                                const double                       t) const
-  {
-    return removal_time(cell) <= t;
-  }
-
-
-  template <int dim>
-  bool
-  Fate<dim>::shrinks(const CellView<dim, const double> &) const
-  {
-    return false;
   }
 
 

@@ -50,38 +50,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::string &
-  Field<dim>::name() const
-  {
-    return name_;
-  }
-
-
-  template <int dim>
-  FieldKind
-  Field<dim>::kind() const
-  {
-    return kind_;
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::is_diluted() const
-  {
-    return diluted && kind_ == FieldKind::transient;
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::has_surface() const
-  {
-    return fixed_where || transfer_ || flux_where;
-  }
-
-
-  template <int dim>
   bool
   Field<dim>::is_nonlinear() const
   {
@@ -130,22 +98,6 @@ namespace Morula
 
   template <int dim>
   double
-  Field<dim>::diffusion(const PresentCell<dim> &cell, const double t) const
-  {
-    return cell.value(diffusion_, t);
-  }
-
-
-  template <int dim>
-  double
-  Field<dim>::production(const PresentCell<dim> &cell, const double t) const
-  {
-    return cell.value(production_, t);
-  }
-
-
-  template <int dim>
-  double
   Field<dim>::used(PresentCell<dim> &cell, const double t, const double c) const
   {
     cell.set_field(number, c);
@@ -173,14 +125,6 @@ namespace Morula
       c + std::max(difference * c, smallest_difference * scale);
     const double used_more = used(cell, t, more), used_now = used(cell, t, c);
     return {used_now, std::max(0., (used_more - used_now) / (more - c))};
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::acts_on(const Point<dim> &X) const
-  {
-    return transfer_ || is_fixed(X) || takes_flux(X);
   }
 
 

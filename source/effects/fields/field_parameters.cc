@@ -110,27 +110,6 @@ namespace Morula
   }
 
 
-  bool
-  FieldKeys::is_steady() const
-  {
-    return time == "steady";
-  }
-
-
-  bool
-  FieldKeys::has_value() const
-  {
-    return !fixed_where.empty() || !transfer.empty();
-  }
-
-
-  bool
-  FieldKeys::has_surface() const
-  {
-    return has_value() || !flux_where.empty();
-  }
-
-
   void
   FieldKeys::check(const unsigned int dim) const
   {
@@ -188,13 +167,6 @@ namespace Morula
             "has a section of this name, and expressions of cells may have its "
             "value at the cell as a variable. Empty: there are none.")
   {}
-
-
-  bool
-  FieldsParameters::present() const
-  {
-    return !fields.empty();
-  }
 
 
   bool

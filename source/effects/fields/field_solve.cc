@@ -85,15 +85,6 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  FieldSolver<dim>::value(const unsigned int field, const unsigned int p) const
-  {
-    return values[field].empty() ?
-             tissue.cells()[p].get(reader.columns.fields[field]) :
-             values[field][p];
-  }
-
-  template <int dim>
   PresentCell<dim>
   FieldSolver<dim>::present_cell(const unsigned int p) const
   {

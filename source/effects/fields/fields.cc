@@ -60,14 +60,6 @@ namespace Morula
 
   template <int dim>
   bool
-  Fields<dim>::present() const
-  {
-    return !fields.empty();
-  }
-
-
-  template <int dim>
-  bool
   Fields<dim>::any(const FieldKind kind) const
   {
     return std::any_of(fields.begin(),

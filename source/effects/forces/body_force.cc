@@ -21,27 +21,6 @@ namespace Morula
   {}
 
 
-  bool
-  BodyForceParameters::is_on() const
-  {
-    return !force_density.is_default() || force_density.differs_by_type();
-  }
-
-
-  std::string
-  BodyForceParameters::details() const
-  {
-    return force_density.text() + " kPa/um";
-  }
-
-
-  KeyList
-  BodyForceParameters::list()
-  {
-    return {&force_density};
-  }
-
-
   template <int dim>
   BodyForce<dim>::BodyForce(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)

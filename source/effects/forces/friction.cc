@@ -33,20 +33,6 @@ namespace Morula
   }
 
 
-  std::string
-  FrictionParameters::details() const
-  {
-    return coefficient.text() + " kPa day/um^2";
-  }
-
-
-  KeyList
-  FrictionParameters::list()
-  {
-    return {&coefficient};
-  }
-
-
   template <int dim>
   Friction<dim>::Friction(const Parameters         &parameters,
                           const EffectSetting<dim> &setting)

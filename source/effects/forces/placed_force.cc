@@ -28,14 +28,6 @@ namespace Morula
 
   template <int dim>
   bool
-  PlacedForce<dim>::is_conservative() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  bool
   PlacedForce<dim>::depends_on_place(const Expression &expression)
   {
     for (const Variable place : coordinates)

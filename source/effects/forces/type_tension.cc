@@ -38,13 +38,6 @@ namespace Morula
   }
 
 
-  const Key<double> &
-  TypeTensionParameters::key(const unsigned int a, const unsigned int b) const
-  {
-    return between[a * (types.size() - 1) + (b < a ? b : b - 1)];
-  }
-
-
   std::vector<std::vector<double>>
   TypeTensionParameters::matrix() const
   {
@@ -73,13 +66,6 @@ namespace Morula
     return force && std::any_of(between.begin(),
                                 between.end(),
                                 [](const auto &key) { return key != 0.; });
-  }
-
-
-  std::string
-  TypeTensionParameters::topic() const
-  {
-    return "tension between types";
   }
 
 

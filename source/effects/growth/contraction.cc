@@ -48,35 +48,6 @@ namespace Morula
   }
 
 
-  const AnyKey *
-  ContractionParameters::switch_key() const
-  {
-    return &stretch;
-  }
-
-
-  std::string
-  ContractionParameters::how_to_switch_on() const
-  {
-    return "Set " + stretch.path();
-  }
-
-
-  std::string
-  ContractionParameters::details() const
-  {
-    return "gamma = " + stretch.text() + ", along " + direction.text() +
-           (keep_volume ? ", keeps volume" : "");
-  }
-
-
-  KeyList
-  ContractionParameters::list()
-  {
-    return {&stretch, &direction, &keep_volume};
-  }
-
-
   template <int dim>
   Tensor<2, dim>
   active_strain(const Tensor<1, dim> &a,

@@ -14,25 +14,6 @@ namespace Morula
   {}
 
 
-  template <int dim>
-  bool
-  Flow<dim>::has_forecast() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  double
-  Flow<dim>::error_of_forecast(const CellView<dim, const double> &,
-                               const Tensor<2, dim> &,
-                               const PastStep &,
-                               const double) const
-  {
-    return 0.;
-  }
-
-
   template class Flow<2>;
   template class Flow<3>;
 } // namespace Morula

@@ -73,23 +73,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  GrowthLaw<dim>::is_known_before() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  void
-  GrowthLaw<dim>::remember(const GrowingCell<dim> &,
-                           const double,
-                           const double,
-                           const CellView<dim, double> &) const
-  {}
-
-
-  template <int dim>
   GrowthOfStep<dim>
   GrowthLaw<dim>::grow(const GrowingCell<dim>      &cell,
                        const double                 t0,
@@ -101,22 +84,6 @@ namespace Morula
     const Tensor<2, dim> F = growth(cell, t0, t1);
     remember(cell, t0, t1, after);
     return {F};
-  }
-
-
-  template <int dim>
-  bool
-  GrowthLaw<dim>::follows_state() const
-  {
-    return false;
-  }
-
-
-  template <int dim>
-  double
-  GrowthLaw<dim>::missed(const GrowingCell<dim> &) const
-  {
-    return 0.;
   }
 
 

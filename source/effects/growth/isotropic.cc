@@ -24,13 +24,6 @@ namespace Morula
   }
 
 
-  KeyList
-  IsotropicGrowthParameters::list()
-  {
-    return {&stretch};
-  }
-
-
   template <int dim>
   IsotropicGrowth<dim>::IsotropicGrowth(
     const IsotropicGrowthParameters &parameters)
@@ -68,14 +61,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  IsotropicGrowth<dim>::stretch(const Point<dim> &X, const double t) const
-  {
-    return checked(theta.value(X, t), X, t);
-  }
-
-
-  template <int dim>
   Tensor<2, dim>
   IsotropicGrowth<dim>::growth(const GrowingCell<dim> &cell,
                                const double /*t0*/,
@@ -92,14 +77,6 @@ namespace Morula
     return cell.present == nullptr ?
              I :
              checked(cell.present->value(theta, t1), X, t1) * I;
-  }
-
-
-  template <int dim>
-  bool
-  IsotropicGrowth<dim>::is_known_before() const
-  {
-    return !theta.depends_on_state();
   }
 
 

@@ -144,14 +144,6 @@ namespace Morula
 
   template <int dim>
   bool
-  RateGrowth<dim>::follows_state() const
-  {
-    return expected.has_value();
-  }
-
-
-  template <int dim>
-  bool
   RateGrowth<dim>::is_known_before() const
   {
     // Only the size has to be known, so a direction that follows the state does

@@ -67,14 +67,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  RateGrowth<dim>::missed(const GrowingCell<dim> &cell) const
-  {
-    return size_of(missed_tensor(cell));
-  }
-
-
-  template <int dim>
   void
   RateGrowth<dim>::expect(const GrowingCell<dim>      &cell,
                           const Rates                 &now,

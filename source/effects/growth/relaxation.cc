@@ -81,21 +81,6 @@ namespace Morula
   }
 
 
-  std::string
-  RelaxationParameters::details() const
-  {
-    return "tau = " + time.text() +
-           " day, yield stress = " + yield_stress.text() + " kPa";
-  }
-
-
-  KeyList
-  RelaxationParameters::list()
-  {
-    return {&time, &yield_stress, &passes};
-  }
-
-
   template <int dim>
   Relaxation<dim>::Relaxation(const Parameters         &parameters,
                               const EffectSetting<dim> &setting)
@@ -183,14 +168,6 @@ namespace Morula
     // Only the stretch of the step's motion f counts, as a rotation relaxes
     // nothing.
     cell.set(motion, symmetrize(transpose(f) * f));
-  }
-
-
-  template <int dim>
-  bool
-  Relaxation<dim>::has_forecast() const
-  {
-    return true;
   }
 
 

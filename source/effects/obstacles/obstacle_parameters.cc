@@ -77,13 +77,6 @@ namespace Morula
   {}
 
 
-  bool
-  ObstaclesParameters::is_on() const
-  {
-    return !obstacles.empty();
-  }
-
-
   std::string
   ObstaclesParameters::details() const
   {
@@ -92,13 +85,6 @@ namespace Morula
       text += "; " + obstacle.name + ": " + obstacle.shape.value() +
               ", tissue " + obstacle.side.value();
     return text;
-  }
-
-
-  const AnyKey *
-  ObstaclesParameters::names_key() const
-  {
-    return &names;
   }
 
 

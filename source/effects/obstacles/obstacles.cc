@@ -134,30 +134,6 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceCondition
-  Obstacles<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  Obstacles<dim>::acts_on(const Point<dim> &, const Tensor<1, dim> &) const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  bool
-  Obstacles<dim>::only_pushes() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
   std::unique_ptr<Term<dim>>
   Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
   {

@@ -83,20 +83,6 @@ namespace Morula
 
 
   double
-  AdhesionEnergy::between(const unsigned int a, const unsigned int b) const
-  {
-    return tensions.between.empty() ? 0. : tensions.between[a][b];
-  }
-
-
-  double
-  AdhesionEnergy::with_surface(const unsigned int a) const
-  {
-    return tensions.with_surface.empty() ? 0. : tensions.with_surface[a];
-  }
-
-
-  double
   AdhesionEnergy::change(const Places                &places,
                          const std::vector<Occupant> &occupants,
                          const unsigned int           p,
@@ -317,26 +303,5 @@ namespace Morula
           done[k] = true;
           break;
         }
-  }
-
-
-  std::size_t
-  ExchangeRounds::n_left() const
-  {
-    return left;
-  }
-
-
-  const std::vector<Occupant> &
-  ExchangeRounds::occupants() const
-  {
-    return occupants_;
-  }
-
-
-  const std::vector<unsigned int> &
-  ExchangeRounds::n_exchanges() const
-  {
-    return n_exchanges_;
   }
 } // namespace Morula

@@ -51,27 +51,6 @@ namespace Morula
   }
 
 
-  bool
-  RearrangementParameters::is_on() const
-  {
-    return !diffusion.is_default() || diffusion.differs_by_type();
-  }
-
-
-  const AnyKey *
-  RearrangementParameters::switch_key() const
-  {
-    return &diffusion;
-  }
-
-
-  std::string
-  RearrangementParameters::how_to_switch_on() const
-  {
-    return "Set " + diffusion.path() + " > 0";
-  }
-
-
   void
   RearrangementParameters::check_with(const MaterialParameters &material) const
   {
@@ -81,13 +60,6 @@ namespace Morula
       energy.refuse("a value > 0, as " + drive.path() + " is set",
                     "A drive is followed at the rate D f/T.");
     static_cast<void>(material);
-  }
-
-
-  KeyList
-  RearrangementParameters::list()
-  {
-    return {&diffusion, &energy, &shear_released, &drive};
   }
 
 

@@ -119,13 +119,6 @@ namespace Morula
   }
 
 
-  std::string
-  CellDirectionKey::text() const
-  {
-    return written;
-  }
-
-
   void
   CellDirectionKey::assign(const std::string &text)
   {

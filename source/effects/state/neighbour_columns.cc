@@ -105,17 +105,10 @@ namespace Morula
   }
 
 
-  KeyList
-  NeighbourParameters::list()
-  {
-    return {&found_by, &reach};
-  }
-
-
   void
-  NeighbourParameters::find_in(const std::vector<ExpressionKey *> &keys,
-                               const std::vector<std::string>     &types,
-                               const std::vector<std::string>     &fields)
+  NeighbourParameters::see_expressions(const std::vector<ExpressionKey *> &keys,
+                                       const std::vector<std::string> &types,
+                                       const std::vector<std::string> &fields)
   {
     // The names are sorted, so that the numbers of variables, and with them the
     // columns, do not depend on the order of keys. They follow the fields, as

@@ -51,21 +51,6 @@ namespace Morula
   } // namespace
 
 
-  bool
-  NeighbourVariable::needs_graph() const
-  {
-    return kind != slope && kind != free;
-  }
-
-
-  bool
-  NeighbourVariable::needs_areas() const
-  {
-    return kind == share_of_type || kind == unlike || kind == free ||
-           kind == around;
-  }
-
-
   std::optional<NeighbourVariable>
   neighbour_variable(const std::string              &name,
                      const std::vector<std::string> &types,

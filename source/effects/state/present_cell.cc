@@ -49,38 +49,6 @@ namespace Morula
 
 
   template <int dim>
-  types::particle_index
-  PresentCell<dim>::id() const
-  {
-    return id_;
-  }
-
-
-  template <int dim>
-  const CellReader<dim> &
-  PresentCell<dim>::reader() const
-  {
-    return reader_;
-  }
-
-
-  template <int dim>
-  const CellView<dim, const double> &
-  PresentCell<dim>::cell() const
-  {
-    return cell_;
-  }
-
-
-  template <int dim>
-  const Point<dim> &
-  PresentCell<dim>::position() const
-  {
-    return position_;
-  }
-
-
-  template <int dim>
   unsigned int
   PresentCell<dim>::type() const
   {
@@ -103,22 +71,6 @@ namespace Morula
 
 
   template <int dim>
-  Tensor<1, dim>
-  PresentCell<dim>::surface_normal() const
-  {
-    return cell_.get(reader_.columns.surface_normal);
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  PresentCell<dim>::gradient(const unsigned int field) const
-  {
-    return cell_.get(reader_.columns.gradients[field]);
-  }
-
-
-  template <int dim>
   void
   PresentCell<dim>::set_field(const unsigned int field, const double value)
   {
@@ -128,14 +80,6 @@ namespace Morula
     const auto variable = static_cast<unsigned int>(field_variable(field));
     values[variable]    = value;
     known |= std::uint64_t(1) << variable;
-  }
-
-
-  template <int dim>
-  Tensor<2, dim>
-  PresentCell<dim>::elastic() const
-  {
-    return cell_.elastic_deformation();
   }
 
 

@@ -96,22 +96,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::vector<NeighbourVariable> &
-  StateColumns<dim>::neighbour_variables() const
-  {
-    return of_neighbours;
-  }
-
-
-  template <int dim>
-  const std::vector<std::string> &
-  StateColumns<dim>::field_names() const
-  {
-    return names_of_fields;
-  }
-
-
-  template <int dim>
   void
   StateColumns<dim>::declare_types(CellColumns<dim> &columns)
   {
@@ -170,14 +154,6 @@ namespace Morula
 
   template <int dim>
   bool
-  StateColumns<dim>::needs_surface() const
-  {
-    return depth.exists() || present_depth.exists() || surface_normal.exists();
-  }
-
-
-  template <int dim>
-  bool
   StateColumns<dim>::uses(const Variable variable) const
   {
     return std::binary_search(used.begin(), used.end(), variable);
@@ -191,14 +167,6 @@ namespace Morula
     // X, Y, Z and t come first in the order of variables and need no row of the
     // cell. So the last of the sorted variables decides.
     return !types.empty() || (!used.empty() && used.back() > Variable::t);
-  }
-
-
-  template <int dim>
-  const std::vector<std::string> &
-  StateColumns<dim>::type_names() const
-  {
-    return types;
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_condition.h>
 
 #include <utility>
@@ -16,14 +17,6 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
-  BoundaryCondition<dim>::term(const LoadedPoints<dim> &, const double) const
-  {
-    return nullptr;
-  }
-
-
-  template <int dim>
   std::vector<typename BoundaryCondition<dim>::Part>
   BoundaryCondition<dim>::parts(const LoadedPoints<dim> &points,
                                 const double             t) const
@@ -35,11 +28,12 @@ namespace Morula
   }
 
 
+  // Here, as a null pointer to an unknown class could not be deleted.
   template <int dim>
-  bool
-  BoundaryCondition<dim>::only_pushes() const
+  std::unique_ptr<PartOfStep<dim>>
+  BoundaryCondition<dim>::part_of_step(const AttemptAtStep<dim> &) const
   {
-    return false;
+    return nullptr;
   }
 
 

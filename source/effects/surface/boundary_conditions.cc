@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
+#include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_conditions.h>
+#include <morula/effects/surface/held_traction.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -84,13 +87,6 @@ namespace Morula
     });
   }
 
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::has_dirichlet() const
-  {
-    return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);
-  }
-
 
   template <int dim>
   bool
@@ -113,30 +109,25 @@ namespace Morula
 
 
   template <int dim>
-  const Lumen<dim> *
-  BoundaryConditions<dim>::lumen() const
+  std::vector<std::unique_ptr<PartOfStep<dim>>>
+  BoundaryConditions<dim>::parts_of_step(
+    const AttemptAtStep<dim> &attempt) const
   {
+    // The bounded form holds a traction fixed for all points that are held
+    // together. Its term stands behind the forces on cells, so that it is the
+    // first part.
+    std::vector<std::unique_ptr<PartOfStep<dim>>> parts;
+    if (has_dirichlet() && nitsche_.form() == NitscheForm::bounded)
+      {
+        const TimerOutput::Scope section(attempt.timer, "nitsche");
+        everywhere(attempt.comm, [&]() {
+          parts.push_back(std::make_unique<HeldTraction<dim>>(*this, attempt));
+        });
+      }
     for (const Named &named : list_)
-      if (const auto *found =
-            dynamic_cast<const Lumen<dim> *>(named.condition.get()))
-        return found;
-    return nullptr;
-  }
-
-
-  template <int dim>
-  const std::vector<typename BoundaryConditions<dim>::Named> &
-  BoundaryConditions<dim>::list() const
-  {
-    return list_;
-  }
-
-
-  template <int dim>
-  const NitschePenalty &
-  BoundaryConditions<dim>::nitsche() const
-  {
-    return nitsche_;
+      if (auto part = named.condition->part_of_step(attempt))
+        parts.push_back(std::move(part));
+    return parts;
   }
 
 

@@ -264,65 +264,6 @@ namespace Morula
   }
 
   template <int dim>
-  Enclosure<dim>
-  enclosure(const Lumen<dim>       &lumen,
-            const Tissue<dim>      &tissue,
-            const SplineSpace<dim> &space,
-            const MPI_Comm          comm)
-  {
-    const BoundaryPoints<dim> &store = tissue.boundary_points();
-    // Held points are around the lumen as well: they do not move freely, but
-    // they enclose it.
-    const PointGroups groups =
-      group_points(store, space, [&](const unsigned int p) {
-        return lumen.acts_on(store[p].seed_position(),
-                             store[p].initial_normal());
-      });
-    std::vector<Tensor<1, dim>> areas;
-    for (const unsigned int p : groups.points)
-      areas.push_back(store[p].area_vector());
-    return {SweptVolume<dim>(grouped_places(store, space, groups),
-                             std::move(areas)),
-            enclosed_volume(lumen_patches(lumen, tissue), comm),
-            EnclosedContent()};
-  }
-
-  template <int dim>
-  std::vector<LumenPatch<dim>>
-  lumen_patches(const Lumen<dim>             &lumen,
-                const Tissue<dim>            &tissue,
-                const DisplacementField<dim> *displacement)
-  {
-    // The same function serves the beginning of the step, with u = 0 and f = I,
-    // and a displacement. Areas change by Nanson's formula, doc/theory.md
-    // (1.2).
-    const BoundaryPoints<dim>   &store = tissue.boundary_points();
-    std::vector<LumenPatch<dim>> list;
-    const auto                   add = [&](const unsigned int    p,
-                         const Tensor<1, dim> &u,
-                         const Tensor<2, dim> &f) {
-      const BoundaryView<dim> point = store[p];
-      if (lumen.acts_on(point.seed_position(), point.initial_normal()))
-        // The patch after the step stands at x_t + u with Nanson's area.
-        list.push_back({store.position(p) + u,
-                        determinant(f) * (point.area_vector() * invert(f))});
-    };
-    if (displacement == nullptr)
-      for (unsigned int p = 0; p < store.size(); ++p)
-        add(p, Tensor<1, dim>(), Tensor<2, dim>(unit_symmetric_tensor<dim>()));
-    else
-      displacement->at_points(store,
-                              [&](const unsigned int       p,
-                                  const LocalField<dim>   &field,
-                                  const SplineValues<dim> &splines) {
-                                add(p,
-                                    field.value(splines),
-                                    field.step_deformation(splines));
-                              });
-    return list;
-  }
-
-  template <int dim>
   std::vector<typename RigidModes<dim>::Support>
   supports(const BoundaryConditions<dim> &conditions,
            const Tissue<dim>             &tissue,
@@ -379,40 +320,34 @@ namespace Morula
     return list;
   }
 
-#define INSTANTIATE(dim)                                                         \
-  template std::unique_ptr<Term<dim>> nitsche_term(                              \
-    const BoundaryConditions<dim> &,                                             \
-    const TissueMaterial &,                                                      \
-    const Tissue<dim> &,                                                         \
-    const SplineSpace<dim> &,                                                    \
-    const DevelopmentOfStep<dim> &,                                              \
-    const double,                                                                \
-    const std::string &);                                                        \
-  template std::unique_ptr<Term<dim>> bounded_nitsche_term(                      \
-    const BoundaryConditions<dim> &,                                             \
-    const TissueMaterial &,                                                      \
-    const Tissue<dim> &,                                                         \
-    const SplineSpace<dim> &,                                                    \
-    const DevelopmentOfStep<dim> &,                                              \
-    const double,                                                                \
-    const std::vector<double> &,                                                 \
-    const std::vector<Tensor<1, dim>> &);                                        \
-  template LoadedPoints<dim>            loaded_points(const Tissue<dim> &,       \
-                                                      const SplineSpace<dim> &); \
-  template Enclosure<dim>               enclosure(const Lumen<dim> &,            \
-                                                  const Tissue<dim> &,           \
-                                                  const SplineSpace<dim> &,      \
-                                                  const MPI_Comm);               \
-  template std::vector<LumenPatch<dim>> lumen_patches(                           \
-    const Lumen<dim> &, const Tissue<dim> &, const DisplacementField<dim> *);    \
-  template std::vector<typename RigidModes<dim>::Support> supports(              \
-    const BoundaryConditions<dim> &,                                             \
-    const Tissue<dim> &,                                                         \
-    const SplineSpace<dim> &);                                                   \
-  template std::vector<HeldPoint<dim>> held_points(                              \
-    const BoundaryConditions<dim> &,                                             \
-    const Tissue<dim> &,                                                         \
-    const double,                                                                \
+#define INSTANTIATE(dim)                                              \
+  template std::unique_ptr<Term<dim>> nitsche_term(                   \
+    const BoundaryConditions<dim> &,                                  \
+    const TissueMaterial &,                                           \
+    const Tissue<dim> &,                                              \
+    const SplineSpace<dim> &,                                         \
+    const DevelopmentOfStep<dim> &,                                   \
+    const double,                                                     \
+    const std::string &);                                             \
+  template std::unique_ptr<Term<dim>> bounded_nitsche_term(           \
+    const BoundaryConditions<dim> &,                                  \
+    const TissueMaterial &,                                           \
+    const Tissue<dim> &,                                              \
+    const SplineSpace<dim> &,                                         \
+    const DevelopmentOfStep<dim> &,                                   \
+    const double,                                                     \
+    const std::vector<double> &,                                      \
+    const std::vector<Tensor<1, dim>> &);                             \
+  template LoadedPoints<dim> loaded_points(const Tissue<dim> &,       \
+                                           const SplineSpace<dim> &); \
+  template std::vector<typename RigidModes<dim>::Support> supports(   \
+    const BoundaryConditions<dim> &,                                  \
+    const Tissue<dim> &,                                              \
+    const SplineSpace<dim> &);                                        \
+  template std::vector<HeldPoint<dim>> held_points(                   \
+    const BoundaryConditions<dim> &,                                  \
+    const Tissue<dim> &,                                              \
+    const double,                                                     \
     const double);
   INSTANTIATE(2)
   INSTANTIATE(3)

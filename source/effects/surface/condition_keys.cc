@@ -19,18 +19,4 @@ namespace Morula
     // scene.
     return !where.empty();
   }
-
-
-  const AnyKey *
-  ConditionKeys::switch_key() const
-  {
-    return &where;
-  }
-
-
-  std::string
-  ConditionKeys::details() const
-  {
-    return "";
-  }
 } // namespace Morula

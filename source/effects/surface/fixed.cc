@@ -19,20 +19,6 @@ namespace Morula
   {}
 
 
-  KeyList
-  FixedParameters::list()
-  {
-    return {&where, &displacement};
-  }
-
-
-  std::string
-  FixedParameters::topic() const
-  {
-    return "fixed points (Nitsche)";
-  }
-
-
   std::string
   FixedParameters::details() const
   {
@@ -45,14 +31,6 @@ namespace Morula
     : PlacedCondition<dim>(SurfaceCondition::fixed, parameters)
     , displacement_(parameters.displacement.expression(dim))
   {}
-
-
-  template <int dim>
-  Tensor<1, dim>
-  Fixed<dim>::displacement(const Point<dim> &X, const double t) const
-  {
-    return displacement_.vector(X, t);
-  }
 
 
   template <int dim>

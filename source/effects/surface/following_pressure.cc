@@ -39,14 +39,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  bool
-  FollowingPressure<dim>::is_conservative() const
-  {
-    return false;
-  }
-
-
   template class FollowingPressure<2>;
   template class FollowingPressure<3>;
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/lumen.h>
+#include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/tables.h>
 
 #include <deal.II/base/mpi.h>
@@ -99,13 +100,6 @@ namespace Morula
   }
 
 
-  KeyList
-  LumenParameters::list()
-  {
-    return {&where, &volume, &pressure};
-  }
-
-
   std::string
   LumenParameters::details() const
   {
@@ -153,14 +147,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Lumen<dim>::keeps_volume() const
-  {
-    return volume_.has_value();
-  }
-
-
-  template <int dim>
   double
   Lumen<dim>::volume(const double t, const double at_start) const
   {
@@ -176,14 +162,6 @@ namespace Morula
                      volume_->text(),
                      "a value > 0 times the volume at t = 0",
                      place.str());
-  }
-
-
-  template <int dim>
-  double
-  Lumen<dim>::pressure(const double t) const
-  {
-    return pressure_->value(Point<dim>(), t);
   }
 
 
@@ -220,12 +198,56 @@ namespace Morula
 
 
   template <int dim>
+  void
+  Lumen<dim>::check_surface(const Preview<dim>        &scene,
+                            const std::vector<double> &areas) const
+  {
+    std::vector<LumenPatch<dim>> patches;
+    for (std::size_t i = 0; i < areas.size(); ++i)
+      if (this->acts_on(scene.boundary_points[i], scene.normals[i]))
+        patches.push_back(
+          {scene.boundary_points[i], areas[i] * scene.normals[i]});
+    check_surface(patches, scene.comm);
+  }
+
+
+  template <int dim>
   std::unique_ptr<Term<dim>>
   Lumen<dim>::term(const LoadedPoints<dim> &, const double) const
   {
     // The momentum balance has the content of the lumen as a whole, as it
     // depends on all points.
     return nullptr;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<PartOfStep<dim>>
+  Lumen<dim>::part_of_step(const AttemptAtStep<dim> &attempt) const
+  {
+    const TimerOutput::Scope section(attempt.timer, "lumen");
+    return std::make_unique<LumenPressure<dim>>(*this, attempt);
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const
+  {
+    moment.kept["lumen_at_start"] =
+      enclosed_volume(lumen_patches(*this, tissue), tissue.communicator());
+    moment.kept["lumen_pressure"] = keeps_volume() ? 0. : pressure(0.);
+  }
+
+
+  template <int dim>
+  void
+  Lumen<dim>::describe(const Tissue<dim>      &tissue,
+                       const MomentOfRun<dim> &moment) const
+  {
+    moment.of_step["lumen_volume"] =
+      enclosed_volume(lumen_patches(*this, tissue), tissue.communicator());
+    moment.of_step["lumen_pressure"] = moment.kept.at("lumen_pressure");
   }
 
 

@@ -402,8 +402,7 @@ namespace Morula
                                      material.coupled(),
                                      held.traction_fraction * states[p].W,
                                      held);
-        const Tensor<1, dim>       gap =
-          held.gap + held.projection * field.value(splines);
+        const Tensor<1, dim>       gap = held.gap_with(field, splines);
         system.note_gap(gap.norm(), points.xi[p]);
         if (system.wanted == LocalSystem<dim>::tangent)
           tangents.emplace_back(splines,
@@ -441,9 +440,8 @@ namespace Morula
       {
         const SplineValues<dim> splines(points.xi[p], points.h);
         const HeldPoint        &held = held_points[p];
-        const Tensor<1, dim>    gap =
-          held.gap + held.projection * field.value(splines);
-        Tensor<1, dim> traction;
+        const Tensor<1, dim>    gap  = held.gap_with(field, splines);
+        Tensor<1, dim>          traction;
         if (held.traction_fraction > 0.)
           {
             const Tensor<2, dim>    f = field.step_deformation(splines);
@@ -464,13 +462,6 @@ namespace Morula
         list.push_back(held.area * (traction - held.penalty * gap));
       }
     return list;
-  }
-
-  template <int dim>
-  bool
-  Nitsche<dim>::is_conservative() const
-  {
-    return form == NitscheForm::symmetric;
   }
 
   template class Nitsche<2>;

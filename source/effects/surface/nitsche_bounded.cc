@@ -38,11 +38,10 @@ namespace Morula
     // These are energy, force and stiffness of doc/theory.md (4.6a). The
     // deformation of the point does not enter, so there is nothing to be
     // inverted.
-    const HeldPoint     &held = held_points[p];
-    const double         a_t = held.area, beta = held.penalty;
-    const Tensor<1, dim> gap =
-      held.gap + held.projection * field.value(splines);
-    const Tensor<1, dim> &T = tractions[p];
+    const HeldPoint      &held = held_points[p];
+    const double          a_t = held.area, beta = held.penalty;
+    const Tensor<1, dim>  gap = held.gap_with(field, splines);
+    const Tensor<1, dim> &T   = tractions[p];
     system.note_gap(gap.norm(), this->points.xi[p]);
     const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
     const double   more  = std::pow(ratio, 4); // of the penalty, at this gap

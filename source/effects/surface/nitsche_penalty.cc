@@ -51,13 +51,6 @@ namespace Morula
   }
 
 
-  KeyList
-  NitscheParameters::list()
-  {
-    return {&penalty, &form};
-  }
-
-
   void
   NitscheParameters::review(const MaterialParameters &material,
                             const bool                all_is_fixed,
@@ -124,12 +117,5 @@ namespace Morula
   {
     const Lame unit = lame(1., nu);
     return least_penalty * (unit.lambda + 2. * unit.mu);
-  }
-
-
-  NitscheForm
-  NitschePenalty::form() const
-  {
-    return form_;
   }
 } // namespace Morula

@@ -14,23 +14,6 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceCondition
-  PlacedCondition<dim>::kind() const
-  {
-    return kind_;
-  }
-
-
-  template <int dim>
-  bool
-  PlacedCondition<dim>::acts_on(const Point<dim> &X,
-                                const Tensor<1, dim> &) const
-  {
-    return holds(X);
-  }
-
-
-  template <int dim>
   void
   PlacedCondition<dim>::check(const Preview<dim> &scene) const
   {
@@ -40,12 +23,6 @@ namespace Morula
         for (const double t : {0., scene.end_time})
           check_at(X, t);
   }
-
-
-  template <int dim>
-  void
-  PlacedCondition<dim>::check_at(const Point<dim> &, const double) const
-  {}
 
 
   template <int dim>

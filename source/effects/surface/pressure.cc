@@ -18,13 +18,6 @@ namespace Morula
   {}
 
 
-  KeyList
-  PressureParameters::list()
-  {
-    return {&where, &pressure};
-  }
-
-
   std::string
   PressureParameters::details() const
   {

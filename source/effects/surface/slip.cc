@@ -20,20 +20,6 @@ namespace Morula
   {}
 
 
-  KeyList
-  SlipParameters::list()
-  {
-    return {&where, &normal};
-  }
-
-
-  std::string
-  SlipParameters::topic() const
-  {
-    return "slip (Nitsche)";
-  }
-
-
   template <int dim>
   Slip<dim>::Slip(const Parameters &parameters)
     : PlacedCondition<dim>(SurfaceCondition::slip, parameters)

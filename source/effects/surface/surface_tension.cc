@@ -40,13 +40,6 @@ namespace Morula
   }
 
 
-  KeyList
-  SurfaceTensionParameters::list()
-  {
-    return {&where, &tension};
-  }
-
-
   std::string
   SurfaceTensionParameters::details() const
   {

@@ -19,13 +19,6 @@ namespace Morula
   {}
 
 
-  KeyList
-  TractionParameters::list()
-  {
-    return {&where, &traction};
-  }
-
-
   std::string
   TractionParameters::details() const
   {

@@ -36,13 +36,6 @@ namespace Morula
 
 
   std::string
-  TypeSurfaceTensionParameters::topic() const
-  {
-    return "surfaces of types";
-  }
-
-
-  std::string
   TypeSurfaceTensionParameters::details() const
   {
     std::string text;
@@ -76,23 +69,6 @@ namespace Morula
                      "it.");
         tensions.push_back(key);
       }
-  }
-
-
-  template <int dim>
-  SurfaceCondition
-  TypeSurfaceTension<dim>::kind() const
-  {
-    return SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  bool
-  TypeSurfaceTension<dim>::acts_on(const Point<dim> &,
-                                   const Tensor<1, dim> &) const
-  {
-    return true;
   }
 
 

@@ -87,13 +87,6 @@ namespace Morula
   {}
 
   template <int dim>
-  BoundingBox<dim>
-  Box<dim>::bounding_box() const
-  {
-    return BoundingBox<dim>({center - 0.5 * size, center + 0.5 * size});
-  }
-
-  template <int dim>
   bool
   Box<dim>::contains(const Point<dim> &x, const double clearance) const
   {

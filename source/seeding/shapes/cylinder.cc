@@ -34,30 +34,6 @@ namespace Morula
            std::abs(x[2] - center[2]) < 0.5 * height - clearance;
   }
 
-  double
-  Cylinder::cap_area() const
-  {
-    return numbers::PI * radius * radius;
-  }
-
-  double
-  Cylinder::side_area() const
-  {
-    return 2. * numbers::PI * radius * height;
-  }
-
-  double
-  Cylinder::volume() const
-  {
-    return cap_area() * height;
-  }
-
-  double
-  Cylinder::surface_area() const
-  {
-    return side_area() + 2. * cap_area();
-  }
-
   SurfacePatch<3>
   Cylinder::cap_patch(const RingPlace &place, const double side) const
   {

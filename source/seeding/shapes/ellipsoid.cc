@@ -146,13 +146,6 @@ namespace Morula
   }
 
   template <int dim>
-  BoundingBox<dim>
-  Ellipsoid<dim>::bounding_box() const
-  {
-    return BoundingBox<dim>({center - half_axes, center + half_axes});
-  }
-
-  template <int dim>
   bool
   Ellipsoid<dim>::contains(const Point<dim> &x, const double clearance) const
   {

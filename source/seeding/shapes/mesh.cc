@@ -12,24 +12,6 @@ namespace Morula
     : mesh(key, file)
   {}
 
-  BoundingBox<3>
-  MeshShape::bounding_box() const
-  {
-    return mesh.bounding_box();
-  }
-
-  bool
-  MeshShape::contains(const Point<3> &x, const double clearance) const
-  {
-    return mesh.contains(x, clearance);
-  }
-
-  std::optional<bool>
-  MeshShape::side_of_cube(const Point<3> &x, const double half_side) const
-  {
-    return mesh.side_of_cube(x, half_side);
-  }
-
   double
   MeshShape::volume() const
   {

@@ -43,10 +43,4 @@ namespace Morula
               (static_cast<double>(i) - first + shift) / count,
             1. / n};
   }
-
-  std::uint64_t
-  Rings::n_patches() const
-  {
-    return ends.back();
-  }
 } // namespace Morula

@@ -26,7 +26,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&axis};
+    }
   };
 
   /** `Division axis = fixed`: along a vector in the reference configuration.
@@ -44,7 +47,8 @@ namespace Morula
 
     /** Does nothing: check_cell() checks the founders that proliferate. */
     void
-    check(const Preview<dim> &scene) const override;
+    check(const Preview<dim> &) const override
+    {}
 
   private:
     const Expression direction;
@@ -107,7 +111,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&center};
+    }
   };
 
   /** `Division axis = radial`: from a point to where the cell is now. */

@@ -134,7 +134,10 @@ namespace Morula
 
     /** The value of an expression. @throws InputError */
     double
-    value(const Expression &expression) const;
+    value(const Expression &expression) const
+    {
+      return value(expression, t);
+    }
 
     /** The value at another time @p when, day, in the same state. @throws
      *  InputError */
@@ -174,7 +177,10 @@ namespace Morula
 
     /** The key of the cell's random numbers. */
     std::uint64_t
-    lineage_key(const CellView<dim, const double> &cell) const;
+    lineage_key(const CellView<dim, const double> &cell) const
+    {
+      return cell.get(lineage_key_);
+    }
 
     /** A cell's clock. */
     CycleState<dim>
@@ -248,20 +254,32 @@ namespace Morula
 
     /** Whether every cell stores its own T, since T depends on its state. */
     bool
-    has_own_duration() const;
+    has_own_duration() const
+    {
+      return own_duration;
+    }
 
     /** Whether the rate of leaving G0 depends on the cell's state. */
     bool
-    has_own_hazard() const;
+    has_own_hazard() const
+    {
+      return own_hazard;
+    }
 
     /** Whether that rate follows the state, so that cells keep what the last
      *  step saw of it. */
     bool
-    keeps_exit_rate() const;
+    keeps_exit_rate() const
+    {
+      return exit_rate_follows_state;
+    }
 
     /** The rate of leaving G0, 1/day. @throws InputError */
     double
-    exit_rate_at(const CellAt<dim> &at) const;
+    exit_rate_at(const CellAt<dim> &at) const
+    {
+      return at.value(exit_rate);
+    }
 
     /** Adds what the last step missed of the integral of that rate:
      *  doc/theory.md (5.9). @param at the cell at the middle of that step */
@@ -356,28 +374,44 @@ namespace Morula
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */
     bool
-    stays_inside() const;
+    stays_inside() const
+    {
+      return stay_inside;
+    }
 
     /** κ of (6.3d) of a cell, for division rules; 0: no spread.
      *  @throws InputError */
     double
-    axis_spread(const PresentCell<dim> &cell, const double t) const;
+    axis_spread(const PresentCell<dim> &cell, const double t) const
+    {
+      return cell.value(axis_spread_, t);
+    }
 
     /** Ratio of stretches, >= 1, below which a cell cannot tell them apart.
      *  @throws InputError */
     double
-    least_anisotropy(const PresentCell<dim> &cell, const double t) const;
+    least_anisotropy(const PresentCell<dim> &cell, const double t) const
+    {
+      return cell.value(least_anisotropy_, t);
+    }
 
     /** Whether there is a size checkpoint at all. */
     bool
-    has_checkpoint() const;
+    has_checkpoint() const
+    {
+      return !size_checkpoint.is_always(0.);
+    }
 
     /** Whether the cell waits at @p t only because of the size checkpoint. */
     bool
     is_held(const CycleState<dim> &state,
             const CellAt<dim>     &at,
             const double           t,
-            const double           J_e) const;
+            const double           J_e) const
+    {
+      return state.phase == CyclePhase::waiting &&
+             state.event_time <= t + slack && !passes_checkpoint(at, J_e, t);
+    }
 
     /**
      * Phase number of cells-NNNN.csv: 0 G0 or held; by the time since the onset
@@ -406,7 +440,10 @@ namespace Morula
 
     /** T of the cell's cycle, day. */
     double
-    cycle_duration(const CycleState<dim> &state, const CellAt<dim> &at) const;
+    cycle_duration(const CycleState<dim> &state, const CellAt<dim> &at) const
+    {
+      return has_own_duration() ? state.duration : at.value(duration);
+    }
 
     /** T of a cell from @p X. Refuses bad values: of the expressions that
      *  depend on its state, or of the others. */

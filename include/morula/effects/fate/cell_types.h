@@ -81,7 +81,10 @@ namespace Morula
 
     /** Number of types. */
     unsigned int
-    size() const;
+    size() const
+    {
+      return transitions.size();
+    }
 
   private:
     struct Transition

@@ -61,10 +61,11 @@ namespace Morula
     /** Takes the columns of @p cell to @p s (day) only: another fate's event
      *  has come, before the end of the stretch of next(). */
     virtual void
-    pass(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch,
-         const double                 s) const;
+    pass(const PresentCell<dim> &,
+         const CellView<dim, double> &,
+         const Stretch &,
+         const double) const
+    {}
 
     /** The event of next() happens at @p s, day. @param events gets what
      *  events.csv shall tell. */
@@ -79,30 +80,36 @@ namespace Morula
      *  @param t        middle of the step, day
      *  @param is_whole whether nothing has happened to the cell in it */
     virtual void
-    expect(const PresentCell<dim>      &before,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const;
+    expect(const PresentCell<dim> &,
+           const CellView<dim, double> &,
+           const double,
+           const bool) const
+    {}
 
     /** The cell's life ends at @p s (day), by this fate or another: sets what a
      *  dead cell has of this one. */
     virtual void
-    end_of_life(const PresentCell<dim>      &cell,
-                const CellView<dim, double> &row,
-                const double                 s) const;
+    end_of_life(const PresentCell<dim> &,
+                const CellView<dim, double> &,
+                const double) const
+    {}
 
     /** Sets what distinguishes a daughter, whose row is her mother's by the
      *  columns' rules, from her mother. @param which 0 for the one at -n_s, 1
      *  for the other. @param birth day */
     virtual void
-    inherit(const CellView<dim, double> &daughter,
-            const StateColumns<dim>     &columns,
-            const unsigned int           which,
-            const double                 birth) const;
+    inherit(const CellView<dim, double> &,
+            const StateColumns<dim> &,
+            const unsigned int,
+            const double) const
+    {}
 
     /** The rates, 1/day, with which the fate befalls cells of a type. */
     virtual std::vector<const Expression *>
-    rates(const unsigned int type) const;
+    rates(const unsigned int) const
+    {
+      return {};
+    }
 
     /** @name Fates that divide cells */
     ///@{
@@ -110,21 +117,28 @@ namespace Morula
     /** Whether cells may divide by this fate at all. Then it sets the columns
      *  of both daughters in inherit(). */
     virtual bool
-    divides() const;
+    divides() const
+    {
+      return false;
+    }
 
     /** Whether grow() is to be called. */
     virtual bool
-    follows_growth() const;
+    follows_growth() const
+    {
+      return false;
+    }
 
     /** Tells of a living cell how its grown volume V⁰ det F_g will change in
      *  the step, before its events are looked for.
      *  @param ratio that at the end over that at the beginning, by the law of
      *         growth */
     virtual void
-    grow(const PresentCell<dim>      &before,
-         const CellView<dim, double> &row,
-         const double                 ratio,
-         const Stretch               &step) const;
+    grow(const PresentCell<dim> &,
+         const CellView<dim, double> &,
+         const double,
+         const Stretch &) const
+    {}
 
     /** When the cell divides by this fate, if at or before @p t; day; infinity:
      *  it does not. */
@@ -142,7 +156,10 @@ namespace Morula
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */
     virtual bool
-    stays_inside() const;
+    stays_inside() const
+    {
+      return false;
+    }
 
     ///@}
 
@@ -151,24 +168,34 @@ namespace Morula
 
     /** Whether lives may end by this fate at all. */
     virtual bool
-    is_deadly() const;
+    is_deadly() const
+    {
+      return false;
+    }
 
     /** Whether strikes() may tell of cells that are then removed at once. */
     virtual bool
-    may_strike() const;
+    may_strike() const
+    {
+      return false;
+    }
 
     /** Whether the fate ends the life of a living cell at once, in its state at
      *  @p t, day. Asked at the beginning of a step, and at its end of cells
      *  that are then removed. @throws InputError */
     virtual bool
-    strikes(const PresentCell<dim> &cell, const double t) const;
+    strikes(const PresentCell<dim> &, const double) const
+    {
+      return false;
+    }
 
     /** Ends the life of a cell that strikes() has told of. */
     virtual void
-    strike(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const double                 t,
-           std::vector<CellEvent>      &events) const;
+    strike(const PresentCell<dim> &,
+           const CellView<dim, double> &,
+           const double,
+           std::vector<CellEvent> &) const
+    {}
 
     /** When the cell's life ended by this fate, day; infinity: it did not. */
     virtual double
@@ -186,12 +213,18 @@ namespace Morula
     /** Whether the cell is to be removed at @p t (day) at the latest. */
     virtual bool
     is_due_for_removal(const CellView<dim, const double> &cell,
-                       const double                       t) const;
+                       const double                       t) const
+    {
+      return removal_time(cell) <= t;
+    }
 
     /** Whether the cell shrinks before it is removed, so that its place is that
      *  of the cells around it: doc/theory.md (6.9b). */
     virtual bool
-    shrinks(const CellView<dim, const double> &cell) const;
+    shrinks(const CellView<dim, const double> &) const
+    {
+      return false;
+    }
 
     ///@}
   };

@@ -44,19 +44,31 @@ namespace Morula
 
     /** The name, as in Fields/Names. */
     const std::string &
-    name() const;
+    name() const
+    {
+      return name_;
+    }
 
     /** The kind, as in Time. */
     FieldKind
-    kind() const;
+    kind() const
+    {
+      return kind_;
+    }
 
     /** Whether growth of cells dilutes it: the amount stays the same. */
     bool
-    is_diluted() const;
+    is_diluted() const
+    {
+      return diluted && kind_ == FieldKind::transient;
+    }
 
     /** Whether something is done to it at the surface. */
     bool
-    has_surface() const;
+    has_surface() const
+    {
+      return fixed_where || transfer_ || flux_where;
+    }
 
     /** Whether what cells do to it depends on the field itself. */
     bool
@@ -80,11 +92,17 @@ namespace Morula
 
     /** D of a cell, µm²/day. @throws InputError */
     double
-    diffusion(const PresentCell<dim> &cell, const double t) const;
+    diffusion(const PresentCell<dim> &cell, const double t) const
+    {
+      return cell.value(diffusion_, t);
+    }
 
     /** s of a cell, in the field's unit per day. @throws InputError */
     double
-    production(const PresentCell<dim> &cell, const double t) const;
+    production(const PresentCell<dim> &cell, const double t) const
+    {
+      return cell.value(production_, t);
+    }
 
     /** What a cell uses up at the value @p c, k c, in the field's unit per day.
      *  @param cell has the value afterwards. @throws InputError */
@@ -106,7 +124,10 @@ namespace Morula
     /** Whether something is done to it at a boundary point that was at @p X at
      *  t = 0. */
     bool
-    acts_on(const Point<dim> &X) const;
+    acts_on(const Point<dim> &X) const
+    {
+      return transfer_ || is_fixed(X) || takes_flux(X);
+    }
 
     /** Whether it has the Value at a boundary point. */
     bool

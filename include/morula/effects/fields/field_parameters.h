@@ -33,15 +33,24 @@ namespace Morula
 
     /** Whether the field has its steady state in every configuration. */
     bool
-    is_steady() const;
+    is_steady() const
+    {
+      return time == "steady";
+    }
 
     /** Whether there is a value that it has at the surface, or outside. */
     bool
-    has_value() const;
+    has_value() const
+    {
+      return !fixed_where.empty() || !transfer.empty();
+    }
 
     /** Whether something is done to it at the surface. */
     bool
-    has_surface() const;
+    has_surface() const
+    {
+      return has_value() || !flux_where.empty();
+    }
 
     /**
      * Refuses what contradicts itself.
@@ -65,7 +74,10 @@ namespace Morula
 
     /** Whether the scene has fields. */
     bool
-    present() const;
+    present() const
+    {
+      return !fields.empty();
+    }
 
     /** Whether something is done to a field at the surface. */
     bool

@@ -112,7 +112,12 @@ namespace Morula
     /** The value of a field at a cell; fields not solved yet keep their former
      *  value. */
     double
-    value(const unsigned int field, const unsigned int p) const;
+    value(const unsigned int field, const unsigned int p) const
+    {
+      return values[field].empty() ?
+               tissue.cells()[p].get(reader.columns.fields[field]) :
+               values[field][p];
+    }
 
     /** Cell number @p p with the values of now. */
     PresentCell<dim>

@@ -38,7 +38,10 @@ namespace Morula
 
     /** Whether there are fields. */
     bool
-    present() const;
+    present() const
+    {
+      return !fields.empty();
+    }
 
     /** Whether some are of this kind. */
     bool

@@ -17,12 +17,21 @@ namespace Morula
     ExpressionKey force_density; // kPa/µm
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !force_density.is_default() || force_density.differs_by_type();
+    }
     std::string
-    details() const override;
+    details() const override
+    {
+      return force_density.text() + " kPa/um";
+    }
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&force_density};
+    }
   };
 
   /** A force per initial volume: doc/theory.md (4.7), equation (4) of the

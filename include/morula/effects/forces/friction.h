@@ -21,10 +21,16 @@ namespace Morula
     bool
     is_on() const override;
     std::string
-    details() const override;
+    details() const override
+    {
+      return coefficient.text() + " kPa day/um^2";
+    }
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&coefficient};
+    }
   };
 
   /** Friction of cells with surroundings that stand still: doc/theory.md

@@ -37,7 +37,10 @@ namespace Morula
                 const Expression     &density);
 
     bool
-    is_conservative() const override;
+    is_conservative() const override
+    {
+      return false;
+    }
 
     /** Whether an expression depends on the present place. */
     static bool

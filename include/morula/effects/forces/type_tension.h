@@ -30,7 +30,10 @@ namespace Morula
     bool
     is_on() const override;
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "tension between types";
+    }
     std::string
     details() const override;
     void
@@ -42,7 +45,10 @@ namespace Morula
   private:
     /** The key of type @p a with another one. */
     const Key<double> &
-    key(const unsigned int a, const unsigned int b) const;
+    key(const unsigned int a, const unsigned int b) const
+    {
+      return between[a * (types.size() - 1) + (b < a ? b : b - 1)];
+    }
   };
 
   /** Tension of the interfaces between types of cells, from the gradients of

@@ -27,17 +27,30 @@ namespace Morula
     is_on() const override;
 
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &stretch;
+    }
 
     std::string
-    how_to_switch_on() const override;
+    how_to_switch_on() const override
+    {
+      return "Set " + stretch.path();
+    }
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "gamma = " + stretch.text() + ", along " + direction.text() +
+             (keep_volume ? ", keeps volume" : "");
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&stretch, &direction, &keep_volume};
+    }
   };
 
   /**

@@ -59,16 +59,22 @@ namespace Morula
     /** Whether the flow of a step is found from a forecast of its motion, so
      *  that the step's error is known. */
     virtual bool
-    has_forecast() const;
+    has_forecast() const
+    {
+      return false;
+    }
 
     /** |dev(U − U*)| of a step of length @p dt (day) with the deformation @p f,
      *  of which U* was the forecast from the step @p past; 0 for a flow that
      *  needs none. */
     virtual double
-    error_of_forecast(const CellView<dim, const double> &cell,
-                      const Tensor<2, dim>              &f,
-                      const PastStep                    &past,
-                      const double                       dt) const;
+    error_of_forecast(const CellView<dim, const double> &,
+                      const Tensor<2, dim> &,
+                      const PastStep &,
+                      const double) const
+    {
+      return 0.;
+    }
   };
 } // namespace Morula
 

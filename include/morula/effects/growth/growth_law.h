@@ -73,7 +73,10 @@ namespace Morula
     /** Whether place and time alone tell growth, so that
      *  expected_volume_ratio() is right; else only the run can tell. */
     virtual bool
-    is_known_before() const;
+    is_known_before() const
+    {
+      return true;
+    }
 
     /**
      * Writes the law's own columns at the end of the step for which growth()
@@ -81,10 +84,11 @@ namespace Morula
      * @param after the cell at @p t1
      */
     virtual void
-    remember(const GrowingCell<dim>      &cell,
-             const double                 t0,
-             const double                 t1,
-             const CellView<dim, double> &after) const;
+    remember(const GrowingCell<dim> &,
+             const double,
+             const double,
+             const CellView<dim, double> &) const
+    {}
 
     /** growth() and remember() in one, and what the step before missed: a law
      *  may have less to do for both. */
@@ -97,12 +101,18 @@ namespace Morula
     /** Whether growth follows the state of cells, so that a step can miss some
      *  of it. */
     virtual bool
-    follows_state() const;
+    follows_state() const
+    {
+      return false;
+    }
 
     /** |missed| of doc/theory.md (5.9), in ln det F_g: what the step that led
      *  to this state missed of the cell's growth. */
     virtual double
-    missed(const GrowingCell<dim> &cell) const;
+    missed(const GrowingCell<dim> &) const
+    {
+      return 0.;
+    }
 
     /** Evaluates the law as the first and the last step will. */
     void

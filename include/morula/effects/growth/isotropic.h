@@ -18,7 +18,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&stretch};
+    }
   };
 
   /**
@@ -43,7 +46,10 @@ namespace Morula
      * @throws InputError if it is not positive
      */
     double
-    stretch(const Point<dim> &X, const double t) const;
+    stretch(const Point<dim> &X, const double t) const
+    {
+      return checked(theta.value(X, t), X, t);
+    }
 
     Tensor<2, dim>
     growth(const GrowingCell<dim> &cell,
@@ -51,7 +57,10 @@ namespace Morula
            const double            t1) const override;
 
     bool
-    is_known_before() const override;
+    is_known_before() const override
+    {
+      return !theta.depends_on_state();
+    }
 
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override;

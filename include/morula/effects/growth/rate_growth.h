@@ -70,10 +70,16 @@ namespace Morula
          const CellView<dim, double> &after) const override;
 
     bool
-    follows_state() const override;
+    follows_state() const override
+    {
+      return expected.has_value();
+    }
 
     double
-    missed(const GrowingCell<dim> &cell) const override;
+    missed(const GrowingCell<dim> &cell) const override
+    {
+      return size_of(missed_tensor(cell));
+    }
 
     void
     check(const Preview<dim> &scene) const override;

@@ -27,11 +27,18 @@ namespace Morula
     is_on() const override;
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "tau = " + time.text() +
+             " day, yield stress = " + yield_stress.text() + " kPa";
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&time, &yield_stress, &passes};
+    }
   };
 
   /**
@@ -63,7 +70,10 @@ namespace Morula
                     const Tensor<2, dim>        &f) const override;
 
     bool
-    has_forecast() const override;
+    has_forecast() const override
+    {
+      return true;
+    }
 
     double
     error_of_forecast(const CellView<dim, const double> &cell,

@@ -46,11 +46,17 @@ namespace Morula
     std::deque<ObstacleKeys> obstacles;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !obstacles.empty();
+    }
     std::string
     details() const override;
     const AnyKey *
-    names_key() const override;
+    names_key() const override
+    {
+      return &names;
+    }
     void
     declare_sections(const std::string &text) override;
     using Keys::list;

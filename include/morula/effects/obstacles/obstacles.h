@@ -26,9 +26,15 @@ namespace Morula
     explicit Obstacles(const Parameters &parameters);
 
     SurfaceCondition
-    kind() const override;
+    kind() const override
+    {
+      return SurfaceCondition::loaded;
+    }
     bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
+    {
+      return true;
+    }
     /** @throws StepFailed if an obstacle moves too far in the step */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
@@ -36,7 +42,10 @@ namespace Morula
     std::vector<typename BoundaryCondition<dim>::Part>
     parts(const LoadedPoints<dim> &points, const double t) const override;
     bool
-    only_pushes() const override;
+    only_pushes() const override
+    {
+      return true;
+    }
     void
     check(const Preview<dim> &scene) const override;
     void

@@ -84,11 +84,17 @@ namespace Morula
 
     /** γ between two types. */
     double
-    between(const unsigned int a, const unsigned int b) const;
+    between(const unsigned int a, const unsigned int b) const
+    {
+      return tensions.between.empty() ? 0. : tensions.between[a][b];
+    }
 
     /** γ of the free surface of a type. */
     double
-    with_surface(const unsigned int a) const;
+    with_surface(const unsigned int a) const
+    {
+      return tensions.with_surface.empty() ? 0. : tensions.with_surface[a];
+    }
 
   private:
     const TypeTensions tensions;
@@ -158,15 +164,24 @@ namespace Morula
 
     /** How many attempts are left that are to be run here. */
     std::size_t
-    n_left() const;
+    n_left() const
+    {
+      return left;
+    }
 
     /** Who is where. */
     const std::vector<Occupant> &
-    occupants() const;
+    occupants() const
+    {
+      return occupants_;
+    }
 
     /** How often places have changed their cell. */
     const std::vector<unsigned int> &
-    n_exchanges() const;
+    n_exchanges() const
+    {
+      return n_exchanges_;
+    }
 
   private:
     bool

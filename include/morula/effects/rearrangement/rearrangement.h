@@ -24,16 +24,28 @@ namespace Morula
     ExpressionKey drive;          // f, kPa µm^(dim-1)
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !diffusion.is_default() || diffusion.differs_by_type();
+    }
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &diffusion;
+    }
     std::string
-    how_to_switch_on() const override;
+    how_to_switch_on() const override
+    {
+      return "Set " + diffusion.path() + " > 0";
+    }
     void
     check_with(const MaterialParameters &material) const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&diffusion, &energy, &shear_released, &drive};
+    }
   };
 
   /** Cells exchange their places with neighbours: doc/theory.md, section 12.3.

@@ -65,7 +65,10 @@ namespace Morula
     texts() const;
 
     std::string
-    text() const override;
+    text() const override
+    {
+      return written;
+    }
     void
     assign(const std::string &text) override;
     void

@@ -35,7 +35,10 @@ namespace Morula
     details() const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&found_by, &reach};
+    }
 
     /**
      * Looks for names of such variables in the texts of keys, and lets the keys
@@ -45,9 +48,9 @@ namespace Morula
      *         which the stress depends
      */
     void
-    find_in(const std::vector<ExpressionKey *> &keys,
-            const std::vector<std::string>     &types,
-            const std::vector<std::string>     &fields);
+    see_expressions(const std::vector<ExpressionKey *> &keys,
+                    const std::vector<std::string>     &types,
+                    const std::vector<std::string>     &fields) override;
   };
 
   /** Tells cells of their neighbours: writes the columns of the variables, at

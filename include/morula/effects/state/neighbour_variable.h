@@ -38,11 +38,18 @@ namespace Morula
 
     /** Whether it needs to be known which cells touch. */
     bool
-    needs_graph() const;
+    needs_graph() const
+    {
+      return kind != slope && kind != free;
+    }
 
     /** Whether it needs the areas of the facets between cells. */
     bool
-    needs_areas() const;
+    needs_areas() const
+    {
+      return kind == share_of_type || kind == unlike || kind == free ||
+             kind == around;
+    }
   };
 
   /** The variable of this name, if it is one. @param types names of the cells'

@@ -64,19 +64,31 @@ namespace Morula
 
     /** The cell's id. */
     types::particle_index
-    id() const;
+    id() const
+    {
+      return id_;
+    }
 
     /** The reader that evaluates its expressions. */
     const CellReader<dim> &
-    reader() const;
+    reader() const
+    {
+      return reader_;
+    }
 
     /** The cell with all its columns. */
     const CellView<dim, const double> &
-    cell() const;
+    cell() const
+    {
+      return cell_;
+    }
 
     /** x, µm. */
     const Point<dim> &
-    position() const;
+    position() const
+    {
+      return position_;
+    }
 
     /** Number of the type; 0 if the scene has no types. */
     unsigned int
@@ -89,13 +101,19 @@ namespace Morula
     /** Outward unit normal of the surface near the founder, at t = 0. Only if
      *  StateColumns::need_surface_normal() asked for it. */
     Tensor<1, dim>
-    surface_normal() const;
+    surface_normal() const
+    {
+      return cell_.get(reader_.columns.surface_normal);
+    }
 
     /** Gradient of a field by its number, per µm, in the configuration in which
      *  the field was solved; zero before. Only if StateColumns::need_gradient()
      *  asked for it. */
     Tensor<1, dim>
-    gradient(const unsigned int field) const;
+    gradient(const unsigned int field) const
+    {
+      return cell_.get(reader_.columns.gradients[field]);
+    }
 
     /** Sets the value of a field, which is given by its number, in this object.
      */
@@ -104,7 +122,10 @@ namespace Morula
 
     /** F_e, equation (1.3). */
     Tensor<2, dim>
-    elastic() const;
+    elastic() const
+    {
+      return cell_.elastic_deformation();
+    }
 
     /** Volumes and Ψ: cheaper than quantities(). */
     CellScalars

@@ -69,7 +69,11 @@ namespace Morula
 
     /** Whether a column needs the surface near the founders. */
     bool
-    needs_surface() const;
+    needs_surface() const
+    {
+      return depth.exists() || present_depth.exists() ||
+             surface_normal.exists();
+    }
 
     /** Whether some expression uses the variable. */
     bool
@@ -82,15 +86,24 @@ namespace Morula
 
     /** Names of the types in the order of their numbers. */
     const std::vector<std::string> &
-    type_names() const;
+    type_names() const
+    {
+      return types;
+    }
 
     /** Names of the fields in the order of their numbers. */
     const std::vector<std::string> &
-    field_names() const;
+    field_names() const
+    {
+      return names_of_fields;
+    }
 
     /** What expressions say of a cell's neighbours, by number. */
     const std::vector<NeighbourVariable> &
-    neighbour_variables() const;
+    neighbour_variables() const
+    {
+      return of_neighbours;
+    }
 
     /** The values of neighbour_variables() at the cell. Slopes of fields follow
      *  from the fields' gradients and have no column. */

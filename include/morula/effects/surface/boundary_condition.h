@@ -51,6 +51,11 @@ namespace Morula
     double youngs_modulus = 0.;
   };
 
+  template <int dim>
+  class PartOfStep;
+  template <int dim>
+  struct AttemptAtStep;
+
   /**
    * A condition on the surface. It holds its points, in all directions or along
    * their normal, or it loads them by a term of its own. One Nitsche term does
@@ -82,7 +87,10 @@ namespace Morula
      *  ranks ask at once.
      *  @throws StepFailed if the step is too long for it */
     virtual std::unique_ptr<Term<dim>>
-    term(const LoadedPoints<dim> &points, const double t) const;
+    term(const LoadedPoints<dim> &, const double) const
+    {
+      return nullptr;
+    }
 
     /** A part of a condition whose force is told apart from the others'. */
     struct Part
@@ -98,9 +106,24 @@ namespace Morula
     virtual std::vector<Part>
     parts(const LoadedPoints<dim> &points, const double t) const;
 
+    /** The part that the condition as a whole has in an attempt at a step
+     *  besides its terms, which may keep a reference to @p attempt; null: none.
+     *  Collective. */
+    virtual std::unique_ptr<PartOfStep<dim>>
+    part_of_step(const AttemptAtStep<dim> &attempt) const;
+
+    /** Refuses a surface at t = 0 on which it cannot act. @param areas of the
+     *  boundary points, µm^(dim-1). Collective. @throws InputError */
+    virtual void
+    check_surface(const Preview<dim> &, const std::vector<double> &) const
+    {}
+
     /** Whether it only pushes tissue that it touches, and never holds it. */
     virtual bool
-    only_pushes() const;
+    only_pushes() const
+    {
+      return false;
+    }
 
     /** Whether tissue at rest would move: for the estimate of the time. */
     virtual bool

@@ -5,7 +5,6 @@
 #define morula_effects_surface_boundary_conditions_h
 
 #include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/nitsche_penalty.h>
 #include <morula/particles/boundary_state.h>
 
@@ -61,7 +60,10 @@ namespace Morula
 
     /** Whether the scene has conditions that fix or let slip. */
     bool
-    has_dirichlet() const;
+    has_dirichlet() const
+    {
+      return has(SurfaceCondition::fixed) || has(SurfaceCondition::slip);
+    }
 
     /** Whether one of this kind exists. */
     bool
@@ -71,17 +73,24 @@ namespace Morula
     bool
     has_pushing() const;
 
-    /** The lumen, or null. */
-    const Lumen<dim> *
-    lumen() const;
+    /** What conditions besides their terms have in an attempt at a step, to
+     *  which references are kept. Collective. */
+    std::vector<std::unique_ptr<PartOfStep<dim>>>
+    parts_of_step(const AttemptAtStep<dim> &attempt) const;
 
     /** All conditions: those that fix, that let slip, that load. */
     const std::vector<Named> &
-    list() const;
+    list() const
+    {
+      return list_;
+    }
 
     /** How stiffly points are held. */
     const NitschePenalty &
-    nitsche() const;
+    nitsche() const
+    {
+      return nitsche_;
+    }
 
   private:
     std::vector<Named> list_;

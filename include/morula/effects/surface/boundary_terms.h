@@ -58,23 +58,6 @@ namespace Morula
   LoadedPoints<dim>
   loaded_points(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
-  /** The boundary points of this rank around the lumen, held ones as well, at
-   *  the beginning of a step, and its volume then (µm^dim). Collective. */
-  template <int dim>
-  Enclosure<dim>
-  enclosure(const Lumen<dim>       &lumen,
-            const Tissue<dim>      &tissue,
-            const SplineSpace<dim> &space,
-            const MPI_Comm          comm);
-
-  /** The patches of this rank around the lumen; after the step with this
-   *  displacement if there is one. */
-  template <int dim>
-  std::vector<LumenPatch<dim>>
-  lumen_patches(const Lumen<dim>             &lumen,
-                const Tissue<dim>            &tissue,
-                const DisplacementField<dim> *displacement = nullptr);
-
   /** The fixed and slip points of this rank. */
   template <int dim>
   std::vector<typename RigidModes<dim>::Support>

@@ -27,9 +27,15 @@ namespace Morula
     bool
     is_on() const override;
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &where;
+    }
     std::string
-    details() const override;
+    details() const override
+    {
+      return "";
+    }
   };
 } // namespace Morula
 

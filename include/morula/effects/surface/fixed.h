@@ -17,9 +17,15 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &displacement};
+    }
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "fixed points (Nitsche)";
+    }
     std::string
     details() const override;
   };
@@ -35,7 +41,10 @@ namespace Morula
     explicit Fixed(const Parameters &parameters);
 
     Tensor<1, dim>
-    displacement(const Point<dim> &X, const double t) const override;
+    displacement(const Point<dim> &X, const double t) const override
+    {
+      return displacement_.vector(X, t);
+    }
     bool
     moves() const override;
 

@@ -22,7 +22,10 @@ namespace Morula
     using AreaTerm<dim>::AreaTerm;
 
     bool
-    is_conservative() const override;
+    is_conservative() const override
+    {
+      return false;
+    }
 
   private:
     /** p > 0 pushes inward. */

@@ -4,6 +4,7 @@
 #ifndef morula_effects_surface_lumen_h
 #define morula_effects_surface_lumen_h
 
+#include <morula/effects/step_effect.h>
 #include <morula/effects/surface/placed_condition.h>
 #include <morula/mechanics/enclosure.h>
 
@@ -24,7 +25,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &volume, &pressure};
+    }
     std::string
     details() const override;
   };
@@ -54,7 +58,7 @@ namespace Morula
    * follows; or it is filled with a gas. doc/theory.md (4.8g) to (4.8j).
    */
   template <int dim>
-  class Lumen : public PlacedCondition<dim>
+  class Lumen : public PlacedCondition<dim>, public Moments<dim>
   {
   public:
     using Parameters = LumenParameters;
@@ -65,7 +69,10 @@ namespace Morula
 
     /** Whether the volume is given. */
     bool
-    keeps_volume() const;
+    keeps_volume() const
+    {
+      return volume_.has_value();
+    }
 
     /** V*, µm^dim, at @p t (day), if it was @p at_start at t = 0.
      *  @throws InputError if the key has no value or is not positive */
@@ -74,7 +81,10 @@ namespace Morula
 
     /** Pressure at the volume of t = 0, kPa. @throws InputError */
     double
-    pressure(const double t) const;
+    pressure(const double t) const
+    {
+      return pressure_->value(Point<dim>(), t);
+    }
 
     /**
      * Refuses a surface that does not enclose anything. Collective.
@@ -84,10 +94,25 @@ namespace Morula
     void
     check_surface(const std::vector<LumenPatch<dim>> &patches,
                   const MPI_Comm                      comm) const;
+    void
+    check_surface(const Preview<dim>        &scene,
+                  const std::vector<double> &areas) const override;
 
     /** None: the momentum balance has the content of the lumen as a whole. */
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
+
+    std::unique_ptr<PartOfStep<dim>>
+    part_of_step(const AttemptAtStep<dim> &attempt) const override;
+
+    /** Measures the volume. The first pressure of a lumen that keeps it is a
+     *  guess, 0, from which the turns of the first step begin. */
+    void
+    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
+
+    void
+    describe(const Tissue<dim>      &tissue,
+             const MomentOfRun<dim> &moment) const override;
 
     /** Volume and pressure in statistics.csv; what it had at t = 0 and its last
      *  pressure are kept. */

@@ -62,6 +62,14 @@ namespace Morula
        *  cell is near the point, since its traction is extrapolated then. */
       double traction_fraction = 1.;
       Lame   lame;
+
+      /** The gap that the displacement leaves, µm: doc/theory.md (4.1). */
+      Tensor<1, dim>
+      gap_with(const LocalField<dim>   &field,
+               const SplineValues<dim> &splines) const
+      {
+        return gap + projection * field.value(splines);
+      }
     };
 
     /**
@@ -91,7 +99,10 @@ namespace Morula
            const LocalField<dim> &field) const override;
 
     bool
-    is_conservative() const override;
+    is_conservative() const override
+    {
+      return form == NitscheForm::symmetric;
+    }
 
   private:
     const NitscheForm                    form;

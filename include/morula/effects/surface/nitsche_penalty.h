@@ -21,7 +21,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&penalty, &form};
+    }
 
     /** Warns of penalties that have no effect, or that are too low if
      *  @p all_is_fixed (all of the surface). For scenes that hold points. */
@@ -55,7 +58,10 @@ namespace Morula
 
     /** Which of Nitsche's terms. */
     NitscheForm
-    form() const;
+    form() const
+    {
+      return form_;
+    }
 
   private:
     double      relative; // β h / E

@@ -17,9 +17,15 @@ namespace Morula
   {
   public:
     SurfaceCondition
-    kind() const override;
+    kind() const override
+    {
+      return kind_;
+    }
     bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    acts_on(const Point<dim> &X, const Tensor<1, dim> &) const override
+    {
+      return holds(X);
+    }
     void
     check(const Preview<dim> &scene) const override;
 
@@ -30,7 +36,8 @@ namespace Morula
     /** Refuses what the condition cannot do at a point @p X (µm) on which it
      *  acts, at @p t (day). @throws InputError */
     virtual void
-    check_at(const Point<dim> &X, const double t) const;
+    check_at(const Point<dim> &, const double) const
+    {}
 
     /** @p value of each point on which it acts, and Value() for the others. */
     template <typename Value, typename Function>

@@ -20,9 +20,15 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &normal};
+    }
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "slip (Nitsche)";
+    }
   };
 
   /** Points that are held along their own initial normal. */

@@ -19,7 +19,10 @@ namespace Morula
     is_on() const override;
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &tension};
+    }
     std::string
     details() const override;
   };

@@ -17,7 +17,10 @@ namespace Morula
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&where, &traction};
+    }
     std::string
     details() const override;
   };

@@ -24,7 +24,10 @@ namespace Morula
     bool
     is_on() const override;
     std::string
-    topic() const override;
+    topic() const override
+    {
+      return "surfaces of types";
+    }
     std::string
     details() const override;
     void
@@ -47,9 +50,15 @@ namespace Morula
                        const EffectSetting<dim> &setting);
 
     SurfaceCondition
-    kind() const override;
+    kind() const override
+    {
+      return SurfaceCondition::loaded;
+    }
     bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override;
+    acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
+    {
+      return true;
+    }
     std::unique_ptr<Term<dim>>
     term(const LoadedPoints<dim> &points, const double t) const override;
 

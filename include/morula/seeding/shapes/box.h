@@ -17,7 +17,10 @@ namespace Morula
     Box(const Point<dim> &center, const Tensor<1, dim> &size);
 
     BoundingBox<dim>
-    bounding_box() const override;
+    bounding_box() const override
+    {
+      return BoundingBox<dim>({center - 0.5 * size, center + 0.5 * size});
+    }
 
     bool
     contains(const Point<dim> &x, const double clearance) const override;

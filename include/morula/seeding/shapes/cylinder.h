@@ -23,10 +23,16 @@ namespace Morula
     contains(const Point<3> &x, const double clearance) const override;
 
     double
-    volume() const override;
+    volume() const override
+    {
+      return cap_area() * height;
+    }
 
     double
-    surface_area() const override;
+    surface_area() const override
+    {
+      return side_area() + 2. * cap_area();
+    }
 
     /**
      * Rings of patches of equal area: on the lower cap from the middle
@@ -38,10 +44,16 @@ namespace Morula
 
   private:
     double
-    cap_area() const;
+    cap_area() const
+    {
+      return numbers::PI * radius * radius;
+    }
 
     double
-    side_area() const;
+    side_area() const
+    {
+      return 2. * numbers::PI * radius * height;
+    }
 
     /** @param side -1: lower, 1: upper */
     SurfacePatch<3>

@@ -19,7 +19,10 @@ namespace Morula
     Ellipsoid(const Point<dim> &center, const Tensor<1, dim> &half_axes);
 
     BoundingBox<dim>
-    bounding_box() const override;
+    bounding_box() const override
+    {
+      return BoundingBox<dim>({center - half_axes, center + half_axes});
+    }
 
     /** Estimates the distance to the surface to first order. */
     bool

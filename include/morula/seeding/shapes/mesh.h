@@ -20,12 +20,21 @@ namespace Morula
     MeshShape(const std::string &key, const std::string &file);
 
     BoundingBox<3>
-    bounding_box() const override;
+    bounding_box() const override
+    {
+      return mesh.bounding_box();
+    }
 
     bool
-    contains(const Point<3> &x, const double clearance) const override;
+    contains(const Point<3> &x, const double clearance) const override
+    {
+      return mesh.contains(x, clearance);
+    }
     std::optional<bool>
-    side_of_cube(const Point<3> &x, const double half_side) const override;
+    side_of_cube(const Point<3> &x, const double half_side) const override
+    {
+      return mesh.side_of_cube(x, half_side);
+    }
 
     double
     volume() const override;

@@ -41,7 +41,10 @@ namespace Morula
     place(const std::uint64_t i) const;
 
     std::uint64_t
-    n_patches() const;
+    n_patches() const
+    {
+      return ends.back();
+    }
 
   private:
     // The number of patches before each ring's end; the first entry is 0.

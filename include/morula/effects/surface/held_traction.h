@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_held_traction_h
-#define morula_simulation_held_traction_h
+#ifndef morula_effects_surface_held_traction_h
+#define morula_effects_surface_held_traction_h
 
-#include <morula/mechanics/spline_field.h>
+#include <morula/effects/part_of_step.h>
+#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/particles/surroundings.h>
-#include <morula/simulation/tissue_model.h>
-#include <morula/solver/turns.h>
 
 #include <string>
 #include <vector>
@@ -26,37 +25,23 @@ namespace Morula
    * to all that it is given.
    */
   template <int dim>
-  class HeldTraction : public TurnParticipant
+  class HeldTraction : public PartOfStep<dim>
   {
   public:
-    /** The traction is zero until predict() sets it. Collective.
-     *  @param typical_stiffness kPa
-     *  @param in_parts whether a turn may change the traction by a part of what
-     *         the cells say only, as where a load jumps */
-    HeldTraction(const TissueModel<dim>       &model,
-                 const Tissue<dim>            &tissue,
-                 const SplineSpace<dim>       &space,
-                 const DevelopmentOfStep<dim> &growth,
-                 const double                  typical_stiffness,
-                 const bool                    in_parts);
+    /** The traction is zero until begin() sets it. Collective. */
+    HeldTraction(const BoundaryConditions<dim> &conditions,
+                 const AttemptAtStep<dim>      &attempt);
+
+    /** Nitsche's term with the traction, to which it keeps a reference. */
+    std::unique_ptr<Term<dim>>
+    term() override;
 
     /** Sets the traction with which a step begins: that of the increment @p u
      *  of its start, µm, with the growth at t + dt. Tissue that cannot move has
      *  it at the end. Collective. */
     void
-    predict(const Equilibrium::Vector &u);
-
-    /** M T per area of the configuration at t, kPa, in the order of
-     *  held_groups(). The list stays at its address as long as this object
-     *  lives, since the term keeps a reference. */
-    const std::vector<Tensor<1, dim>> &
-    tractions() const;
-
-    /** Stiffnesses of a stretch along the normals with the growth at t, kPa, by
-     *  held_groups(): k in doc/theory.md (4.6); ten times as much where the
-     *  traction is changed in parts. Collective. */
-    std::vector<double>
-    stiffnesses() const;
+    begin(const MomentumBalance<dim> &balance,
+          const Equilibrium::Vector  &u) override;
 
     bool
     renew(const Equilibrium::Vector &u) override;
@@ -78,13 +63,15 @@ namespace Morula
      *  t + dt. */
     std::vector<Tensor<1, dim>>
     tractions_of(const Equilibrium::Vector &u) const;
+    /** Stiffnesses of a stretch along the normals with the growth at t, kPa, by
+     *  held_groups(): k in doc/theory.md (4.6); ten times as much where the
+     *  traction is changed in parts. Collective. */
+    std::vector<double>
+    stiffnesses() const;
 
-    const TissueModel<dim>         &model;
+    const BoundaryConditions<dim>  &conditions;
+    const AttemptAtStep<dim>       &attempt;
     const Tissue<dim>              &tissue;
-    const SplineSpace<dim>         &space;
-    const DevelopmentOfStep<dim>   &growth;
-    const double                    typical_stiffness;
-    const bool                      in_parts;
     const std::vector<unsigned int> points; // held ones, as held_groups()
     std::vector<Held>               held;
     const Surroundings<dim>         surroundings;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
+#include <morula/effects/elastic_volumes.h>
+#include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/held_traction.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/point_motions.h>
 #include <morula/particles/detached_points.h>
-#include <morula/simulation/elastic_volumes.h>
-#include <morula/simulation/held_traction.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -46,43 +48,35 @@ namespace Morula
     /** λ and μ of cell number @p p. */
     template <int dim>
     Lame
-    lame_of(const TissueModel<dim>            &model,
-            const DevelopmentOfStep<dim>      &growth,
+    lame_of(const AttemptAtStep<dim>          &attempt,
             const CellView<dim, const double> &cell,
             const unsigned int                 p)
     {
-      return growth.lame.empty() ?
-               model.material.lame_at(cell.founder_position()) :
-               growth.lame[p];
+      return attempt.growth.lame.empty() ?
+               attempt.material.lame_at(cell.founder_position()) :
+               attempt.growth.lame[p];
     }
 
     /** W / V_t of a cell. */
     template <int dim>
     double
-    energy_volume(const TissueModel<dim>            &model,
+    energy_volume(const AttemptAtStep<dim>          &attempt,
                   const CellView<dim, const double> &cell,
                   const Tensor<2, dim>              &F_g)
     {
-      return (model.material.per_grown_volume() ? determinant(F_g) : 1.) /
+      return (attempt.material.per_grown_volume() ? determinant(F_g) : 1.) /
              determinant(cell.F());
     }
   } // namespace
 
 
   template <int dim>
-  HeldTraction<dim>::HeldTraction(const TissueModel<dim>       &model,
-                                  const Tissue<dim>            &tissue,
-                                  const SplineSpace<dim>       &space,
-                                  const DevelopmentOfStep<dim> &growth,
-                                  const double typical_stiffness,
-                                  const bool   in_parts)
-    : model(model)
-    , tissue(tissue)
-    , space(space)
-    , growth(growth)
-    , typical_stiffness(typical_stiffness)
-    , in_parts(in_parts)
-    , points(held_groups(tissue, space).points)
+  HeldTraction<dim>::HeldTraction(const BoundaryConditions<dim> &conditions,
+                                  const AttemptAtStep<dim>      &attempt)
+    : conditions(conditions)
+    , attempt(attempt)
+    , tissue(attempt.tissue)
+    , points(held_groups(tissue, attempt.space).points)
     , surroundings(tissue.boundary_points().positions_of(points),
                    tissue,
                    tissue.boundary_points().sides_of(points))
@@ -107,18 +101,31 @@ namespace Morula
 
 
   template <int dim>
-  void
-  HeldTraction<dim>::predict(const Equilibrium::Vector &u)
+  std::unique_ptr<Term<dim>>
+  HeldTraction<dim>::term()
   {
-    T = tractions_of(u);
+    const TimerOutput::Scope   section(attempt.timer, "nitsche");
+    std::unique_ptr<Term<dim>> term;
+    everywhere(attempt.comm, [&]() {
+      term = bounded_nitsche_term(conditions,
+                                  attempt.material,
+                                  tissue,
+                                  attempt.space,
+                                  attempt.growth,
+                                  attempt.t_next,
+                                  stiffnesses(),
+                                  T);
+    });
+    return term;
   }
 
 
   template <int dim>
-  const std::vector<Tensor<1, dim>> &
-  HeldTraction<dim>::tractions() const
+  void
+  HeldTraction<dim>::begin(const MomentumBalance<dim> &,
+                           const Equilibrium::Vector &u)
   {
-    return T;
+    T = tractions_of(u);
   }
 
 
@@ -133,19 +140,19 @@ namespace Morula
     const auto          K = surroundings.values([&](const unsigned int p) {
       const auto           cell = tissue.cells()[p];
       const Tensor<2, dim> F_g =
-        growth.present ? growth.previous[p] : cell.growth();
+        attempt.growth.present ? attempt.growth.previous[p] : cell.growth();
       const ElasticPoint<dim> point(cell.F() * invert(F_g),
-                                    lame_of(model, growth, cell, p),
-                                    model.material.material());
+                                    lame_of(attempt, cell, p),
+                                    attempt.material.material());
       const auto             &r = point.response();
       const Tensor<2, dim>    b(point.b()), I(unit_symmetric_tensor<dim>());
-      return Tensor<2, dim>(energy_volume(model, cell, F_g) *
+      return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
                             ((r.total_A() + r.alpha - r.total_gamma()) * I +
                              (r.alpha + 2. * r.B) * b + r.C * (b * b)));
     });
     std::vector<double> list;
     for (std::size_t k = 0; k < held.size(); ++k)
-      list.push_back((in_parts ? stiffening_of_jump : 1.) *
+      list.push_back((attempt.jumps ? stiffening_of_jump : 1.) *
                      (held[k].normal * (K[k] * held[k].normal)));
     return list;
   }
@@ -161,30 +168,36 @@ namespace Morula
     // its normal. The motions of this rank's cells are found first, many at
     // once by the kernel. surroundings.values() then sends stresses to the
     // ranks that have held points nearby. Collective.
-    const std::string           &kernel = model.scene.solver.kernel;
-    const DisplacementField<dim> displacement(space, u, tissue.communicator());
+    const std::string           &kernel = attempt.kernel;
+    const DisplacementField<dim> displacement(attempt.space,
+                                              u,
+                                              tissue.communicator());
     // Where the volumetric strain is a mean over grid cells, it makes the
     // pressure. The vector is empty otherwise.
-    const std::vector<double> volumes = elastic_volumes(
-      tissue, space, growth, model.material, kernel, displacement);
+    const std::vector<double>           volumes = elastic_volumes(tissue,
+                                                        attempt.space,
+                                                        attempt.growth,
+                                                        attempt.material,
+                                                        kernel,
+                                                        displacement);
     const std::vector<PointMotion<dim>> motions =
       point_motions(tissue.cells(),
                     displacement,
-                    motion_kernel<dim>(model.material.material(), kernel));
+                    motion_kernel<dim>(attempt.material.material(), kernel));
     // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t + dt.
     const auto P = surroundings.values([&](const unsigned int p) {
       const auto           cell = tissue.cells()[p];
       const Tensor<2, dim> F_g =
-        growth.present ? growth.current[p] : cell.growth();
+        attempt.growth.present ? attempt.growth.current[p] : cell.growth();
       const Tensor<2, dim> &f   = motions[p].f;
       const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
       const double          theta =
         std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
       const ElasticPoint<dim> point(F_e,
-                                    lame_of(model, growth, cell, p),
-                                    model.material.material(),
+                                    lame_of(attempt, cell, p),
+                                    attempt.material.material(),
                                     &theta);
-      return Tensor<2, dim>(energy_volume(model, cell, F_g) *
+      return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
                             Tensor<2, dim>(point.kirchhoff_stress()) *
                             transpose(invert(f)));
     });
@@ -214,21 +227,22 @@ namespace Morula
       }
     double totals[3];
     Utilities::MPI::sum(sums, tissue.communicator(), totals);
-    const double least  = least_traction * typical_stiffness;
+    const double least  = least_traction * attempt.typical_stiffness;
     const double before = change;
     change =
       std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
-    if (change <=
-        std::min(largest_change,
-                 largest_in_tolerances * model.scene.solver.newton_tolerance))
+    if (change <= std::min(largest_change,
+                           largest_in_tolerances * attempt.newton_tolerance))
       return false;
     // The traction need not settle where it is changed in parts. The forces are
     // balanced all the same, with a gap that the step's check of gaps judges.
-    if (in_parts && ++n_turns >= patient_turns && change > settling * before)
+    if (attempt.jumps && ++n_turns >= patient_turns &&
+        change > settling * before)
       return false;
     // The values are changed in place, as the term keeps a reference to the
     // list.
-    const double part = in_parts ? std::min(1., largest_step / change) : 1.;
+    const double part =
+      attempt.jumps ? std::min(1., largest_step / change) : 1.;
     for (std::size_t k = 0; k < held.size(); ++k)
       T[k] += part * (now[k] - T[k]);
     return true;

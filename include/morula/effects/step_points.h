@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_step_points_h
-#define morula_simulation_step_points_h
+#ifndef morula_effects_step_points_h
+#define morula_effects_step_points_h
 
 #include <morula/effects/development.h>
 #include <morula/mechanics/material_points.h>

@@ -1,20 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/expression_key.h>
+#include <morula/effects/state/present_depth.h>
 #include <morula/effects/state/surface_distance.h>
-#include <morula/simulation/present_depth.h>
 
 #include <vector>
 
 namespace Morula
 {
+  void
+  PresentDepthParameters::see_expressions(
+    const std::vector<ExpressionKey *> &keys,
+    const std::vector<std::string> &,
+    const std::vector<std::string> &)
+  {
+    // Whether the variable is really read is known when the expressions are
+    // parsed: then the column is there. The word may stand in a key of an
+    // effect that is off.
+    for (const ExpressionKey *key : keys)
+      is_used =
+        is_used || key->text().find("present_depth") != std::string::npos;
+  }
+
+
   template <int dim>
   void
-  set_present_depth(Tissue<dim> &tissue, const StateColumns<dim> &state)
+  PresentDepth<dim>::surfaced(Tissue<dim>            &tissue,
+                              const MomentOfRun<dim> &moment) const
   {
     // All ranks have the column or none has, so that all come to the search,
     // which gathers the surface on every rank.
-    if (!state.present_depth.exists())
+    const Column<double> column = moment.reader.columns.present_depth;
+    if (!column.exists())
       return;
     const Cells<dim>           &cells  = tissue.cells();
     const BoundaryPoints<dim>  &points = tissue.boundary_points();
@@ -30,12 +48,10 @@ namespace Morula
       }
     const auto near = near_surface(places, at, normals, tissue.communicator());
     for (unsigned int p = 0; p < cells.size(); ++p)
-      tissue.cell(p).set(state.present_depth, near[p].depth);
+      tissue.cell(p).set(column, near[p].depth);
   }
 
 
-  template void
-  set_present_depth(Tissue<2> &, const StateColumns<2> &);
-  template void
-  set_present_depth(Tissue<3> &, const StateColumns<3> &);
+  template class PresentDepth<2>;
+  template class PresentDepth<3>;
 } // namespace Morula

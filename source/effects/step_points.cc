@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/step_points.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/simulation/step_points.h>
 
 #include <deal.II/base/mpi.h>
 

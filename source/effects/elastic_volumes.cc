@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/elastic_volumes.h>
+#include <morula/effects/step_points.h>
 #include <morula/mechanics/vectorized_internal_force.h>
-#include <morula/simulation/elastic_volumes.h>
-#include <morula/simulation/step_points.h>
 
 #include <cmath>
 

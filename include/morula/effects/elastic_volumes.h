@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_elastic_volumes_h
-#define morula_simulation_elastic_volumes_h
+#ifndef morula_effects_elastic_volumes_h
+#define morula_effects_elastic_volumes_h
 
 #include <morula/effects/development.h>
 #include <morula/grid/spline_space.h>

@@ -80,7 +80,11 @@ def shortened(scene):
     spacing = float(keys.get("Tissue/Cell spacing", 10))
     n = volume(keys, dim) / spacing**dim
     factor = max(1.0, (n / MOST_CELLS)**(1 / dim))
-    return {"Time/End time": step, "Output/Interval": "0",
+    size = "Division by size/Volume"
+    larger = ({size: f"{factor**dim * float(keys[size]):.10g}"}
+              if keys.get(size, "").replace(".", "").isdigit() else {})
+    return {**larger,
+            "Time/End time": step, "Output/Interval": "0",
             "Output/Snapshot interval": "0",
             "Tissue/Cell spacing": f"{factor * spacing:.10g}",
             "Grid/Spacing":

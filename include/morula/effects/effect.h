@@ -59,19 +59,19 @@ namespace Morula
     {}
 
     /** Makes the keys that stand in the sections of the cells' types, before
-     * any key has its value. @param types names, in the order of their numbers
+     * any key has its value: their names, in the order of their numbers
      */
     virtual void
-    declare_types(const std::vector<std::string> &)
+    declare_types(const std::vector<std::string> & /*types*/)
     {}
 
     /** Looks at the keys of cells, when all have their values, for what their
-     *  expressions say of the effect. @param types, fields names
+     *  expressions say of the effect. Types and fields are names.
      *  @throws InputError */
     virtual void
-    see_expressions(const std::vector<ExpressionKey *> &,
-                    const std::vector<std::string> &,
-                    const std::vector<std::string> &)
+    see_expressions(const std::vector<ExpressionKey *> & /*keys*/,
+                    const std::vector<std::string> & /*types*/,
+                    const std::vector<std::string> & /*fields*/)
     {}
 
     /** How a scene gets the effect, a sentence without its end, for values that
@@ -193,15 +193,15 @@ namespace Morula
     /**
      * Sets the effect's columns of a cell at the end @p t1 (day) of a step.
      * Only called if the effect has columns; in every attempt of a step.
-     * @param before the cell at @p t0, which evaluates expressions, too
-     * @param after  the same cell: what this effect does not write, others may
+     * `before` is the cell at @p t0, which evaluates expressions, too;
+     * `after` is the same cell: what this effect does not write, others may
      *               have written already
      */
     virtual void
-    advance(const PresentCell<dim> &,
-            const CellView<dim, double> &,
-            const double,
-            const double) const
+    advance(const PresentCell<dim> & /*before*/,
+            const CellView<dim, double> & /*after*/,
+            const double /*t0*/,
+            const double /*t1*/) const
     {}
 
     /** Refuses a founder that the effect cannot handle, in its state at t = 0

@@ -82,6 +82,7 @@ namespace Morula
       return contested_.empty();
     }
 
+    /** Whether a grid cell is contested. */
     bool
     is_contested(const unsigned int number) const;
 

@@ -17,6 +17,7 @@ namespace Morula
    *  cell first. */
   using NodeName = std::uint64_t;
 
+  /** The name of a part of a grid cell of the grid's box. */
   inline NodeName
   node_name(const unsigned int grid_cell, const unsigned int part)
   {
@@ -30,6 +31,7 @@ namespace Morula
     return name >> 32;
   }
 
+  /** The part of its grid cell. */
   inline unsigned int
   part_of(const NodeName name)
   {

@@ -77,13 +77,13 @@ namespace Morula
            std::vector<CellEvent>      &events) const = 0;
 
     /** Keeps what the next step will compare in make_good().
-     *  @param t        middle of the step, day
-     *  @param is_whole whether nothing has happened to the cell in it */
+     *  `t` is the middle of the step, day; `is_whole` says whether nothing has
+     *  happened to the cell in it. */
     virtual void
-    expect(const PresentCell<dim> &,
-           const CellView<dim, double> &,
-           const double,
-           const bool) const
+    expect(const PresentCell<dim> & /*before*/,
+           const CellView<dim, double> & /*cell*/,
+           const double /*t*/,
+           const bool /*is_whole*/) const
     {}
 
     /** The cell's life ends at @p s (day), by this fate or another: sets what a
@@ -95,13 +95,13 @@ namespace Morula
     {}
 
     /** Sets what distinguishes a daughter, whose row is her mother's by the
-     *  columns' rules, from her mother. @param which 0 for the one at -n_s, 1
-     *  for the other. @param birth day */
+     *  columns' rules, from her mother. `which` is 0 for the one at -n_s, 1
+     *  for the other; `birth` its day. */
     virtual void
-    inherit(const CellView<dim, double> &,
-            const StateColumns<dim> &,
-            const unsigned int,
-            const double) const
+    inherit(const CellView<dim, double> & /*daughter*/,
+            const StateColumns<dim> & /*state*/,
+            const unsigned int /*which*/,
+            const double /*birth*/) const
     {}
 
     /** The rates, 1/day, with which the fate befalls cells of a type. */
@@ -131,13 +131,13 @@ namespace Morula
 
     /** Tells of a living cell how its grown volume V⁰ det F_g will change in
      *  the step, before its events are looked for.
-     *  @param ratio that at the end over that at the beginning, by the law of
-     *         growth */
+     *  `ratio` is that at the end over that at the beginning, by the law of
+     *  growth. */
     virtual void
-    grow(const PresentCell<dim> &,
-         const CellView<dim, double> &,
-         const double,
-         const Stretch &) const
+    grow(const PresentCell<dim> & /*before*/,
+         const CellView<dim, double> & /*cell*/,
+         const double /*t1*/,
+         const Stretch & /*ratio*/) const
     {}
 
     /** When the cell divides by this fate, if at or before @p t; day; infinity:

@@ -81,13 +81,13 @@ namespace Morula
     /**
      * Writes the law's own columns at the end of the step for which growth()
      * was called.
-     * @param after the cell at @p t1
+     * `after` is the cell at @p t1.
      */
     virtual void
-    remember(const GrowingCell<dim> &,
-             const double,
-             const double,
-             const CellView<dim, double> &) const
+    remember(const GrowingCell<dim> & /*cell*/,
+             const double /*t0*/,
+             const double /*t1*/,
+             const CellView<dim, double> & /*after*/) const
     {}
 
     /** growth() and remember() in one, and what the step before missed: a law

@@ -112,10 +112,11 @@ namespace Morula
     virtual std::unique_ptr<PartOfStep<dim>>
     part_of_step(const AttemptAtStep<dim> &attempt) const;
 
-    /** Refuses a surface at t = 0 on which it cannot act. @param areas of the
-     *  boundary points, µm^(dim-1). Collective. @throws InputError */
+    /** Refuses a surface at t = 0 on which it cannot act. The areas are those
+     *  of the boundary points, µm^(dim-1). Collective. @throws InputError */
     virtual void
-    check_surface(const Preview<dim> &, const std::vector<double> &) const
+    check_surface(const Preview<dim> & /*at*/,
+                  const std::vector<double> & /*areas*/) const
     {}
 
     /** Whether it only pushes tissue that it touches, and never holds it. */

@@ -66,7 +66,9 @@ TEST(ScenePlaces, AreThoseOfValuesRefusedLater)
   expect_parts(scene.located("Grid/Spacing (some file, line 3) = '-5'"),
                {".prm:3: Grid/Spacing (some"});
   EXPECT_EQ(scene.located("Time/Step = '0.2'"), "-s: Time/Step = '0.2'");
-  EXPECT_EQ(scene.located("Time/End time = '1'"), "Time/End time = '1'");
+  // A key that the scene does not set is said to have none.
+  EXPECT_EQ(scene.located("Time/End time = '1'"),
+            "Time/End time = '1' The scene does not set this key.");
   EXPECT_EQ(scene.located("no message"), "no message");
 }
 

@@ -170,16 +170,6 @@ namespace Morula
       throw StepFailed(text.str());
 
     const double unit = law.E * std::pow(law.h, dim - 1);
-    if (getenv("DBG"))
-      fprintf(
-        stderr,
-        "turn normal %g tangential %g new %g links %g crossed %g slid %g\n",
-        sums[0],
-        sums[1],
-        sums[2],
-        sums[3],
-        crossed,
-        slid);
     if (strength == 1. && sums[1] <= small_part * sums[0] + no_force * unit &&
         sums[2] <= small_part * sums[0] + no_force * unit)
       return false;

@@ -393,16 +393,6 @@ namespace Morula
             contact.between.text() + " and the tissue grows or flows",
           "Patches that grow longer than half a grid spacing let bodies pass "
           "through each other.");
-      if (contact.is_of_all() && scene.tissue.renew_surface > 0.)
-        scene.tissue.renew_surface.refuse(
-          "0, as " + contact.between.path() + " = all",
-          "A surface that is made anew around the cells closes gaps that are "
-          "narrower than two cells, so that the sides of folds would stick. "
-          "Choose bodies, or do without it.");
-      if (contact.is_of_all() && contact.fusion_time > 0.)
-        contact.fusion_time.refuse("0, as " + contact.between.path() + " = all",
-                                   "Only different bodies can fuse: choose "
-                                   "bodies.");
       const auto &exchange = scene.keys<RearrangementParameters>();
       if (exchange.is_on())
         contact.between.refuse(

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/near_tree.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/shape.h>
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -26,6 +28,18 @@ namespace Morula
     /** How near to a held point a patch is the same part of the surface, in
      *  sides of a patch, and the cosine of the largest angle between them. */
     constexpr double beside = 1.5, least_cosine = 0.5;
+
+    /** Two points face each other if the product of their normals is below
+     *  this, as in the energy of contact, doc/theory.md (4.8k). */
+    constexpr double facing = -0.3;
+
+    /** The two faces of a sheet are behind each other by its thickness, points
+     *  that touch by less than this, in units of a patch's longest edge. */
+    constexpr double overlap = 0.8;
+
+    /** How far a renewed surface is moved at most to enclose its volume, in
+     *  units of the cells' length, as in surface_around(). */
+    constexpr double farthest = 0.25;
 
     /** Former points of all ranks, by id, to find the nearest one. */
     template <int dim>
@@ -47,17 +61,24 @@ namespace Morula
         return {points.row(i), columns};
       }
 
-      /** The point nearest to @p x (µm) of this kind: held or not; nothing if
+      /** The point nearest to @p x (µm) of those that @p counts; nothing if
        *  there is none. */
+      std::optional<std::size_t>
+      nearest(const Point<dim>                             &x,
+              const std::function<bool(const std::size_t)> &counts) const
+      {
+        std::vector<std::size_t> found;
+        tree.query(bgi::nearest(x, 1) && bgi::satisfies(counts),
+                   std::back_inserter(found));
+        return found.empty() ? std::optional<std::size_t>() : found[0];
+      }
+
+      /** Likewise of this kind: held or not. */
       std::optional<std::size_t>
       nearest(const Point<dim> &x, const bool held) const
       {
-        std::vector<std::size_t> found;
-        tree.query(bgi::nearest(x, 1) &&
-                     bgi::satisfies(
-                       [&](const std::size_t i) { return is_held(i) == held; }),
-                   std::back_inserter(found));
-        return found.empty() ? std::optional<std::size_t>() : found[0];
+        return nearest(x,
+                       [&](const std::size_t i) { return is_held(i) == held; });
       }
 
       bool
@@ -101,6 +122,66 @@ namespace Morula
         return false;
       const Tensor<1, dim> area = present[*i].area_vector();
       return area * n > least_cosine * area.norm();
+    }
+
+    /** Which points face others across a gap that is narrower than @p reach
+     *  (µm), or none. */
+    template <int dim>
+    std::vector<bool>
+    points_at_gaps(const FormerPoints<dim> &points,
+                   const double             reach,
+                   const double             longest_edge)
+    {
+      std::vector<Tensor<1, dim>> n;
+      for (std::size_t i = 0; i < points.points.size(); ++i)
+        n.push_back(points[i].area_vector() / points[i].area_vector().norm());
+      const std::vector<Point<dim>> &x = points.points.positions;
+      const NearTree<dim>            tree(x);
+      std::vector<bool>              at_gap;
+      for (std::size_t i = 0; i < n.size(); ++i)
+        {
+          const auto near = tree.within(x[i], reach);
+          at_gap.push_back(
+            std::any_of(near.begin(), near.end(), [&](const unsigned int j) {
+              return n[i] * n[j] < facing &&
+                     0.5 * ((n[j] - n[i]) * (x[i] - x[j])) >
+                       -overlap * longest_edge;
+            }));
+        }
+      return at_gap;
+    }
+
+    /** Corrects the areas of new patches, in proportion, so that all area
+     *  vectors add up to nothing.
+     *  @param opening that of the points which stay, Σ a n */
+    template <int dim>
+    void
+    close_surface(Tensor<1, dim>                  opening,
+                  std::vector<SurfacePatch<dim>> &patches)
+    {
+      double area = 0.;
+      for (const SurfacePatch<dim> &patch : patches)
+        {
+          opening += patch.area * patch.normal;
+          area += patch.area;
+        }
+      for (SurfacePatch<dim> &patch : patches)
+        {
+          const Tensor<1, dim> A = patch.area * (patch.normal - opening / area);
+          patch.area             = A.norm();
+          patch.normal           = A / patch.area;
+        }
+    }
+
+    template <int dim>
+    std::vector<SurfacePatch<dim>>
+    patches_of(const SurfacePatches<dim> &around)
+    {
+      std::vector<SurfacePatch<dim>> patches;
+      for (std::size_t k = 0; k < around.areas.size(); ++k)
+        patches.push_back(
+          {around.positions[k], around.normals[k], around.areas[k]});
+      return patches;
     }
 
     /** Adds a point whose patch is new to a list, like its nearest former one.
@@ -160,6 +241,82 @@ namespace Morula
           own.add_value(cells.id(p), cells.position(p), cells.volume(p));
       return of_all_ranks(own, comm);
     }
+    /** Adds the points that stay: held ones as they are, and those at gaps with
+     *  a geometry that begins anew. */
+    template <int dim>
+    void
+    append_kept(const FormerPoints<dim> &present,
+                const std::vector<bool> &at_gap,
+                PointList<dim>          &list)
+    {
+      for (std::size_t i = 0; i < at_gap.size(); ++i)
+        if (present.is_held(i) || at_gap[i])
+          {
+            std::vector<double> row(present.points.row(i).begin(),
+                                    present.points.row(i).end());
+            if (!present.is_held(i))
+              present.columns.set_square_patch(make_array_view(row),
+                                               Tensor<2, dim>(
+                                                 unit_symmetric_tensor<dim>()),
+                                               present[i].area_vector());
+            list.add(present.points.ids[i],
+                     present.points.positions[i],
+                     make_array_view(row));
+          }
+    }
+
+    /** The patches of a surface around all cells with which the points at gaps
+     *  enclose the cells. A surface around cells closes gaps that are narrower
+     *  than it can see, and is too small by what it encloses there. */
+    template <int dim>
+    std::vector<SurfacePatch<dim>>
+    patches_beside_gaps(const FormerPoints<dim>   &present,
+                        const std::vector<bool>   &at_gap,
+                        const SurfacePatches<dim> &around,
+                        const double               volume,
+                        const double               farthest_way)
+    {
+      // The old surface is divided between its points, and a new patch counts
+      // where the nearest one of its side is at no gap. With the points that
+      // stay the patches shall be closed and enclose the cells' volume, as they
+      // do where there are no gaps: (1.10) for areas, a shift along normals for
+      // volume.
+      std::vector<SurfacePatch<dim>> patches;
+      for (std::size_t k = 0; k < around.areas.size(); ++k)
+        {
+          const Tensor<1, dim> n = around.normals[k];
+          const auto           old =
+            present.nearest(around.positions[k], [&](const std::size_t i) {
+              return present[i].area_vector() * n > 0.;
+            });
+          if (!old || !at_gap[*old])
+            patches.push_back({around.positions[k], n, around.areas[k]});
+        }
+      if (patches.empty())
+        return patches;
+      const Point<dim> apex = patches.front().position;
+      Tensor<1, dim>   opening;
+      double           missing = volume, area = 0.;
+      for (std::size_t i = 0; i < at_gap.size(); ++i)
+        if (at_gap[i])
+          {
+            const Tensor<1, dim> a = present[i].area_vector();
+            opening += a;
+            missing -= (present.points.positions[i] - apex) * a / dim;
+          }
+      close_surface(opening, patches);
+      for (const SurfacePatch<dim> &patch : patches)
+        {
+          missing -=
+            patch.area / dim * ((patch.position - apex) * patch.normal);
+          area += patch.area;
+        }
+      const double way =
+        std::clamp(dim * missing / area, -farthest_way, farthest_way);
+      for (SurfacePatch<dim> &patch : patches)
+        patch.position += way * patch.normal;
+      return patches;
+    }
   } // namespace
 
 
@@ -173,12 +330,14 @@ namespace Morula
                   const double                       longest_edge,
                   types::particle_index             &next_id,
                   const MPI_Comm                     comm,
-                  const std::optional<unsigned int> &body)
+                  const std::optional<unsigned int> &body,
+                  const bool                         keeps_gaps)
   {
     // All ranks give their cells and points to all, by id; rank 0 makes the
     // surface around the cells, since CGAL works on one rank. Held points stay
-    // as they are. Patches beside one of these are left out, as the surface is
-    // there already; all others become free or loaded points like their nearest
+    // as they are, and so do those at gaps, but that they begin anew. Patches
+    // beside one of these are left out, as the surface is there already; all
+    // others become free or loaded points like their nearest
     // former one. Whether there is a surface, and how many ids it takes, is
     // told to all ranks. The new points stand on rank 0; placing the tissue
     // sends them to their owners.
@@ -200,24 +359,37 @@ namespace Morula
         wanted.patch_area = columns.reference_area.exists() ?
                               like.wanted_area(longest_edge) :
                               area_of_cells(all, longest_edge);
-      const auto patches = surface_around(all.positions, all.numbers, wanted);
-      if (!patches)
+      const auto around = surface_around(all.positions, all.numbers, wanted);
+      if (!around)
         return;
-      found = true;
-      for (std::size_t i = 0; i < all_present.size(); ++i)
-        if (kept.is_held(i))
-          list.add(all_present.ids[i],
-                   all_present.positions[i],
-                   ArrayView<const double>(all_present.row(i)));
+      found                        = true;
+      const AllCells<dim> together = {all.positions,
+                                      all.numbers,
+                                      wanted.length};
+      const double        side = std::pow(wanted.patch_area, 1. / (dim - 1));
+      std::vector<bool>   at_gap(all_present.size(), false);
+      if (keeps_gaps)
+        at_gap = points_at_gaps(kept,
+                                wanted.gap * together.length + side,
+                                longest_edge);
+      append_kept(kept, at_gap, list);
+      const bool has_gaps =
+        std::find(at_gap.begin(), at_gap.end(), true) != at_gap.end();
       // New ids follow the order of the patches.
-      for (std::size_t k = 0; k < patches->areas.size(); ++k)
-        {
-          const Point<dim>     x = patches->positions[k];
-          const Tensor<1, dim> n = patches->normals[k];
-          if (!is_beside(
-                kept, true, x, n, std::pow(wanted.patch_area, 1. / (dim - 1))))
-            add_patch(like, next_id + n_new++, x, patches->areas[k] * n, list);
-        }
+      for (const SurfacePatch<dim> &patch :
+           has_gaps ? patches_beside_gaps(kept,
+                                          at_gap,
+                                          *around,
+                                          wanted.volume > 0. ? wanted.volume :
+                                                               together.volume,
+                                          farthest * together.length) :
+                      patches_of(*around))
+        if (!is_beside(kept, true, patch.position, patch.normal, side))
+          add_patch(like,
+                    next_id + n_new++,
+                    patch.position,
+                    patch.area * patch.normal,
+                    list);
     });
     next_id += Utilities::MPI::broadcast(comm, n_new, 0);
     if (!Utilities::MPI::broadcast(comm, found, 0))
@@ -235,31 +407,21 @@ namespace Morula
                     const SurfacePatches<dim> &around,
                     const double               side)
     {
-      // Cut surfaces must close what the points that stay leave open: the areas
-      // of all add up to some vector, which is taken out of the cuts' in
-      // proportion to their areas. Normals turn a little by that.
+      // Cut surfaces must close what the points that stay leave open. Normals
+      // turn a little by that.
       Tensor<1, dim> opening; // Σ a n
       for (std::size_t i = 0; i < present.points.size(); ++i)
         opening += present[i].area_vector();
       std::vector<SurfacePatch<dim>> cuts;
-      double                         area = 0.;
       for (std::size_t k = 0; k < around.areas.size(); ++k)
         {
           const Point<dim>     x = around.positions[k];
           const Tensor<1, dim> n = around.normals[k];
-          if (is_beside(present, true, x, n, side) ||
-              is_beside(present, false, x, n, side))
-            continue;
-          cuts.push_back({x, n, around.areas[k]});
-          area += around.areas[k];
-          opening += around.areas[k] * n;
+          if (!is_beside(present, true, x, n, side) &&
+              !is_beside(present, false, x, n, side))
+            cuts.push_back({x, n, around.areas[k]});
         }
-      for (SurfacePatch<dim> &patch : cuts)
-        {
-          const Tensor<1, dim> A = patch.area * (patch.normal - opening / area);
-          patch.area             = A.norm();
-          patch.normal           = A / patch.area;
-        }
+      close_surface(opening, cuts);
       return cuts;
     }
   } // namespace
@@ -326,7 +488,8 @@ namespace Morula
     const double,                                                    \
     types::particle_index &,                                         \
     const MPI_Comm,                                                  \
-    const std::optional<unsigned int> &);                            \
+    const std::optional<unsigned int> &,                             \
+    const bool);                                                     \
   template std::optional<PointList<dim>> carved_surface(             \
     const Cells<dim> &,                                              \
     const PointList<dim> &,                                          \

@@ -215,7 +215,7 @@ namespace Morula
         restore_fit(tissue, *share, is_torn);
       }
     if (model.scene.contact.is_on() && model.scene.contact.fusion_time > 0.)
-      fuse_bodies(tissue, dt);
+      fuse_what_touches(tissue, dt);
   }
 
 
@@ -350,19 +350,24 @@ namespace Morula
 
   template <int dim>
   void
-  FollowingSurface<dim>::fuse_bodies(Tissue<dim> &tissue, const double dt)
+  FollowingSurface<dim>::fuse_what_touches(Tissue<dim> &tissue, const double dt)
   {
-    // A body that several go into gets its new surface once, around all its
-    // cells.
+    // Where a body can touch itself the surface between what fuses goes, and
+    // the rest stays. Otherwise a body that several go into gets its new
+    // surface once, around all its cells.
     const TimerOutput::Scope section(timer, "fusion");
     age_contact(tissue, dt);
-    const Fusions fusions =
-      bodies_to_fuse(tissue, model.scene.contact.fusion_time);
-    if (fusions.empty())
+    const Fusion fusion = find_fusion(tissue, model.scene.contact.fusion_time);
+    const bool   is_of_all = model.scene.contact.is_of_all();
+    if (is_of_all)
+      remove_fused_surface(fusion, tissue);
+    if (fusion.into.empty())
       return;
-    fuse(fusions, tissue);
+    fuse_bodies(fusion, tissue);
+    if (is_of_all)
+      return;
     std::set<unsigned int> fused;
-    for (const auto &[body, into] : fusions)
+    for (const auto &[body, into] : fusion.into)
       fused.insert(into);
     if (!renew_bodies(tissue,
                       tissue.boundary_points().copy(),
@@ -428,7 +433,8 @@ namespace Morula
                                           longest_edge,
                                           next_id,
                                           comm,
-                                          b);
+                                          b,
+                                          model.scene.contact.is_of_all());
         if (!more)
           return false;
         list.append(*more);

@@ -172,7 +172,7 @@ namespace Morula
              [&](const unsigned int p) {
                return missed.empty() ? 0. : missed[p];
              },
-             std::pow(model.scene.tissue.cell_spacing, dim));
+             std::pow(double(model.scene.tissue.cell_spacing), dim));
   }
 
   template <int dim>

@@ -214,13 +214,17 @@ class Folds(ProgramTest):
                 "0; if(Y > 0, -if(t < 1, 12*t, 12*(2 - t)), 0); 0"}
         self.check_closing_and_opening(self.run_scene(scene, keys, 2), 3)
 
-    def test_bodies_touch_as_with_bodies_alone(self):
-        """Two blocks press on each other as where only bodies can touch."""
+    def two_blocks(self):
+        """Blocks of 60 um by 30 um, 2 um apart."""
         cells = [(1 + 2 * i, y + 1 + 2 * j, 4) for y in (0, 32)
                  for j in range(15) for i in range(30)]
-        scene = self.write_scene(
+        return self.write_scene(
             cells, "MULTIPOLYGON(((0 0, 60 0, 60 30, 0 30, 0 0)), "
             "((0 32, 60 32, 60 62, 0 62, 0 32)))\n", "wkt")
+
+    def test_bodies_touch_as_with_bodies_alone(self):
+        """Two blocks press on each other as where only bodies can touch."""
+        scene = self.two_blocks()
         keys = {"Boundary conditions/Slip where":
                 "X < 0.001 || X > 59.999 || Y < 0.001",
                 "Boundary conditions/Fixed where": "Y > 61.999",
@@ -232,18 +236,49 @@ class Folds(ProgramTest):
                  for between in ("bodies", "all")]
         self.assertAlmostEqual(*found, delta=1e-3 * found[0])
 
-    def test_what_is_refused(self):
-        scene = self.slit(1e-4)
-        for keys, message in (
-                ({"Tissue/Renew surface": "1", "Tissue/Refine surface": "true",
-                  "Tissue/Coarsen surface": "true"},
-                 "so that the sides of folds would stick"),
-                ({"Contact/Fusion time": "1", "Tissue/Refine surface": "true"},
-                 "Only different bodies can fuse")):
-            self.assertIn(message, self.execute(
-                scene, "--replace", *overrides(keys), code=1).text)
+    def test_strands_fuse(self):
+        """The sides of a slit, and two blocks, that have been pressed on each
+        other for some time are one tissue: it is drawn as if there had been no
+        surface."""
+        for offset in ("0, 0", "3, 7"):
+            drawn = []
+            for make, top, points in ((lambda: self.slit(0), 60, 240),
+                                      (lambda: self.slit(1e-4), 60, 300),
+                                      (self.two_blocks, 62, 360)):
+                forces = self.run_scene(make(), {
+                    "Boundary conditions/Slip where": "Y < 0.001",
+                    "Boundary conditions/Fixed where": f"Y > {top - 0.001}",
+                    "Boundary conditions/Displacement":
+                    f"0; {60 - top} + if(t < 0.35, -3*min(10*t, 1), "
+                    "-3 + 15*(t - 0.35))",
+                    "Tissue/Boundary points": str(points),
+                    "Tissue/Refine surface": "true", "Time/End time": "0.75",
+                    "Time/Step": "0.05", "Grid/Offset": offset,
+                    "Contact/Fusion time": "0.2"})
+                drawn.append(self.last(forces, "fixed")["force_y"])
+                rows = read_csv(self.work / "output/surface-0007.csv")
+                self.assertEqual(set(rows["body"]), {0})
+                for axis in "xy":
+                    self.assertLess(
+                        abs(np.sum(rows["area"] * rows[f"n{axis}"])),
+                        1e-3 * np.sum(rows["area"]))
+            for force in drawn:
+                self.assertAlmostEqual(force / drawn[0], 1, delta=3e-3)
+
+    def test_a_fold_whose_surface_is_made_anew(self):
+        """closes and opens as before."""
+        strip = Strip(20, 10, 40)
+        scene = self.polygon(list(strip.cells(2)),
+                             strip.side(strip.inner, 24)
+                             + strip.side(strip.outer, 48)[::-1])
+        keys = {**self.hairpin_keys(strip, 150), "Tissue/Renew surface": "0.2",
+                "Tissue/Refine surface": "true",
+                "Tissue/Coarsen surface": "true"}
+        self.check_closing_and_opening(self.run_scene(scene, keys), 2)
+
+    def test_what_is_said(self):
         self.assertIn("1 body, whose folds and arms have contact, too",
-                      self.execute(scene, "--explain").text)
+                      self.execute(self.slit(1e-4), "--explain").text)
 
 
 if __name__ == "__main__":

@@ -35,6 +35,9 @@ namespace Morula
    * @param next_id is raised by the number of new points
    * @param body the surface is made around the cells of this body alone, if
    *        given; @p former and @p present are its points then
+   * @param keeps_gaps whether points that face others across a gap which a new
+   *        surface would close stay where they are, with F = 1: the sides of a
+   *        fold
    * @return the points, all of them on rank 0; nothing if the cells have no
    * common surface, or never had one
    */
@@ -48,7 +51,8 @@ namespace Morula
                   const double                       longest_edge,
                   types::particle_index             &next_id,
                   const MPI_Comm                     comm,
-                  const std::optional<unsigned int> &body = {});
+                  const std::optional<unsigned int> &body       = {},
+                  const bool                         keeps_gaps = false);
 
   /**
    * The boundary points of a tissue that was carved at t = 0: the present ones

@@ -99,7 +99,7 @@ namespace Morula
     /** Lets bodies fuse that have touched each other for long enough, and gives
      *  them one surface. Collective. */
     void
-    fuse_bodies(Tissue<dim> &tissue, const double dt);
+    fuse_what_touches(Tissue<dim> &tissue, const double dt);
     void
     renew_if_due(Tissue<dim>          &tissue,
                  const PointList<dim> &former,

@@ -8,11 +8,21 @@
 #include <deal.II/base/mpi.templates.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
 namespace Morula
 {
+  namespace
+  {
+    /** Points that are deeper in each other than this, in units of h, are those
+     *  of a sheet's two faces. */
+    constexpr double behind_another = 0.1;
+  } // namespace
+
+
   template <int dim>
   void
   age_contact(Tissue<dim> &tissue, const double dt)
@@ -30,11 +40,11 @@ namespace Morula
 
 
   template <int dim>
-  Fusions
-  bodies_to_fuse(const Tissue<dim> &tissue, const double time)
+  Fusion
+  find_fusion(const Tissue<dim> &tissue, const double time)
   {
-    // Points that have been touched long enough look for such points of other
-    // bodies within half a grid spacing, also on other ranks. All ranks learn
+    // Points that have been touched long enough look for such points in front
+    // of them within half a grid spacing, also on other ranks. All ranks learn
     // all couples of bodies and join them alike: the lower number wins, and
     // couples are gone through until nothing changes, as three may meet at
     // once.
@@ -55,21 +65,32 @@ namespace Morula
     const PointList<dim> near = near_points(
       queries, store, {2 + dim, numbers, Ties::lowest_id}, tissue.grid(), 1);
     const NearTree<dim> tree(near.positions);
-    const double        reach = 0.5 * tissue.grid().box().spacing();
+    const double        h = tissue.grid().box().spacing();
+    Fusion              fusion;
     std::vector<std::pair<unsigned int, unsigned int>> couples;
     for (std::size_t k = 0; k < old.size(); ++k)
       {
-        const unsigned int body = store.body(old[k]);
-        for (const unsigned int i : tree.within(queries[k], reach))
+        const unsigned int   body = store.body(old[k]);
+        const Tensor<1, dim> area = store.area_vector(old[k]);
+        bool                 met  = false;
+        for (const unsigned int i : tree.within(queries[k], 0.5 * h))
           {
             const double *const row   = near.row(i).data();
             const auto          other = static_cast<unsigned int>(row[0]);
-            if (other > body && row[1] >= time &&
-                store.area_vector(old[k]) *
-                    Flat<Tensor<1, dim>>::read(row + 2) <
-                  0.)
+            const auto          there = Flat<Tensor<1, dim>>::read(row + 2);
+            // The two faces of a sheet are behind each other.
+            const double gap =
+              0.5 * ((there / there.norm() - area / area.norm()) *
+                     (queries[k] - near.positions[i]));
+            if (row[1] < time || area * there >= 0. ||
+                gap < -behind_another * h)
+              continue;
+            met = true;
+            if (other > body)
               couples.emplace_back(body, other);
           }
+        if (met)
+          fusion.points.push_back(old[k]);
       }
     std::sort(couples.begin(), couples.end());
     couples.erase(std::unique(couples.begin(), couples.end()), couples.end());
@@ -79,8 +100,8 @@ namespace Morula
         mine.push_back(a);
         mine.push_back(b);
       }
-    Fusions    into;
-    const auto root = [&](unsigned int body) {
+    std::map<unsigned int, unsigned int> &into = fusion.into;
+    const auto                            root = [&](unsigned int body) {
       while (into.count(body) > 0)
         body = into.at(body);
       return body;
@@ -95,20 +116,41 @@ namespace Morula
         }
     for (auto &[body, target] : into)
       target = root(target);
-    return into;
+    return fusion;
   }
 
 
   template <int dim>
   void
-  fuse(const Fusions &fusions, Tissue<dim> &tissue)
+  remove_fused_surface(const Fusion &fusion, Tissue<dim> &tissue)
+  {
+    // Patches of both sides leave together. What is left is closed as before,
+    // as the two sides' area vectors cancel.
+    if (Utilities::MPI::sum<std::uint64_t>(fusion.points.size(),
+                                           tissue.communicator()) == 0)
+      return;
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    const PointList<dim>       all   = store.copy();
+    PointList<dim>             left(all.n_numbers);
+    for (unsigned int p = 0; p < store.size(); ++p)
+      if (!std::binary_search(fusion.points.begin(), fusion.points.end(), p))
+        left.add(all.ids[p],
+                 all.positions[p],
+                 ArrayView<const double>(all.row(p)));
+    tissue.replace_surface(left);
+  }
+
+
+  template <int dim>
+  void
+  fuse_bodies(const Fusion &fusion, Tissue<dim> &tissue)
   {
     // The stores sort points by body, so that all are placed anew.
     const auto renamed = [&](PointList<dim>              points,
                              const Column<unsigned int> &column) {
       for (std::size_t i = 0; i < points.size(); ++i)
-        if (const auto found = fusions.find(column.get(points.row(i)));
-            found != fusions.end())
+        if (const auto found = fusion.into.find(column.get(points.row(i)));
+            found != fusion.into.end())
           column.set(points.row(i), found->second);
       return points;
     };
@@ -120,10 +162,11 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template void    age_contact(Tissue<dim> &, const double);          \
-  template Fusions bodies_to_fuse(const Tissue<dim> &, const double); \
-  template void    fuse(const Fusions &, Tissue<dim> &);
+#define INSTANTIATE(dim)                                               \
+  template void   age_contact(Tissue<dim> &, const double);            \
+  template Fusion find_fusion(const Tissue<dim> &, const double);      \
+  template void   remove_fused_surface(const Fusion &, Tissue<dim> &); \
+  template void   fuse_bodies(const Fusion &, Tissue<dim> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

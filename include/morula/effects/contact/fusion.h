@@ -7,11 +7,19 @@
 #include <morula/particles/tissue.h>
 
 #include <map>
+#include <vector>
 
 namespace Morula
 {
-  /** Into which body a body goes that fuses, by its number. */
-  using Fusions = std::map<unsigned int, unsigned int>;
+  /** What fuses after a step. */
+  struct Fusion
+  {
+    /** Into which body a body goes that fuses, by its number; of all ranks. */
+    std::map<unsigned int, unsigned int> into;
+    /** This rank's boundary points that others face which are to fuse with
+     *  them, by their numbers in the store, increasing. */
+    std::vector<unsigned int> points;
+  };
 
   /** Adds @p dt (day) to the time for which boundary points have been touched
    *  without a break; those that nothing touches begin anew. */
@@ -20,19 +28,25 @@ namespace Morula
   age_contact(Tissue<dim> &tissue, const double dt);
 
   /**
-   * The bodies that are to fuse: some point of each has been touched for
-   * @p time (day), and faces such a point of the other. Of bodies that fuse all
-   * go into the one with the lowest number. Collective.
+   * What is to fuse: boundary points that have been touched for @p time (day),
+   * and face such points. Of bodies that fuse all go into the one with the
+   * lowest number. Collective.
    */
   template <int dim>
-  Fusions
-  bodies_to_fuse(const Tissue<dim> &tissue, const double time);
+  Fusion
+  find_fusion(const Tissue<dim> &tissue, const double time);
+
+  /** Takes the surface away that two strands have had between them, so that
+   *  bonds form there: doc/theory.md, section 4.3a. Collective. */
+  template <int dim>
+  void
+  remove_fused_surface(const Fusion &fusion, Tissue<dim> &tissue);
 
   /** Gives cells and boundary points of bodies that fuse their new body. The
    *  surface between them is still there. Collective. */
   template <int dim>
   void
-  fuse(const Fusions &fusions, Tissue<dim> &tissue);
+  fuse_bodies(const Fusion &fusion, Tissue<dim> &tissue);
 } // namespace Morula
 
 #endif

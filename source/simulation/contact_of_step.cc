@@ -26,11 +26,6 @@ namespace Morula
      */
     constexpr double staying = 0.8, least_part = 0.25;
 
-    /** The drag of tissue that goes slowly, in units of the weak one, and what
-     * is left of it in the next turn: at first it resists a motion by h with a
-     *  stress of about E; eight turns later it is weak. */
-    constexpr double strong_drag = 1e4, weaker = 0.3;
-
     /** Forces below this count as none, in units of E h^(dim-1). */
     constexpr double no_force = 1e-9;
 
@@ -117,7 +112,7 @@ namespace Morula
                                 const ContactLaw         &law,
                                 ContactPairs<dim>        &pairs,
                                 Drag<dim>                &drag,
-                                const bool                slowly,
+                                const bool                recentres,
                                 MomentumBalance<dim>     &balance,
                                 TimerOutput              &timer,
                                 const MPI_Comm            comm)
@@ -130,10 +125,8 @@ namespace Morula
     , balance(balance)
     , timer(timer)
     , comm(comm)
-    , strength(slowly ? strong_drag : 1.)
-  {
-    drag.set_strength(strength);
-  }
+    , recentres(recentres)
+  {}
 
 
   template <int dim>
@@ -165,16 +158,13 @@ namespace Morula
     else if (has_crossed_from_afar(tissue, points, displacement, law.h))
       text << "bodies pass through each other, so that the step is too long "
               "for their contact";
-    failed = !text.str().empty();
-    if (failed)
+    if (!text.str().empty())
       throw StepFailed(text.str());
 
     const double unit = law.E * std::pow(law.h, dim - 1);
-    if (strength == 1. && sums[1] <= small_part * sums[0] + no_force * unit &&
+    if (sums[1] <= small_part * sums[0] + no_force * unit &&
         sums[2] <= small_part * sums[0] + no_force * unit)
       return false;
-    strength = std::max(1., weaker * strength);
-    drag.set_strength(strength);
     // Where a surface is strongly curved the geometry may swing between two
     // states for ever. So it follows only a part of the way, half as much each
     // time that less than a fifth of the tangential forces has gone.
@@ -190,6 +180,8 @@ namespace Morula
     pairs.adopt();
     if (Utilities::MPI::max(sums[3], comm) > 0.)
       balance.renew_links();
+    if (!recentres)
+      return true;
     std::vector<Tensor<1, dim>> ways(tissue.cells().size());
     displacement.at_points(tissue.cells(),
                            [&](const unsigned int       p,

@@ -46,6 +46,8 @@ namespace Morula
     data.numbers.insert(state.kept.begin(), state.kept.end());
     if (state.enclosed_share)
       data.numbers["enclosed_share"] = *state.enclosed_share;
+    if (state.drag > 1.)
+      data.numbers["drag"] = state.drag;
     const GridBox<dim> &box = tissue.grid().box();
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
@@ -133,6 +135,8 @@ namespace Morula
     // Snapshots of versions that did not know the share do not have it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
+    if (data.numbers.count("drag") > 0)
+      state.drag = data.number("drag");
     if (data.numbers.count("step_error") > 0)
       state.error = {data.number("missed_flow"),
                      data.number("step_error"),

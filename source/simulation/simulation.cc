@@ -9,6 +9,7 @@
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_supports.h>
 
 #include <deal.II/base/mpi.h>
@@ -88,6 +89,11 @@ namespace Morula
     // but after the fields, as growth may depend on them.
     adapt_step();
     const auto solution = solve_step(space, contact ? &*contact : nullptr);
+    const bool is_slow  = run_state.drag > 1.;
+    if (is_slow)
+      let_go(tissue,
+             DisplacementField<dim>(space, solution.u, comm),
+             run_state.drag);
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
@@ -107,7 +113,7 @@ namespace Morula
       }
 
     row.dt = time_steps.next() - time_steps.time();
-    time_steps.accept();
+    time_steps.accept(is_slow);
     divide();
     // A new surface may need the points that leave with dead cells, to know
     // which conditions its patches had.
@@ -261,6 +267,11 @@ namespace Morula
               ++row.rejected_steps;
               ++run_state.n_rejected;
               ++newton_report.place.attempt;
+              // However short it is, a step through a snap moves the tissue
+              // far. So where folds have contact it is held back.
+              if (time_steps.state().level >= most_plain_halves &&
+                  model.scene.contact.is_of_all() && hold_back(run_state.drag))
+                continue;
               if (!time_steps.reject())
                 give_up_step(failure.what());
             }
@@ -297,7 +308,8 @@ namespace Morula
                               typical_stiffness,
                               run_state.kept,
                               time_steps.can_halve() &&
-                                time_steps.state().level < most_plain_halves},
+                                time_steps.state().level < most_plain_halves,
+                              run_state.drag},
                              newton_report,
                              condition);
   }

@@ -8,6 +8,7 @@
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/simulation/contact_of_step.h>
+#include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/solver/proximal_path.h>
@@ -125,12 +126,14 @@ namespace Morula
                          h,
                          model.scene.contact.friction /
                            (attempt.t_next - attempt.t)};
-    if (has_contact())
+    if (has_contact() || attempt.drag > 1.)
       {
         const TimerOutput::Scope section(timer, "contact");
-        pairs.emplace(*contact, law);
+        if (has_contact())
+          pairs.emplace(*contact, law);
         auto weak = weak_drag(stiffness);
         drag      = weak.get();
+        drag->set_strength(attempt.drag);
         list.push_back(std::move(weak));
       }
     MomentumBalance<dim> balance(
@@ -155,7 +158,7 @@ namespace Morula
                                                law,
                                                *pairs,
                                                *drag,
-                                               attempt.goes_slowly,
+                                               attempt.drag == 1.,
                                                balance,
                                                timer,
                                                comm));
@@ -176,9 +179,6 @@ namespace Morula
     catch (const StepFailed &failure)
       {
         share_extremes(balance, n_traced, report);
-        if (model.scene.contact.is_of_all() && !attempt.goes_slowly &&
-            touching && touching->has_failed())
-          return this->balance(attempt.slowly(), points, report, condition);
         // The failed state is evaluated once more: its energy and smallest J_e
         // are signs of what went wrong.
         Equilibrium::Vector R(solution.u);
@@ -187,12 +187,16 @@ namespace Morula
         throw StepFailed(failure.what() +
                          (". " + balance.describe(solution.u)));
       }
+    const DisplacementField<dim> displacement(space, solution.u, comm);
     if (contact != nullptr && !contact->any() &&
-        has_crossed_from_afar(
-          tissue, *contact, DisplacementField<dim>(space, solution.u, comm), h))
+        has_crossed_from_afar(tissue, *contact, displacement, h))
       throw StepFailed(
         "bodies pass through each other, so that the step is too "
         "long for their contact");
+    if (model.scene.contact.is_of_all() && turns_too_far(tissue, displacement))
+      throw StepFailed("a strand of the surface turns by more than 36 degrees, "
+                       "so that the step is too long for its contact");
+    report.proximal_paths += attempt.drag > 1.;
     // The next step sees what belongs to the equilibrium that was found last.
     for (const auto &part : parts)
       part->keep(solution.kept);
@@ -221,7 +225,8 @@ namespace Morula
     // path and as good. All other failures have a path to their equilibrium, as
     // the energy has a lowest value (doc/theory.md, section 5.9). Half the step
     // would begin with as much unbalanced force where the last state is about
-    // to fold, or where something jumps.
+    // to fold, or where something jumps. Where folds have contact the path goes
+    // step by step, as surfaces meet on it: slow_steps.h.
     const Equilibrium::Vector begin(u);
     NewtonScales scales = balance.scales(attempt.typical_stiffness);
     // A later turn begins near its equilibrium: only what was renewed is
@@ -236,7 +241,8 @@ namespace Morula
       }
     catch (const StepFailed &)
       {
-        if (attempt.halve_first && balance.is_far_from(begin, u))
+        if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
+            model.scene.contact.is_of_all())
           throw;
         // Newton's method may have left u anywhere. The path starts from the
         // last state that is known to be good.

@@ -111,13 +111,13 @@ namespace Morula
   }
 
   void
-  TimeSteps::accept()
+  TimeSteps::accept(const bool is_slow)
   {
     // Three things can follow a step. Its interval is done: the next one
     // begins, with steps as long as before if Tolerance chooses them, else with
     // Step. Or two halves are done, and the next step is twice as long again.
     // Or the next step is as long as this one. With Tolerance adapt() decides,
-    // and not this function.
+    // and not this function. Slow steps stay short.
     state_.past = time();
     ++state_.part;
     if (state_.part == 1u << state_.level)
@@ -129,10 +129,10 @@ namespace Morula
           ++state_.interval;
         state_.begin = end;
         state_.part  = 0;
-        if (parameters.tolerance <= 0.)
+        if (parameters.tolerance <= 0. && !is_slow)
           state_.level = 0;
       }
-    else if (parameters.tolerance <= 0. && state_.level > 0 &&
+    else if (parameters.tolerance <= 0. && !is_slow && state_.level > 0 &&
              state_.part % 2 == 0)
       {
         state_.part /= 2;

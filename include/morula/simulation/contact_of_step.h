@@ -37,18 +37,16 @@ namespace Morula
   class ContactTurn : public TurnParticipant
   {
   public:
-    /** @param drag the weak drag of the step: in each turn it acts from where
-     *         the cells are then
-     *  @param slowly whether it is strong in the first turn and weaker in each
-     *         further one, so that surfaces that a fold throws at each other
-     *         see each other on the way */
+    /** @param drag the drag of the step
+     *  @param recentres whether in each turn it acts from where the cells are
+     *         then: the weak one does */
     ContactTurn(const Tissue<dim>        &tissue,
                 const SplineSpace<dim>   &space,
                 const ContactPoints<dim> &points,
                 const ContactLaw         &law,
                 ContactPairs<dim>        &pairs,
                 Drag<dim>                &drag,
-                const bool                slowly,
+                const bool                recentres,
                 MomentumBalance<dim>     &balance,
                 TimerOutput              &timer,
                 const MPI_Comm            comm);
@@ -60,13 +58,6 @@ namespace Morula
 
     std::string
     unfinished() const override;
-
-    /** Whether a renewal has failed. */
-    bool
-    has_failed() const
-    {
-      return failed;
-    }
 
     /** The forces in the equilibrium that was found. Collective. */
     std::vector<ContactForce<dim>>
@@ -82,12 +73,11 @@ namespace Morula
     MomentumBalance<dim>     &balance;
     TimerOutput              &timer;
     const MPI_Comm            comm;
+    const bool                recentres; // the drag
     /** The relevant unknowns at which the geometry is frozen; empty at t. */
     std::vector<double> frozen;
     double              part      = 1.; // of the way that the geometry follows
     double              left_over = std::numeric_limits<double>::max();
-    double              strength  = 1.; // of the drag
-    bool                failed    = false;
   };
 } // namespace Morula
 

@@ -26,6 +26,8 @@ namespace Morula
     /** The volume that the surface enclosed at t = 0 over that of the cells;
      *  nothing if it was not closed. */
     std::optional<double> enclosed_share = {};
+    /** The drag of tissue that goes slowly: slow_steps.h. */
+    double drag = 1.;
     /** The estimated error of the steps so far. */
     ErrorInTime error = {};
   };

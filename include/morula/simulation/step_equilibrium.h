@@ -40,19 +40,8 @@ namespace Morula
       /** Whether half the step is to be tried, before a proximal path, where
        * the step is plainly too long. */
       bool halve_first = true;
-      /** Whether the tissue goes slowly, turn by turn, to where it touches: see
-       *  ContactTurn. */
-      bool goes_slowly = false;
-
-      /** The same, slowly: a fold that snaps shut throws its sides at each
-       *  other, however short the step is. */
-      Attempt
-      slowly() const
-      {
-        Attempt attempt     = *this;
-        attempt.goes_slowly = true;
-        return attempt;
-      }
+      /** The drag that holds the tissue back: slow_steps.h. */
+      double drag = 1.;
     };
 
     /** What was found for a step. */

@@ -82,9 +82,10 @@ namespace Morula
       return time() >= parameters.end_time - time_slack * parameters.step;
     }
 
-    /** Records that the step has succeeded. */
+    /** Records that the step has succeeded. @param is_slow whether the next one
+     *  shall be no longer */
     void
-    accept();
+    accept(const bool is_slow = false);
 
     /** Whether half the next step is at least Smallest step. */
     bool

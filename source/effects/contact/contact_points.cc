@@ -21,6 +21,10 @@ namespace Morula
      *  this. It leaves room for turns within a step: a pair acts below -0.3. */
     constexpr double may_face = 0.2;
 
+    /** How far points that overlap without a pressure may slide in a step until
+     *  they touch, in units of h. */
+    constexpr double short_slide = 0.5;
+
     /** Points of one strand that have pressed on each other do so up to this
      *  overlap, in units of h. */
     constexpr double small_overlap = 0.1;
@@ -139,14 +143,22 @@ namespace Morula
             // Points of one body with a gap between them may meet. The sides of
             // a sheet, or of an edge, overlap for ever, which is no contact:
             // bonds connect them. They also connect the sides of a fold at its
-            // end, which have contact if they had it before.
-            const double gap =
-              0.5 * ((other_area / other_area.norm() - area / area.norm()) *
-                     (near.positions[i] - near.positions[j]));
-            const bool touch = pressure > 0. && other_pressure > 0. &&
+            // end, which have contact if they had it before. What overlaps
+            // without a pressure is looked at only where points stand before
+            // each other, since the search along bonds takes long.
+            const Tensor<1, dim> across =
+              0.5 * (other_area / other_area.norm() - area / area.norm());
+            const Tensor<1, dim> distance =
+              near.positions[i] - near.positions[j];
+            const double gap   = across * distance;
+            const bool   touch = pressure > 0. && other_pressure > 0. &&
                                gap > -small_overlap * box.spacing();
+            const double beside =
+              (distance - gap / across.norm_square() * across).norm();
             if (other_body != body || gap >= 0. || touch ||
                 (gap > -2. * deepest_pair * box.spacing() &&
+                 beside < kernel * std::max(spacing, other_spacing) +
+                            short_slide * box.spacing() &&
                  !tissue.parting().are_connected(near.ids[i], near.ids[j])))
               found.emplace_back(i, j);
           }

@@ -4,15 +4,9 @@
 #include <morula/base/near_tree.h>
 #include <morula/grid/parting.h>
 
-#include <boost/pending/disjoint_sets.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <numeric>
 #include <queue>
-#include <set>
 
 namespace Morula
 {
@@ -47,50 +41,6 @@ namespace Morula
      * of another are at most so many of their lengths beside the segment from
      *  point to point. */
     constexpr double beside_chain = 1.5;
-
-    /** Two patches face each other if the product of their normals is below
-     *  this, as in the energy of contact, doc/theory.md (4.8k). */
-    constexpr double facing = -0.3;
-
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t n)
-        : rank(n, 0)
-        , parent(n)
-        , sets(rank.data(), parent.data())
-      {
-        std::iota(parent.begin(), parent.end(), 0u);
-      }
-
-      DisjointSets(const DisjointSets &) = delete;
-
-      void
-      unite(const unsigned int a, const unsigned int b)
-      {
-        sets.union_set(a, b);
-      }
-
-      unsigned int
-      find(const unsigned int a)
-      {
-        return sets.find_set(a);
-      }
-
-    private:
-      std::vector<unsigned int>                            rank, parent;
-      boost::disjoint_sets<unsigned int *, unsigned int *> sets;
-    };
-
-    template <int dim>
-    bool
-    touch(const GridIndex<dim> &a, const GridIndex<dim> &b)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        if (std::abs(a[d] - b[d]) > 1)
-          return false;
-      return true;
-    }
 
     /** Whether the segment from @p x to @p y crosses a patch, which is one of
      *  those @p near the segment. */
@@ -165,10 +115,16 @@ namespace Morula
                             const Tensor<1, dim>  &distance) {
       return (cell.from_edges * distance).norm() <= longest_bond;
     };
-    const auto is_cut = [&](const Point<dim> &x, const Point<dim> &y) {
-      const auto near = tree_of_patches.within(x + 0.5 * (y - x),
-                                               0.5 * x.distance(y) +
-                                                 farthest_patch<dim> * widest);
+    // Patches around a cell are found once for all of its bonds.
+    const double wide   = farthest_patch<dim> * widest;
+    const auto   is_cut = [&](const Point<dim>                &x,
+                            const Point<dim>                &y,
+                            const std::vector<unsigned int> &around) {
+      const Point<dim>          middle = x + 0.5 * (y - x);
+      std::vector<unsigned int> near;
+      for (const unsigned int i : around)
+        if (middle.distance(patches[i].x) <= 0.5 * x.distance(y) + wide)
+          near.push_back(i);
       return std::any_of(near.begin(), near.end(), [&](const unsigned int i) {
         return crosses(x, y, patches[i], near, patches);
       });
@@ -199,13 +155,14 @@ namespace Morula
         // wide as the cell's own box reaches; the partner looks, too.
         const double farthest =
           longest_bond * invert(cells[p].from_edges).norm();
+        const auto around = tree_of_patches.within(cells[p].x, farthest + wide);
         for (const unsigned int q : tree.within(cells[p].x, farthest))
           {
             const Tensor<1, dim> distance = cells[q].x - cells[p].x;
             if (q == p || cells[q].body != cells[p].body ||
                 !is_near(cells[p], distance) ||
                 (q < p && is_near(cells[q], distance)) || is_across(p, q) ||
-                is_cut(cells[p].x, cells[q].x))
+                is_cut(cells[p].x, cells[q].x, around))
               continue;
             bonds[p].push_back(q);
             bonds[q].push_back(p);
@@ -246,97 +203,6 @@ namespace Morula
         if (owner < cells.size())
           owners.emplace(patch.id, owner);
       }
-  }
-
-
-  template <int dim>
-  void
-  Parting<dim>::find_parts(const GridBox<dim>                  &box,
-                           const std::vector<PartedCell<dim>>  &cells,
-                           const std::vector<PartedPatch<dim>> &patches)
-  {
-    // A token is a cell in a grid cell that it reaches. The tokens of a grid
-    // cell that bonds connect are one part; in grid cells that are not
-    // contested all of them are. Parts are numbered by their lowest cell. Two
-    // tokens of one cell, or of bonded cells, in grid cells that touch link
-    // their parts.
-    std::vector<std::map<unsigned int, unsigned int>> tokens(cells.size());
-    std::map<unsigned int, std::vector<unsigned int>> at; // tokens there
-    unsigned int                                      n_tokens = 0;
-    const auto add = [&](const unsigned int p, const unsigned int number) {
-      if (tokens[p].emplace(number, n_tokens).second)
-        at[number].push_back(n_tokens++);
-    };
-    std::vector<char> near(box.size(), 0);
-    for (const unsigned int number : contested_)
-      box.for_neighbors(box.index(number),
-                        1,
-                        [&](const unsigned int neighbor, const auto &) {
-                          near[neighbor] = 1;
-                        });
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      box.for_overlap(box.locate(cells[p].lower),
-                      box.locate(cells[p].upper),
-                      [&](const unsigned int number, const auto &) {
-                        if (near[number])
-                          add(p, number);
-                      });
-    for (const PartedPatch<dim> &patch : patches)
-      if (const auto owner = owners.find(patch.id); owner != owners.end())
-        if (const GridIndex<dim> index = box.locate(patch.x);
-            box.contains(index) && near[box.number(index)])
-          add(owner->second, box.number(index));
-
-    DisjointSets sets(n_tokens);
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      for (const unsigned int q : bonds[p])
-        for (const auto &[number, token] : tokens[p])
-          if (const auto other = tokens[q].find(number);
-              q > p && other != tokens[q].end())
-            sets.unite(token, other->second);
-    std::vector<unsigned int> part(n_tokens, 0);
-    for (const auto &[number, list] : at)
-      {
-        // Tokens were made in the order of the cells, but for those of patches.
-        std::map<unsigned int, unsigned int> numbers; // of parts, by root
-        if (is_contested(number))
-          for (const unsigned int token : list)
-            part[token] =
-              numbers.emplace(sets.find(token), numbers.size()).first->second;
-        for (unsigned int k = 1; k < numbers.size(); ++k)
-          further.emplace_back(number, k);
-      }
-
-    std::set<std::pair<GridCellPart, GridCellPart>> linked;
-    const auto link = [&](const auto &a, const auto &b) {
-      if ((is_contested(a.first) || is_contested(b.first)) &&
-          touch(box.index(a.first), box.index(b.first)))
-        {
-          const GridCellPart one(a.first, part[a.second]),
-            other(b.first, part[b.second]);
-          linked.emplace(one, other);
-          linked.emplace(other, one);
-        }
-    };
-    parts_of_cells.resize(cells.size());
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      for (const auto &token : tokens[p])
-        {
-          parts_of_cells[p].emplace_back(token.first, part[token.second]);
-          for (const auto &other : tokens[p])
-            link(token, other);
-          for (const unsigned int q : bonds[p])
-            for (const auto &other : tokens[q])
-              link(token, other);
-        }
-    links.assign(linked.begin(), linked.end());
-    for (const PartedPatch<dim> &patch : patches)
-      if (const auto owner = owners.find(patch.id); owner != owners.end())
-        if (const GridIndex<dim> index = box.locate(patch.x);
-            box.contains(index))
-          parts_of_patches.emplace(patch.id,
-                                   part_of_cell(cells[owner->second].id,
-                                                box.number(index)));
   }
 
 
@@ -439,60 +305,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  std::vector<unsigned int>
-  contested_grid_cells(const GridBox<dim>                  &box,
-                       const std::vector<PartedPatch<dim>> &patches,
-                       const double                         overlap)
-  {
-    // Two patches are in the surroundings of one grid cell if theirs are at
-    // most two apart. That grid cell is then among those which touch both.
-    std::map<unsigned int, std::vector<unsigned int>> at;
-    for (unsigned int i = 0; i < patches.size(); ++i)
-      at[box.number(box.locate(patches[i].x))].push_back(i);
-    const auto contest = [&](const PartedPatch<dim> &a,
-                             const PartedPatch<dim> &b) {
-      const double cosine = a.n * b.n;
-      return a.body != b.body ||
-             (cosine < facing && 0.5 * ((b.n - a.n) * (a.x - b.x)) > -overlap);
-    };
-    const auto meet = [&](const std::vector<unsigned int> &here,
-                          const std::vector<unsigned int> &there) {
-      for (const unsigned int i : here)
-        for (const unsigned int j : there)
-          if (contest(patches[i], patches[j]))
-            return true;
-      return false;
-    };
-    std::vector<unsigned int> found;
-    for (const auto &[number, list] : at)
-      {
-        const GridIndex<dim> here = box.index(number);
-        box.for_neighbors(
-          here, 2, [&](const unsigned int other, const GridIndex<dim> &there) {
-            if (other < number || at.count(other) == 0 ||
-                !meet(list, at.at(other)))
-              return;
-            box.for_neighbors(here,
-                              1,
-                              [&](const unsigned int    between,
-                                  const GridIndex<dim> &index) {
-                                if (touch(index, there))
-                                  found.push_back(between);
-                              });
-          });
-      }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-  }
-
-
-#define INSTANTIATE(dim)                                   \
-  template class Parting<dim>;                             \
-  template std::vector<unsigned int> contested_grid_cells( \
-    const GridBox<dim> &, const std::vector<PartedPatch<dim>> &, double);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template class Parting<2>;
+  template class Parting<3>;
 } // namespace Morula

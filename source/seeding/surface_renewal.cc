@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/near_tree.h>
+#include <morula/grid/parting.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/seeding/filling.h>
 #include <morula/seeding/shape.h>
@@ -29,16 +30,12 @@ namespace Morula
      *  sides of a patch, and the cosine of the largest angle between them. */
     constexpr double beside = 1.5, least_cosine = 0.5;
 
-    /** Two points face each other if the product of their normals is below
-     *  this, as in the energy of contact, doc/theory.md (4.8k). */
-    constexpr double facing = -0.3;
-
     /** The two faces of a sheet are behind each other by its thickness, points
      *  that touch by less than this, in units of a patch's longest edge. */
     constexpr double overlap = 0.8;
 
-    /** How far a renewed surface is moved at most to enclose its volume, in
-     *  units of the cells' length, as in surface_around(). */
+    /** How far a renewed surface moves at most to enclose its volume, in units
+     *  of the cells' length. */
     constexpr double farthest = 0.25;
 
     /** Former points of all ranks, by id, to find the nearest one. */
@@ -143,7 +140,7 @@ namespace Morula
           const auto near = tree.within(x[i], reach);
           at_gap.push_back(
             std::any_of(near.begin(), near.end(), [&](const unsigned int j) {
-              return n[i] * n[j] < facing &&
+              return n[i] * n[j] < Parting<dim>::facing &&
                      0.5 * ((n[j] - n[i]) * (x[i] - x[j])) >
                        -overlap * longest_edge;
             }));
@@ -241,8 +238,8 @@ namespace Morula
           own.add_value(cells.id(p), cells.position(p), cells.volume(p));
       return of_all_ranks(own, comm);
     }
-    /** Adds the points that stay: held ones as they are, and those at gaps with
-     *  a geometry that begins anew. */
+    /** Adds the points that stay: held ones as they are, those at gaps begin
+     *  anew. */
     template <int dim>
     void
     append_kept(const FormerPoints<dim> &present,

@@ -193,7 +193,7 @@ namespace Morula
       run_state.error.flow = mean_over_tissue<dim>(
         tissue,
         [&](const unsigned int p) { return missed_flow[p]; },
-        std::pow(model.scene.tissue.cell_spacing, dim));
+        std::pow(double(model.scene.tissue.cell_spacing), dim));
     // A boundary point keeps its F where the extrapolated f is too large or
     // turns it inside out; its position has moved all the same.
     for (unsigned int p = 0; p < surface.positions.size(); ++p)

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/near_tree.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/slow_steps.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace Morula
@@ -20,12 +23,27 @@ namespace Morula
 
     /** How much stronger it is after a step that has failed, and weaker after
      *  one in which cells move by less than the short way, in units of h. */
-    constexpr double stronger = 5., weaker = 0.3, short_way = 0.1;
+    constexpr double stronger = 2., weaker = 0.3, short_way = 0.1;
 
-    /** The cosine of the largest turn of a normal, 36°: two points that did not
+    /** The cosine of the largest turn of tissue, 36°: two points that did not
      *  face each other, whose normals' product was above -0.3, do not look at
      *  each other straight after both have turned by less. */
     constexpr double straight_on = 0.8;
+
+    /** The least |f - I| of tissue that has turned so far, and how much of it
+     *  counts, in h^dim: single cells at the end of a fold may turn. */
+    constexpr double least_change = 0.5, strand = 0.3;
+
+    /** The cosine of the angle by which f = R U turns, from the trace of R. */
+    template <int dim>
+    double
+    cosine_of_turn(const Tensor<2, dim> &f)
+    {
+      double trace = 0.;
+      for (const auto &[square, e] : eigenvectors(symmetrize(transpose(f) * f)))
+        trace += e * (f * e) / std::sqrt(square);
+      return dim == 2 ? 0.5 * trace : 0.5 * (trace - 1.);
+    }
   } // namespace
 
 
@@ -64,43 +82,42 @@ namespace Morula
   turns_too_far(const Tissue<dim>            &tissue,
                 const DisplacementField<dim> &displacement)
   {
-    // Normals turn with the cofactor of the step's deformation, doc/theory.md
-    // (1.2). At the end of a fold single patches may turn at any time. A strand
-    // that turns has more of them: within h around a point they make up a piece
-    // of surface as large as h^(dim-1).
-    const BoundaryPoints<dim> &store = tissue.boundary_points();
-    const double               h     = tissue.grid().box().spacing();
-    std::vector<double>        turned(store.size(), 0.); // area, µm^(dim-1)
-    std::vector<Point<dim>>    queries;
-    displacement.at_points(store,
-                           [&](const unsigned int       p,
-                               const LocalField<dim>   &field,
-                               const SplineValues<dim> &splines) {
-                             const Tensor<1, dim> area = store.area_vector(p);
-                             const Tensor<1, dim> now =
-                               area * invert(field.step_deformation(splines));
-                             if (area * now >
-                                 straight_on * area.norm() * now.norm())
-                               return;
-                             turned[p] = area.norm();
-                             queries.push_back(store.position(p));
-                           });
+    // Cells tell how the tissue turns, as boundary points beyond the last ones
+    // see an extrapolated field. Of cells that turn those within h around are
+    // taken together, so that a few do not count.
+    const Cells<dim>       &cells = tissue.cells();
+    const double            h     = tissue.grid().box().spacing();
+    std::vector<double>     turned(cells.size(), 0.); // volume, µm^dim
+    std::vector<Point<dim>> queries;
+    displacement.at_points(
+      cells,
+      [&](const unsigned int       p,
+          const LocalField<dim>   &field,
+          const SplineValues<dim> &splines) {
+        const Tensor<2, dim> f = field.step_deformation(splines);
+        if ((f - Tensor<2, dim>(unit_symmetric_tensor<dim>())).norm() <
+              least_change ||
+            cosine_of_turn(f) > straight_on)
+          return;
+        turned[p] = cells.volume(p);
+        queries.push_back(cells.position(p));
+      });
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
       list.push_back(turned[p]);
     };
     const PointList<dim> near = near_points(
-      queries, store, {1, numbers, Ties::lowest_id}, tissue.grid(), 1);
-    double largest = 0.;
+      queries, cells, {1, numbers, Ties::lowest_id}, tissue.grid(), 1);
+    const NearTree<dim> tree(near.positions);
+    double              largest = 0.;
     for (const Point<dim> &x : queries)
       {
-        double area = 0.;
-        for (std::size_t i = 0; i < near.size(); ++i)
-          if (x.distance(near.positions[i]) <= h)
-            area += near.row(i)[0];
-        largest = std::max(largest, area);
+        double volume = 0.;
+        for (const unsigned int i : tree.within(x, h))
+          volume += near.row(i)[0];
+        largest = std::max(largest, volume);
       }
     return Utilities::MPI::max(largest, tissue.communicator()) >
-           Utilities::fixed_power<dim - 1>(h);
+           strand * Utilities::fixed_power<dim>(h);
   }
 
 

@@ -194,7 +194,7 @@ namespace Morula
         "bodies pass through each other, so that the step is too "
         "long for their contact");
     if (model.scene.contact.is_of_all() && turns_too_far(tissue, displacement))
-      throw StepFailed("a strand of the surface turns by more than 36 degrees, "
+      throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
                        "so that the step is too long for its contact");
     report.proximal_paths += attempt.drag > 1.;
     // The next step sees what belongs to the equilibrium that was found last.

@@ -39,6 +39,50 @@ end
 """
 
 
+SNAP = """
+set Dimension = 2
+subsection Time
+  set End time = {end}
+  set Step     = 0.05
+end
+subsection Tissue
+  set Refine surface  = true
+  set Coarsen surface = true
+  {tissue}
+end
+subsection Grid
+  set Spacing = 8
+end
+subsection Contact
+  set Between = all
+end
+subsection Material
+  set Poisson's ratio   = 0.45
+  set Energy per        = grown volume
+  set Volumetric strain = pooled
+end
+subsection Growth
+  set Law = rate
+  subsection Rate
+    set Rate        = {rate}
+    set Share along = 0
+    set Direction   = {direction}
+  end
+end
+subsection Division by size
+  set Volume = 18
+  set Noise  = 0.1
+end
+subsection Friction
+  set Coefficient = {friction}
+end
+subsection Output
+  set Formats  = csv
+  set Interval = 0.05
+end
+"""
+
+
 class Strip:
     """A strip that is bent by 180 degrees around a gap, along x."""
 
@@ -275,6 +319,51 @@ class Folds(ProgramTest):
                 "Tissue/Refine surface": "true",
                 "Tissue/Coarsen surface": "true"}
         self.check_closing_and_opening(self.run_scene(scene, keys), 2)
+
+    def most_crowded(self, name):
+        """The largest part of a square of 16 um that cells fill: 2 where tissue
+        has passed through itself."""
+        cells = read_csv(self.work / f"output/{name}.csv")
+        edges = np.arange(-160, 161, 16)
+        filled, _, _ = np.histogram2d(cells["x"], cells["y"], bins=[edges, edges],
+                                      weights=cells["volume"])
+        return np.max(filled) / 256
+
+    def test_a_surface_that_snaps_into_folds(self):
+        """A growing layer is smooth, and then has sulci whose sides press on each
+        other: nothing faced them before the step in which they met."""
+        scene = self.write("scene.prm", SNAP.format(
+            end=0.8, friction=1e-5, rate="normal(1, 0.01)*(X^2 + Y^2 > 60^2)",
+            direction="radial",
+            tissue="set Radius = 80\n  set Cell spacing = 3"))
+        self.execute(scene, "--replace")
+        rows = read_csv(self.work / "output/statistics.csv")
+        self.assertLess(self.most_crowded("cells-0016"), 1.35)
+        self.assertGreater(sum(rows["rejected_steps"]), 0)
+        points = read_csv(self.work / "output/surface-0016.csv")
+        self.assertGreater(max(points["contact_pressure"]), 0.05)
+
+    def test_a_snap_in_slow_steps(self):
+        """A drag holds a layer back for some steps, also in a resumed run."""
+        scene = self.write("scene.prm", SNAP.format(
+            end=0.45, friction=1e-6, rate="normal(1.5, 0.02)*(Y > 10)",
+            direction="0; 1",
+            tissue="set Shape = box\n  set Size = 80, 60\n  set Cell spacing = 2.5")
+            + "subsection Boundary conditions\n"
+            "  set Slip where = abs(X) > 39.999\n"
+            "  set Fixed where = Y < -29.999\nend\n")
+        self.execute(scene, "--replace")
+        rows = read_csv(self.work / "output/statistics.csv")
+        self.assertGreater(sum(rows["proximal_paths"]), 3)
+        self.assertLess(self.most_crowded("cells-0009"), 1.35)
+        names = ("cells-0009", "surface-0009", "lineage")
+        whole = [(self.work / f"output/{name}.csv").read_bytes()
+                 for name in names]
+        self.execute(scene, "--replace",
+                     *overrides({"Time/End time": "0.4"}))
+        self.execute(scene, "--resume")
+        self.assertTrue(whole == [(self.work / f"output/{name}.csv").read_bytes()
+                                  for name in names])
 
     def test_what_is_said(self):
         self.assertIn("1 body, whose folds and arms have contact, too",

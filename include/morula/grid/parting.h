@@ -60,6 +60,10 @@ namespace Morula
   class Parting
   {
   public:
+    /** Two patches face each other if the product of their normals is below
+     *  this, doc/theory.md (4.8k). */
+    static constexpr double facing = -0.3;
+
     /** No grid cell is contested. */
     Parting() = default;
 
@@ -122,7 +126,7 @@ namespace Morula
                   const types::particle_index b) const;
 
   private:
-    using Parts = std::vector<std::pair<unsigned int, unsigned int>>;
+    using Parts = std::vector<GridCellPart>;
 
     void
     bond(const std::vector<PartedCell<dim>>  &cells,
@@ -134,6 +138,9 @@ namespace Morula
     find_parts(const GridBox<dim>                  &box,
                const std::vector<PartedCell<dim>>  &cells,
                const std::vector<PartedPatch<dim>> &patches);
+
+    void
+    link(const GridBox<dim> &box);
 
     std::vector<unsigned int> contested_;
     std::vector<GridCellPart> further;

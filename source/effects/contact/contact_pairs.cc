@@ -14,10 +14,6 @@ namespace Morula
 {
   namespace
   {
-    /** Two points face each other if the product of their normals is below
-     *  this. */
-    constexpr double opposite_normals = -0.3;
-
     /** The growth of an overlap from which on points have crossed, in units of
      *  the deepest overlap of a pair. */
     constexpr double crossing = 0.9;
@@ -26,6 +22,10 @@ namespace Morula
      *  to touch, in units of E/h; such a pair has a gap below this times h. */
     constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
                      nearly_touching = 0.05;
+
+    /** The cosine of the largest turn of a patch in a step. One at the end of a
+     *  fold may topple, which says nothing of where the surface is. */
+    constexpr double largest_turn = 0.5;
 
     /** So much of an overlap that no pressure has made is let go in a step, in
      *  units of h: as much as facetted surfaces make gaps scatter. */
@@ -57,7 +57,8 @@ namespace Morula
       at_rest.push_back({Tensor<1, dim>(),
                          point.x,
                          point.area / point.area.norm(),
-                         point.area.norm()});
+                         point.area.norm(),
+                         true});
     // Points of a fold that deepens may overlap before they count as a pair, as
     // long as bonds around its end connect them. An overlap at t that is deeper
     // than their pressure makes it is let go a little in each step, since all
@@ -112,7 +113,11 @@ namespace Morula
             f[i] += u[point.unknowns[s] * dim + i] * point.gradients[s];
         const Tensor<1, dim> area = determinant(f) * (point.area * invert(f));
         list.push_back(
-          {ways[k], point.x + ways[k], area / area.norm(), area.norm()});
+          {ways[k],
+           point.x + ways[k],
+           area / area.norm(),
+           area.norm(),
+           area * point.area > largest_turn * area.norm() * point.area.norm()});
       }
     return list;
   }
@@ -132,7 +137,8 @@ namespace Morula
       {
         const auto &[b, c] = points.pairs()[k];
         const State &one = states[b], &other = states[c];
-        if (one.n * other.n >= opposite_normals)
+        if (one.n * other.n >= Parting<dim>::facing || !one.stands ||
+            !other.stands)
           continue;
         const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
         const Tensor<1, dim> distance = one.x - other.x;
@@ -337,7 +343,8 @@ namespace Morula
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
         const auto &[b, c] = points.pairs()[k];
-        if (now[b].n * now[c].n >= opposite_normals)
+        if (now[b].n * now[c].n >= Parting<dim>::facing || !now[b].stands ||
+            !now[c].stands)
           continue;
         const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
         const Tensor<1, dim> distance = now[b].x - now[c].x;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/near_tree.h>
 #include <morula/base/send_records.h>
 #include <morula/effects/contact/contact_points.h>
 #include <morula/particles/nearest.h>
+#include <morula/particles/point_bins.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -93,8 +93,8 @@ namespace Morula
   void
   ContactPoints<dim>::find_pairs(const Tissue<dim> &tissue, const double reach)
   {
-    // Each rank gets the boundary points of all ranks around its own. An R-tree
-    // finds those near a point; of each pair the point with the lower id looks.
+    // Each rank gets the boundary points of all ranks around its own. Of each
+    // pair the point with the lower id looks.
     // The points that occur in pairs get numbers: this rank's first, each
     // group by id, so that nothing depends on the order of a search.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
@@ -117,52 +117,54 @@ namespace Morula
                   {Flat<PointMessage<dim>>::n, message, Ties::lowest_id},
                   tissue.grid(),
                   static_cast<int>(std::ceil(reach / box.spacing())));
-    const NearTree<dim> tree(near.positions);
+    const PointBins<dim>           bins(box, near.positions);
+    std::vector<PointMessage<dim>> messages;
+    std::vector<Tensor<1, dim>>    n; // outward unit normals
+    for (unsigned int i = 0; i < near.size(); ++i)
+      {
+        messages.push_back(near.template value<PointMessage<dim>>(i));
+        const Tensor<1, dim> &area = std::get<0>(messages.back());
+        n.push_back(area / area.norm());
+      }
 
+    // Points of one body with a gap between them may meet. The sides of a
+    // sheet, or of an edge, overlap for ever, which is no contact: bonds
+    // connect them. They also connect the sides of a fold at its end, which
+    // have contact if they had it before. What overlaps without a pressure is
+    // looked at only where points stand before each other, since the search
+    // along bonds takes long.
+    const auto may_touch = [&](const unsigned int i, const unsigned int j) {
+      const auto &[area, body, part, spacing, pressure, p] = messages[i];
+      const auto &[other_area,
+                   other_body,
+                   other_part,
+                   other_spacing,
+                   other_pressure,
+                   q]                                      = messages[j];
+      if (other_body != body || !store.has_parts())
+        return other_body != body;
+      const Tensor<1, dim> across   = 0.5 * (n[j] - n[i]);
+      const Tensor<1, dim> distance = near.positions[i] - near.positions[j];
+      const double         gap      = across * distance;
+      if (gap >= 0. || (pressure > 0. && other_pressure > 0. &&
+                        gap > -small_overlap * box.spacing()))
+        return true;
+      const double beside =
+        (distance - gap / across.norm_square() * across).norm();
+      return gap > -2. * deepest_pair * box.spacing() &&
+             beside < kernel * std::max(spacing, other_spacing) +
+                        short_slide * box.spacing() &&
+             !tissue.parting().are_connected(near.ids[i], near.ids[j]);
+    };
     // Places in `near` of the two points of each pair.
     std::vector<ContactPair> found;
     for (unsigned int i = 0; i < near.size(); ++i)
-      {
-        const auto [area, body, part, spacing, pressure, p] =
-          near.template value<PointMessage<dim>>(i);
-        if (tissue.grid().owner(box.locate(near.positions[i])) != rank)
-          continue;
-        for (const unsigned int j : tree.within(near.positions[i], reach))
-          {
-            const auto [other_area,
-                        other_body,
-                        other_part,
-                        other_spacing,
-                        other_pressure,
-                        q] = near.template value<PointMessage<dim>>(j);
-            if (near.ids[j] <= near.ids[i] ||
-                area * other_area >=
-                  may_face * area.norm() * other_area.norm() ||
-                (other_body == body && !store.has_parts()))
-              continue;
-            // Points of one body with a gap between them may meet. The sides of
-            // a sheet, or of an edge, overlap for ever, which is no contact:
-            // bonds connect them. They also connect the sides of a fold at its
-            // end, which have contact if they had it before. What overlaps
-            // without a pressure is looked at only where points stand before
-            // each other, since the search along bonds takes long.
-            const Tensor<1, dim> across =
-              0.5 * (other_area / other_area.norm() - area / area.norm());
-            const Tensor<1, dim> distance =
-              near.positions[i] - near.positions[j];
-            const double gap   = across * distance;
-            const bool   touch = pressure > 0. && other_pressure > 0. &&
-                               gap > -small_overlap * box.spacing();
-            const double beside =
-              (distance - gap / across.norm_square() * across).norm();
-            if (other_body != body || gap >= 0. || touch ||
-                (gap > -2. * deepest_pair * box.spacing() &&
-                 beside < kernel * std::max(spacing, other_spacing) +
-                            short_slide * box.spacing() &&
-                 !tissue.parting().are_connected(near.ids[i], near.ids[j])))
-              found.emplace_back(i, j);
-          }
-      }
+      if (tissue.grid().owner(box.locate(near.positions[i])) == rank)
+        bins.visit_within(near.positions[i], reach, [&](const unsigned int j) {
+          if (near.ids[j] > near.ids[i] && n[i] * n[j] < may_face &&
+              may_touch(i, j))
+            found.emplace_back(i, j);
+        });
     std::map<std::pair<bool, types::particle_index>, unsigned int> places;
     for (const auto &[i, j] : found)
       for (const unsigned int k : {i, j})

@@ -11,7 +11,9 @@ namespace Morula
   /**
    * Moves cells from where their volumes overlap to where they leave gaps,
    * inside their body's surface: doc/theory.md (6.9d). Volumes, strains and the
-   * surface stay. A cell that is several points stays, too. Collective.
+   * surface stay. A cell that is several points stays, too. Where faces
+   * meet in an edge, only the nearest counts as the end of the tissue: there
+   * cells move towards the other one. Collective.
    */
   template <int dim>
   void

@@ -332,12 +332,11 @@ namespace Morula
   {
     // All ranks give their cells and points to all, by id; rank 0 makes the
     // surface around the cells, since CGAL works on one rank. Held points stay
-    // as they are, and so do those at gaps, but that they begin anew. Patches
-    // beside one of these are left out, as the surface is there already; all
-    // others become free or loaded points like their nearest
-    // former one. Whether there is a surface, and how many ids it takes, is
-    // told to all ranks. The new points stand on rank 0; placing the tissue
-    // sends them to their owners.
+    // as they are, and those at gaps begin anew there. Patches beside one of
+    // these are left out, as the surface is there already; all others become
+    // free or loaded points like their nearest former one. Whether there is a
+    // surface, and how many ids it takes, is told to all ranks. The new points
+    // stand on rank 0; placing the tissue sends them to their owners.
     const PointList<dim> all         = volumes_of_all_ranks(cells, comm, body);
     const PointList<dim> all_former  = of_all_ranks(former, comm);
     const PointList<dim> all_present = of_all_ranks(present, comm);

@@ -98,6 +98,19 @@ namespace Morula
   }
 
 
+  std::string
+  turn_message(const double t)
+  {
+    std::ostringstream text;
+    text << "Warning: at t = " << t
+         << " day a strand of tissue turns by more than 36 degrees within a "
+            "step. It may pass through itself there, as surfaces without "
+            "contact do not see each other: look at the surface. "
+            "Contact/Between = all keeps folds apart.";
+    return text.str();
+  }
+
+
   double
   friction_against(const double curvature,
                    const double E,

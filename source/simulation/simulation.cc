@@ -89,7 +89,8 @@ namespace Morula
     // but after the fields, as growth may depend on them.
     adapt_step();
     const auto solution = solve_step(space, contact ? &*contact : nullptr);
-    const bool is_slow  = run_state.drag > 1.;
+    warn_of_turn(DisplacementField<dim>(space, solution.u, comm));
+    const bool is_slow = run_state.drag > 1.;
     if (is_slow)
       let_go(tissue,
              DisplacementField<dim>(space, solution.u, comm),

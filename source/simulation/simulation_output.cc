@@ -3,6 +3,7 @@
 
 #include <morula/simulation/balance_warning.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/slow_steps.h>
 #include <morula/simulation/tissue_tables.h>
 
 #include <deal.II/base/mpi.h>
@@ -71,6 +72,22 @@ namespace Morula
       // No step has led to the first row, but the column exists from it on.
       row.step_error = 0.;
   }
+
+  template <int dim>
+  void
+  Simulation<dim>::warn_of_turn(const DisplacementField<dim> &displacement)
+  {
+    // Steps in which tissue snaps take many iterations. So others are not
+    // looked at, which costs nothing then.
+    constexpr unsigned int many_iterations = 15;
+    if (told_of_turn || model.scene.contact.is_of_all() ||
+        newton_report.newton_iterations < many_iterations ||
+        !turns_too_far(tissue, displacement))
+      return;
+    told_of_turn = true;
+    files->message(turn_message(time_steps.time()));
+  }
+
 
   template <int dim>
   void

@@ -152,6 +152,8 @@ namespace Morula
     void
     describe_state();
     void
+    warn_of_turn(const DisplacementField<dim> &displacement);
+    void
     complete_row();
     void
     count(const SplineSpace<dim> &space);
@@ -217,7 +219,8 @@ namespace Morula
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started
-    bool told_of_path         = false; // once a run
+    bool told_of_path         = false;
+    bool told_of_turn         = false; // once a run
     bool warned_of_misfit     = false; // likewise
     bool warned_of_drift      = false; // likewise
 

@@ -31,11 +31,13 @@ namespace Morula
                "Viscous friction of surfaces that touch: stress along the "
                "surface over the velocity at which they slide; >= 0. "
                "Units: kPa day/um.")
-    , fusion_time("Contact/Fusion time",
-                  0.,
-                  "Time of touch after which two bodies become one: they get "
-                  "splines and a surface in common and never part again; 0: "
-                  "they do not fuse. Needs Refine surface. Units: day.")
+    , fusion_time(
+        "Contact/Fusion time",
+        0.,
+        "Time of touch after which two bodies become one, and with "
+        "Between = all two strands of a body: they get splines and a "
+        "surface in common and never part again; 0: they do not fuse. "
+        "Needs Refine surface. Units: day.")
     , fields_pass(
         "Contact/Fields pass",
         true,

@@ -127,8 +127,7 @@ namespace Morula
           tell(p, 0., no_type);
       }
     std::map<unsigned int, History> heard;
-    const PointList<dim>            others =
-      halo(told, tissue.grid(), search.reach * graph.spacing);
+    const PointList<dim> others = halo(told, tissue.grid(), graph.longest);
     for (std::size_t i = 0; i < others.size(); ++i)
       if (const auto point = point_of.find(others.ids[i]);
           point != point_of.end())

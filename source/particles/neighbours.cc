@@ -6,6 +6,7 @@
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
+#include <morula/particles/surface_around.h>
 #include <morula/particles/voronoi_facets.h>
 
 #include <deal.II/base/mpi.h>
@@ -22,11 +23,8 @@ namespace Morula
     /** Cells farther away than this, in spacings, change no facet of a cell
      * that counts (doc/theory.md, section 12.1). */
     constexpr double ring = 3.;
-    /** The least facet of neighbours, as a part of a cell's mean surface. */
-    constexpr double least_part = 0.01;
-    /** The largest facet, over a^(dim-1): one at the hull may be larger. */
-    constexpr double largest_facet = 1.5;
-
+    /** A facet of a lattice is not larger than a^(dim-1). */
+    constexpr double rounding = 1e-6;
 
     /** The pairs of cells within a distance, with one area for all. */
     template <int dim>
@@ -40,17 +38,7 @@ namespace Morula
       std::vector<VoronoiFacet> pairs;
       if (positions.empty())
         return pairs;
-      Point<dim> lower = positions[0], upper = positions[0];
-      for (const Point<dim> &x : positions)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] = std::min(lower[d], x[d]);
-            upper[d] = std::max(upper[d], x[d]);
-          }
-      GridIndex<dim> n;
-      for (unsigned int d = 0; d < dim; ++d)
-        n[d] = static_cast<int>((upper[d] - lower[d]) / reach) + 1;
-      const GridBox<dim>   box({}, n, reach, lower);
+      const GridBox<dim>   box = box_around(positions, reach);
       const PointBins<dim> bins(box, positions);
       for (unsigned int a = 0; a < positions.size(); ++a)
         bins.visit_within(positions[a], reach, [&](const unsigned int b) {
@@ -88,7 +76,9 @@ namespace Morula
     // this rank can be found here. Pairs of which both belong to others are not
     // needed. Each pair that counts is then entered with both of its cells, and
     // the neighbours of each are sorted by their ids, which are the same on all
-    // ranks.
+    // ranks. Facets end at half the ring from their cells, so that none belongs
+    // to cells farther apart than the ring. At the surface they go on into the
+    // open; there one counts as a^(d-1) at most.
     NeighbourGraph<dim> graph;
     graph.spacing      = std::pow(mean_cell_volume(tissue), 1. / dim);
     graph.n_own        = cells.size();
@@ -101,7 +91,7 @@ namespace Morula
     const std::vector<VoronoiFacet> pairs =
       search.by_facets ? voronoi_facets(graph.points.positions,
                                         graph.points.ids,
-                                        reach,
+                                        ring * a,
                                         0.5 * ring * a) :
                          pairs_within(graph.points.positions,
                                       reach,
@@ -109,17 +99,27 @@ namespace Morula
 
     std::vector<std::vector<typename NeighbourGraph<dim>::Edge>> of_cells(
       graph.n_own);
-    const double least = least_part * 2. * dim * face;
+    const double             least = search.least_part * 2. * dim * face;
+    const SurfaceAround<dim> surface(tissue, ring * a);
+    const auto              &x = graph.points.positions;
     for (const VoronoiFacet &pair : pairs)
       {
-        if (pair.area < least)
+        if (pair.area < least ||
+            (pair.a >= graph.n_own && pair.b >= graph.n_own) ||
+            (pair.distance > reach && surface.is_between(x[pair.a], x[pair.b])))
           continue;
-        const double area = std::min(pair.area, largest_facet * face);
+        graph.longest = std::max(graph.longest, pair.distance);
+        const bool is_cut =
+          pair.area > (1. + rounding) * face &&
+          surface.is_within(surface.middle(x[pair.a], x[pair.b]),
+                            0.5 * ring * a);
+        const double area = is_cut ? face : pair.area;
         if (pair.a < graph.n_own)
           of_cells[pair.a].push_back({pair.b, area, pair.distance});
         if (pair.b < graph.n_own)
           of_cells[pair.b].push_back({pair.a, area, pair.distance});
       }
+    graph.longest = Utilities::MPI::max(graph.longest, tissue.communicator());
     graph.offsets.push_back(0);
     for (auto &list : of_cells)
       {

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 // A facet between two points is dual to their edge in Delaunay's triangulation.
@@ -83,6 +84,9 @@ namespace Morula
       const std::vector<Point<dim>> &points;
       const double                   reach, radius;
       Parts                         &parts;
+      /** The outward normal of the first face that is seen at each edge of the
+       *  hull, in 3-D. */
+      std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> &outward;
 
       /** How far from its middle a facet counts, for this edge. */
       double
@@ -249,7 +253,8 @@ namespace Morula
     }
 
     /** The parts of a face of the hull at its edges, outward to where nothing
-     *  counts any more. @param inner a point on the other side of it */
+     *  counts any more, and between the ways outward of the two faces at an
+     *  edge. @param inner a point on the other side of it */
     void
     add_outer_parts(const Diagram<3>                  &diagram,
                     const std::array<unsigned int, 3> &face,
@@ -262,6 +267,7 @@ namespace Morula
       Tensor<1, 3>                      n = cross_product_3d(u, v);
       if (n * (x[inner] - x[face[0]]) > 0.)
         n = -n;
+      n /= n.norm();
       const Tensor<1, 3> center = circumcenter(u, v);
       for (unsigned int k = 0; k < 3; ++k)
         {
@@ -278,6 +284,15 @@ namespace Morula
                    face[j],
                    part_of_face(
                      center - m, axis, turn, n, infinite, diagram.rho(length)));
+          const auto [first, is_first] =
+            diagram.outward.try_emplace(std::minmax(face[i], face[j]), n);
+          if (!is_first)
+            add_part(diagram.parts,
+                     face[i],
+                     face[j],
+                     0.5 * std::pow(diagram.rho(length), 2) *
+                       std::atan2(cross_product_3d(first->second, n).norm(),
+                                  first->second * n));
         }
     }
 
@@ -357,8 +372,9 @@ namespace Morula
     std::vector<VoronoiFacet>                    facets;
     if (triangulation.dimension() < dim)
       return facets;
-    Parts              parts(points.size());
-    const Diagram<dim> diagram{points, reach, radius, parts};
+    Parts parts(points.size());
+    std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> outward;
+    const Diagram<dim> diagram{points, reach, radius, parts, outward};
     const auto         by_ids = [&](auto corners) {
       std::sort(corners.begin(),
                 corners.end(),

@@ -92,6 +92,8 @@ namespace Morula
       StateColumns<dim>(scene.cell_types.name_list(),
                         scene.fields.name_list(),
                         scene.keys<NeighbourParameters>().variables);
+    for (unsigned int k = 0; k < scene.fields.fields.size(); ++k)
+      effects.state.carried[k] = scene.fields.fields[k].exchanged;
     effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);
@@ -115,6 +117,7 @@ namespace Morula
                                effects.state,
                                center_of<dim>(scene.tissue),
                                tensions_of(scene),
+                               scene.keys<NeighbourParameters>().search(),
                                whole_volume<dim>(scene.tissue)};
     // An effect that has declared columns is told of every cell's begin and
     // advance.

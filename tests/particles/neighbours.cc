@@ -166,12 +166,11 @@ namespace
     const double a    = std::pow(std::pow(10., dim), 1. / dim);
     const double face = std::pow(a, dim - 1);
     for (const VoronoiFacet &facet :
-         voronoi_facets(places, shuffled, 1.8 * a, 1.5 * a))
+         voronoi_facets(places, shuffled, 3. * a, 1.5 * a))
       if (facet.area >= 0.02 * dim * face)
         {
           const auto i = shuffled[facet.a], j = shuffled[facet.b];
-          expected[{i, j}] = expected[{j, i}] =
-            std::min(facet.area, 1.5 * face);
+          expected[{i, j}] = expected[{j, i}] = facet.area;
         }
     // The same edges and areas. Where facets are cut, far points of the whole
     // tissue leave their rounding.

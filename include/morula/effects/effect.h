@@ -9,6 +9,7 @@
 #include <morula/effects/state/state_columns.h>
 #include <morula/effects/type_tensions.h>
 #include <morula/particles/cell_state.h>
+#include <morula/particles/neighbours.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -135,6 +136,8 @@ namespace Morula
     Point<dim> center = Point<dim>();
     /** Tensions between types of cells. */
     TypeTensions tensions = {};
+    /** How it is found out which cells touch. */
+    NeighbourSearch neighbours = {};
     /** Volume of a whole cell at t = 0 where those at the surface are cut by
      * it, µm^dim; 0: none is cut. */
     double whole_volume = 0.;

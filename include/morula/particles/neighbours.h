@@ -16,14 +16,18 @@ namespace Morula
   {
     /** Whether by facets of the Voronoi diagram, or by the distance alone. */
     bool by_facets = true;
-    /** The farthest neighbour, in mean spacings a. */
+    /** The farthest neighbour, in mean spacings a; by facets the farthest one
+     *  with the free surface between. */
     double reach = 1.8;
+    /** The least facet of neighbours, as a part of a cell's mean surface. */
+    double least_part = 0.01;
   };
 
   /**
-   * Which cells touch, doc/theory.md, section 12.1: p and q are at most the
-   * reach apart, and the facet between them has 1 % of a cell's mean surface or
-   * more. The neighbours of the cells of this rank, which may belong to others.
+   * Which cells touch, doc/theory.md, section 12.1: the facet between p and q
+   * has the least part of a cell's mean surface or more, and they are at most
+   * the reach apart, or the free surface does not pass between them. The
+   * neighbours of the cells of this rank, which may belong to others.
    */
   template <int dim>
   struct NeighbourGraph
@@ -49,6 +53,8 @@ namespace Morula
     std::vector<Edge> edges;
     /** a, the dim-th root of the cells' mean volume, µm. */
     double spacing = 0.;
+    /** The longest edge on any rank, µm. */
+    double longest = 0.;
 
     /** Calls visit(edge) for the neighbours of own cell @p p. */
     template <typename Visit>

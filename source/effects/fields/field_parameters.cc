@@ -96,6 +96,11 @@ namespace Morula
                true,
                "Whether a transient field becomes less where cells grow, so "
                "that its amount stays. The steady state knows no dilution.")
+    , exchanged("Exchanged",
+                false,
+                "Whether a cell takes its amount of a transient field along "
+                "when it exchanges its place (Rearrangement), as what is "
+                "inside of cells; false: the amount stays at the place.")
   {
     // The keys stand in the section of the field's name.
     place_in(list(), "Fields/" + name);
@@ -130,6 +135,11 @@ namespace Morula
       value.refuse("its default, as neither " + fixed_where.path() + " nor " +
                      transfer.path() + " is set",
                    "Set one of them, or remove this key.");
+    if (exchanged && is_steady())
+      exchanged.refuse("false, as " + time.path() + " = steady",
+                       "A steady field follows the places of the cells by "
+                       "itself: remove this key, or set " +
+                         time.path() + " = transient.");
     // A steady field needs a sink. Only a plain number can be judged here; of
     // other rates, the solver finds that out.
     if (is_steady() && !has_value() &&
@@ -156,7 +166,8 @@ namespace Morula
             &transfer,
             &flux,
             &flux_where,
-            &dilution};
+            &dilution,
+            &exchanged};
   }
 
 

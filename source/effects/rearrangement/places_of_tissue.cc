@@ -20,7 +20,11 @@ namespace Morula
   {
     /** S/l is at most this times a^(dim-2): to exchange daughters that stand
      *  close changes nothing. */
-    constexpr double largest_ratio = 3.;
+    constexpr double largest_ratio = 10.;
+    /** The least facet across which cells exchange their places, as a part of a
+     *  cell's mean surface: smaller than that of neighbours, as together the
+     *  smallest facets still count for the diffusion coefficient. */
+    constexpr double least_part = 1e-3;
     /** How many edges away a place can be of which an event must know. */
     constexpr double n_edges = 3.;
 
@@ -81,7 +85,9 @@ namespace Morula
 
   template <int dim>
   PlacesOfTissue
-  places_of(const Tissue<dim> &tissue, const std::vector<Occupant> &cells)
+  places_of(const Tissue<dim>           &tissue,
+            const std::vector<Occupant> &cells,
+            NeighbourSearch              search)
   {
     // First each rank finds the edges of its own places. Then it gets the
     // places of others around, and asks their owners for the edges of these:
@@ -94,11 +100,11 @@ namespace Morula
       list.add_value(tissue.cells().id(p),
                      tissue.cells().position(p),
                      told_of<dim>(cells[p], free[p]));
-    const NeighbourSearch     search;
+    search.least_part               = least_part;
     const NeighbourGraph<dim> graph = neighbours(tissue, list, search);
     const double              a     = graph.spacing;
     const PointList<dim>      ghosts =
-      halo(list, tissue.grid(), n_edges * search.reach * a);
+      halo(list, tissue.grid(), n_edges * graph.longest);
 
     const std::array<const PointList<dim> *, 2> parts = {{&list, &ghosts}};
     PlacesOfTissue                              around;
@@ -187,7 +193,7 @@ namespace Morula
 
 
   template PlacesOfTissue
-  places_of(const Tissue<2> &, const std::vector<Occupant> &);
+  places_of(const Tissue<2> &, const std::vector<Occupant> &, NeighbourSearch);
   template PlacesOfTissue
-  places_of(const Tissue<3> &, const std::vector<Occupant> &);
+  places_of(const Tissue<3> &, const std::vector<Occupant> &, NeighbourSearch);
 } // namespace Morula

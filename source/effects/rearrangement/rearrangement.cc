@@ -101,6 +101,7 @@ namespace Morula
     , shear_released(parameters.shear_released)
     , random_seed(setting.random_seed)
     , death_time(setting.columns.template find<double>("death_time"))
+    , neighbours(setting.neighbours)
   {}
 
 
@@ -191,7 +192,7 @@ namespace Morula
     std::vector<Occupant> cells;
     everywhere(tissue.communicator(),
                [&]() { cells = cells_of(tissue, moment.reader); });
-    const PlacesOfTissue around = places_of(tissue, cells);
+    const PlacesOfTissue around = places_of(tissue, cells, neighbours);
     tell(moment, around.places, around.occupants, 0., tissue.communicator());
   }
 
@@ -204,15 +205,16 @@ namespace Morula
     // The events run on copies of the cells, while the places stay as they are.
     // At the end the owner of each place tells the rank of the cell that has
     // come there what the place keeps: position, volume, F_e, and the fields,
-    // whose amounts stay so. A cell comes from farther away than the places
-    // around a rank reach, if it has had many exchanges; so it carries its rank
-    // and number with it. The cells of this rank are moved at last, in one go.
+    // whose amounts stay so; of others the cell brings its amount. A cell comes
+    // from farther away than the places around a rank reach, if it has had many
+    // exchanges; so it carries its rank and number with it. The cells of this
+    // rank are moved at last, in one go.
     const MPI_Comm           comm    = tissue.communicator();
     const StateColumns<dim> &columns = moment.reader.columns;
     const CellColumns<dim>  &of_cell = tissue.cells().columns();
     std::vector<Occupant>    cells;
     everywhere(comm, [&]() { cells = cells_of(tissue, moment.reader); });
-    const PlacesOfTissue around = places_of(tissue, cells);
+    const PlacesOfTissue around = places_of(tissue, cells, neighbours);
     ExchangeRounds       rounds(around.places,
                           around.occupants,
                           attempts(around.places,
@@ -254,12 +256,16 @@ namespace Morula
           positions[p]             = Flat<Point<dim>>::read(next + 1);
           const double         V   = next[1 + dim];
           const Tensor<2, dim> F_e = Flat<Tensor<2, dim>>::read(next + 2 + dim);
-          const CellView<dim, double> cell = tissue.cell(p);
+          const CellView<dim, double> cell   = tissue.cell(p);
+          const double                before = cell.volume();
           cell.set(
             of_cell.deformation,
             deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
           for (std::size_t k = 0; k < columns.fields.size(); ++k)
-            cell.set(columns.fields[k], next[2 + dim + dim * dim + k]);
+            cell.set(columns.fields[k],
+                     columns.carried[k] ?
+                       cell.get(columns.fields[k]) * before / V :
+                       next[2 + dim + dim * dim + k]);
         }
     tissue.move(positions, tissue.boundary_points().positions());
     tell(moment, around.places, rounds.occupants(), n_exchanges, comm);

@@ -64,7 +64,8 @@ namespace Morula
                {"facets|radius"})
     , reach("Neighbours/Reach",
             1.8,
-            "Distance of the farthest neighbour; with Found by = radius 1.5 "
+            "Distance of the farthest neighbour across a gap: beyond it no free "
+            "surface may lie between. With Found by = radius that of any, 1.5 "
             "unless it is set. At most 2.5. Units: mean cell spacings.")
   {
     reach.require([](const double value) { return value > 0. && value <= 2.5; },

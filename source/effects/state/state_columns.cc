@@ -15,7 +15,8 @@ namespace Morula
     const std::vector<std::string>       &types,
     const std::vector<std::string>       &fields,
     const std::vector<NeighbourVariable> &neighbours)
-    : types(types)
+    : carried(fields.size(), false)
+    , types(types)
     , names_of_fields(fields)
     , of_neighbours(neighbours)
     , needs_gradient(fields.size(), false)

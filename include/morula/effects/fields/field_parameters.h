@@ -30,6 +30,7 @@ namespace Morula
     ExpressionKey    flux;
     ExpressionKey    flux_where;
     Key<bool>        dilution;
+    Key<bool>        exchanged;
 
     /** Whether the field has its steady state in every configuration. */
     bool

@@ -23,10 +23,13 @@ namespace Morula
     std::vector<std::vector<unsigned int>> listeners;
   };
 
-  /** @param cells of this rank. Collective. */
+  /** @param cells  of this rank
+   *  @param search how far neighbours can be. Collective. */
   template <int dim>
   PlacesOfTissue
-  places_of(const Tissue<dim> &tissue, const std::vector<Occupant> &cells);
+  places_of(const Tissue<dim>           &tissue,
+            const std::vector<Occupant> &cells,
+            NeighbourSearch              search = {});
 
   /** Runs all attempts, on all ranks together. Collective. */
   void

@@ -84,11 +84,12 @@ namespace Morula
          const double                 n_exchanges,
          const MPI_Comm               comm) const;
 
-    const Expression     diffusion, drive;
-    const AdhesionEnergy energy;
-    const double         shear_released;
-    const std::uint64_t  random_seed;
-    const Column<double> death_time;
+    const Expression      diffusion, drive;
+    const AdhesionEnergy  energy;
+    const double          shear_released;
+    const std::uint64_t   random_seed;
+    const Column<double>  death_time;
+    const NeighbourSearch neighbours;
   };
 
   /**

@@ -110,6 +110,9 @@ namespace Morula
     std::vector<Column<double>> neighbours;
     /** Values of the scene's fields at the cell, by the fields' numbers. */
     std::vector<Column<double>> fields;
+    /** Whether a cell takes the amount of a field along when it exchanges its
+     *  place, by the fields' numbers. */
+    std::vector<bool> carried;
     /** The fields' gradients, in the configuration in which they were solved,
      *  per µm. Only columns that need_gradient() asked for exist. */
     std::vector<Column<Tensor<1, dim>>> gradients;

@@ -162,6 +162,33 @@ namespace Morula::ExpressionSyntax
                match.position(0) + match.length(1) :
                std::string::npos;
     }
+
+    /** What is said of a sign that other languages have, and muParser has not;
+     *  empty if there is none. */
+    std::string
+    foreign_sign(const std::string &s)
+    {
+      // The first group is what stands before the sign.
+      static const std::vector<std::pair<std::regex, std::string>> signs = {
+        {std::regex("()<>"), "'<>'. Write '!='."},
+        {std::regex("()(!(?!=)|~)"),
+         "no sign for 'not'. Write == 0, as in (X > 0) == 0."},
+        {std::regex("()%"),
+         "'%'. Write X - 2*floor(X/2) for a remainder, 0.5 for 50 %."},
+        {std::regex("()[\\[\\]{}]"),
+         "a bracket that is no parenthesis. Write ( and ), and X, Y, Z for "
+         "components of a place."},
+        {std::regex("()[\"'`]"), "a quotation mark. Remove it."},
+        {std::regex("((?:^|[-+*/^(,<>=&?:])\\s*)\\|[^|]"),
+         "'|' where a value begins. Write abs(X) for an absolute value."},
+        {std::regex("((?:^|[^A-Za-z0-9_.])(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)"
+                    "(?:[eE][-+]?[0-9]+)?)(?![eE][-+]?[0-9])\\s*[A-Za-z_(]"),
+         "an operator is missing behind a number. Write *, as in 2*X."}};
+      for (const auto &[sign, text] : signs)
+        if (std::smatch match; std::regex_search(s, match, sign))
+          return at(match.position(0) + match.length(1)) + text;
+      return "";
+    }
   } // namespace
 
 
@@ -256,6 +283,8 @@ namespace Morula::ExpressionSyntax
                      "point and separate components by ';'.";
     if (const auto i = find_assignment(component); i != std::string::npos)
       return at(i) + "a single '='. Compare with '==', '<=' or '>='.";
+    if (const std::string text = foreign_sign(component); !text.empty())
+      return text;
     if (const auto i = find_chain(component); i != std::string::npos)
       return at(i) + "a chain of comparisons. Join them: 0 < X && X < 5.";
     if (const auto i = component.find("**"); i != std::string::npos)

@@ -188,9 +188,25 @@ TEST(Expression, RefusesWhatWouldBeMisunderstood)
   expect_parts(complaint("0 < X <= 5 && Y > 0"), {"Character 7", "chain"});
   expect_parts(complaint("X**2"), {"Character 2", "'^'"});
   expect_parts(complaint("X > rand()"), {"Random"});
+  // other languages
+  expect_parts(complaint("!(X > 0)"), {"Character 1", "'not'", "== 0"});
+  expect_parts(complaint("Y*~X"), {"Character 3", "'not'"});
+  expect_parts(complaint("X <> 3"), {"Character 3", "'!='"});
+  expect_parts(complaint("X % 2"), {"Character 3", "floor"});
+  expect_parts(complaint("1 + x[0]"), {"Character 6", "parenthesis"});
+  expect_parts(complaint("\"X\""), {"Character 1", "quotation"});
+  expect_parts(complaint("2*|X|"), {"Character 3", "abs(X)"});
+  expect_parts(complaint("Y + 2X"), {"Character 6", "2*X"});
+  expect_parts(complaint("1.5e-3 (X)"), {"Character 7", "2*X"});
+  expect_parts(complaint("sin X"), {"sin(X)"});
+  expect_parts(complaint("mod(X, 2)"), {"floor"});
   for (const char *text : {"pow(X, 2)",
                            "X >= 3",
                            "X == 3",
+                           "X != 3 || Y != 3",
+                           "1e3*X + .5E-2 - 12e+1",
+                           "X > 0 | Y > 0",
+                           "log10(X^2 + 1)",
                            "0 < X && X < 5",
                            "if(X < 1, Y < 2, Z < 3)",
                            "(0 < X) == (X < 5)"})

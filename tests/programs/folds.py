@@ -342,6 +342,10 @@ class Folds(ProgramTest):
         self.assertGreater(sum(rows["rejected_steps"]), 0)
         points = read_csv(self.work / "output/surface-0016.csv")
         self.assertGreater(max(points["contact_pressure"]), 0.05)
+        alone = self.execute(scene, "--replace",
+                             *overrides({"Contact/Between": "none"}))
+        self.assertIn("It may pass through itself there", alone.text)
+        self.assertGreater(self.most_crowded("cells-0016"), 1.7)
 
     def test_a_snap_in_slow_steps(self):
         """A drag holds a layer back for some steps, also in a resumed run."""

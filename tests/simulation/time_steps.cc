@@ -102,6 +102,21 @@ TEST(TimeSteps, ARejectedStepIsHalvedAndCoarsenedOneLevelAtATime)
 }
 
 
+TEST(TimeSteps, SlowStepsStayShort)
+{
+  TimeSteps steps(times(3., 1., 0.1));
+  EXPECT_TRUE(steps.reject());
+  EXPECT_TRUE(steps.reject()); // [0, 0.25]
+  for (unsigned int i = 1; i <= 6; ++i)
+    {
+      steps.accept(true);
+      EXPECT_EQ(steps.time(), 0.25 * i);
+      EXPECT_EQ(steps.next(), 0.25 * (i + 1)); // also in the next interval
+    }
+  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.75, 2., 3.}));
+}
+
+
 TEST(TimeSteps, RejectsDownToTheSmallestStep)
 {
   TimeSteps steps(times(1., 0.1, 0.0125));

@@ -11,6 +11,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -63,7 +64,16 @@ namespace Morula
       for (const auto &paths : needs)
         {
           const AnyKey *const key = find(paths[0]);
-          if (key == nullptr || !review.has_set(*key) || !differs(*key))
+          if (key == nullptr || !differs(*key))
+            continue;
+          // Where all have the default, a type has a value of its own.
+          const AnyKey *said = key;
+          for (const CellTypeKeys &type : scene.cell_types.types)
+            for (const ExpressionKey &own : type.overrides)
+              if (key->is_default() && !own.empty() &&
+                  own.path() == type.path_of(*key))
+                said = &own;
+          if (said == key && !review.has_set(*key))
             continue;
           std::string missing;
           for (std::size_t i = 1; i < paths.size(); ++i)
@@ -73,8 +83,8 @@ namespace Morula
             else if (missing != "none")
               missing += (missing.empty() ? "" : " and ") + paths[i];
           if (missing != "none")
-            review.warn(paths[0],
-                        key->text(),
+            review.warn(said->path(),
+                        said->text(),
                         "it does nothing without " + missing + '.',
                         "Set this key as well, or remove the other.");
         }
@@ -243,6 +253,61 @@ namespace Morula
         }
     }
 
+    /** By what part too much of a field may come in at fixed values, at the
+     *  worst offset of the grid, if it falls off within @p reach grid spacings:
+     *  measured on slabs, and held to by tests/programs/field_layers.py. */
+    double
+    excess_at_fixed_values(const double reach)
+    {
+      constexpr std::array<std::array<double, 2>, 6> excess = {{{{0.1, 0.28}},
+                                                                {{0.2, 0.225}},
+                                                                {{0.25, 0.17}},
+                                                                {{0.3, 0.125}},
+                                                                {{0.4, 0.07}},
+                                                                {{0.5, 0.04}}}};
+      if (reach >= excess.back()[0])
+        return 0.;
+      if (reach <= excess.front()[0])
+        return excess.front()[1];
+      unsigned int i = 1;
+      while (excess[i][0] < reach)
+        ++i;
+      const auto &[x0, y0] = excess[i - 1];
+      const auto &[x1, y1] = excess[i];
+      return y0 + (y1 - y0) * (reach - x0) / (x1 - x0);
+    }
+
+    /** Founders of the first type at which its own Where does not hold: those
+     *  that no other type takes are of the first one. Collective. */
+    template <int dim>
+    void
+    review_first_type(const Scene         &scene,
+                      const Founders<dim> &founders,
+                      const MPI_Comm       comm,
+                      Review              &review)
+    {
+      const auto          &types = scene.cell_types.types;
+      const ExpressionKey &where = types.front().where;
+      if (where.empty() || !founders.types.empty())
+        return;
+      const auto holds = [](const ExpressionKey &key, const Point<dim> &X) {
+        return !key.empty() && key.expression(dim).value(X, 0.) > 0.;
+      };
+      types::particle_index n = 0;
+      for (const Point<dim> &X : founders.positions)
+        n += std::none_of(types.begin(), types.end(), [&](const auto &type) {
+          return holds(type.where, X);
+        });
+      if (n = Utilities::MPI::sum(n, comm); n > 0)
+        review.warn(where.path(),
+                    where.text(),
+                    "it does not hold at " + std::to_string(n) +
+                      " founders for which no other type's Where holds: they "
+                      "are of this type all the same, as it is the first.",
+                    "Name the type of the others first in " +
+                      scene.cell_types.names.path() + ", or remove this key.");
+    }
+
     /** Fields that stay zero, conditions that others leave nothing to, and
      *  fields that hardly reach into the tissue. */
     template <int dim>
@@ -318,7 +383,18 @@ namespace Morula
                       " um long. Is Diffusion in um^2/day (1 um^2/s is 86400 "
                       "of it), Consumption in 1/day?",
                     "If it is meant so, all is well.");
-      else if (reach < 0.2 * h)
+      else if (const double wrong = excess_at_fixed_values(reach / h);
+               n_fixed > 0. && wrong > 0.)
+        review.warn(field.diffusion.path(),
+                    field.diffusion.text(),
+                    what +
+                      ", less than half a grid spacing: what comes in at "
+                      "fixed values may be too much by " +
+                      as_text(std::round(100. * wrong)) +
+                      " %, as the grid lines lie.",
+                    "Choose Grid/Spacing below " + as_text(2. * reach) +
+                      " um, or one that the accuracy allows.");
+      else if (n_fixed == 0. && reach < 0.2 * h)
         review.warn(field.diffusion.path(),
                     field.diffusion.text(),
                     what + ": less than a fifth of a grid spacing, what comes "
@@ -346,10 +422,13 @@ namespace Morula
     review_growth(scene, review);
     review_death(scene, founders, comm, review);
     if (scene.cell_types.present())
-      review_types(
-        scene,
-        founders_of_types<dim>(scene, founders.positions, comm, founders.types),
-        review);
+      {
+        review_types(scene,
+                     founders_of_types<dim>(
+                       scene, founders.positions, comm, founders.types),
+                     review);
+        review_first_type(scene, founders, comm, review);
+      }
     double volume = 0., largest = 0.;
     for (const double V : founders.volumes)
       {

@@ -3,6 +3,7 @@
 
 #include <morula/scene/estimates.h>
 #include <morula/scene/far_obstacles.h>
+#include <morula/scene/idle_effects.h>
 #include <morula/scene/idle_keys.h>
 #include <morula/scene/rate_warnings.h>
 #include <morula/scene/rearrangement_review.h>
@@ -111,6 +112,7 @@ namespace Morula
     review_rearrangement(scene, review);
     review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
+    review_idle_effects(scene, review);
     review_idle_keys(scene, founders, surface, comm, review);
     review_far_obstacles(scene, surface, comm, review);
     review_steps(scene, founders, surface, comm, review);

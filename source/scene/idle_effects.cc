@@ -190,10 +190,12 @@ namespace Morula
       for (const AnyKey *key : keys.list())
         if (key != &switch_key)
           for (const AnyKey *one : given(scene, *key, review))
-            if (first == nullptr)
-              first = one;
-            else
-              more += (more.empty() ? "; so do " : ", ") + one->path();
+            {
+              if (first == nullptr)
+                first = one;
+              else
+                more += (more.empty() ? "; so do " : ", ") + one->path();
+            }
       if (first != nullptr)
         warn_of_idle(*first,
                      switch_key.path() + " = " + switch_key.text() + more,

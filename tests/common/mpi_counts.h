@@ -17,6 +17,13 @@ namespace Morula
   inline MpiCounts mpi_counts;
 } // namespace Morula
 
+// PETSc counts these calls with macros of the same names.
+#undef MPI_Allreduce
+#undef MPI_Barrier
+#undef MPI_Ibarrier
+#undef MPI_Bcast
+#undef MPI_Allgather
+
 // MPI's profiling interface: these stand in front of the library's own, also
 // for what deal.II and Trilinos call. Include this in one file of a room only.
 extern "C" {

@@ -155,6 +155,7 @@ def judge(runs):
 
 
 THREAD = {"Proliferation/Cell cycle/Division axis": "fixed",
+          "Proliferation/Cell cycle/Fixed axis": "1, 0",
           "Grid/Spacing": "25", "Time/Step": "0.25", "Time/End time": "7.75"}
 WITHER = {"Growth/Isotropic/Stretch": "1 - 0.1 * t", "Time/End time": "6"}
 TRIMMED = {"Tissue/Surface cells": "trimmed"}

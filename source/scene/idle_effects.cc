@@ -97,7 +97,7 @@ namespace Morula
        has_transition,
        "no cell changes its type",
        "Set Cell types/NAME/Transitions, or remove this key."},
-      {{"Death/Final volume", "Death/Keep debris"},
+      {{"Death/Final volume"},
        [](const Scene &scene) {
          const auto &time = scene.keys<DeathParameters>().shrinking_time;
          return time.differs_by_type() ||

@@ -259,7 +259,8 @@ namespace Morula
     double
     excess_at_fixed_values(const double reach)
     {
-      constexpr std::array<std::array<double, 2>, 6> excess = {{{{0.1, 0.28}},
+      constexpr std::array<std::array<double, 2>, 7> excess = {{{{0.1, 0.28}},
+                                                                {{0.15, 0.28}},
                                                                 {{0.2, 0.225}},
                                                                 {{0.25, 0.17}},
                                                                 {{0.3, 0.125}},

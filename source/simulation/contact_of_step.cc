@@ -91,7 +91,8 @@ namespace Morula
             const auto           way    = Flat<Tensor<1, dim>>::read(row + dim);
             const Tensor<1, dim> across = 0.5 * (area / area.norm() - n);
             const Tensor<1, dim> before = x - near.positions[i];
-            if (n * area > -0.3 * area.norm() || before.norm() < known)
+            if (n * area > Parting<dim>::facing * area.norm() ||
+                before.norm() < known)
               continue;
             const Tensor<1, dim> after  = before + ways[p] - way;
             const Tensor<1, dim> normal = across / across.norm();

@@ -151,6 +151,8 @@ namespace Morula
      *  step. */
     void
     describe_state();
+    /** Says once where tissue without contact may have passed through itself.
+     */
     void
     warn_of_turn(const DisplacementField<dim> &displacement);
     void

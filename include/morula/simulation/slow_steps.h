@@ -27,9 +27,9 @@ namespace Morula
          const DisplacementField<dim> &displacement,
          double                       &drag);
 
-  /** Whether a strand of the surface, h long, turns so far in a step that it
-   * may have passed through another one which it did not face at t. Collective.
-   */
+  /** Whether a strand of tissue turns so far in a step, by 36°, that its
+   *  surface may have passed through one which it did not face at t.
+   *  Collective. */
   template <int dim>
   bool
   turns_too_far(const Tissue<dim>            &tissue,

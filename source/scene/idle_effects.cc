@@ -240,11 +240,6 @@ namespace Morula
                      "Set " + field.time.path() +
                        " = transient, or remove this key.",
                      review);
-      if (!field.has_value() && is_given(field.value, review))
-        warn_of_idle(field.value,
-                     "neither Fixed where nor Transfer is set",
-                     "Set one of them, or remove this key.",
-                     review);
     }
   } // namespace
 

@@ -83,10 +83,8 @@ TEST(BackgroundFiles, AreWrittenMeanwhile)
   background.start(one_file(directory / "a", go.get_future()), false);
   EXPECT_TRUE(background.pending());
   EXPECT_FALSE(background.written()); // the thread waits
-  MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a.tmp"});
 
-  MPI_Barrier(MPI_COMM_WORLD);
   go.set_value();
   while (!background.written())
     ;
@@ -118,13 +116,9 @@ TEST(BackgroundFiles, HaveStages)
   EXPECT_FALSE(background.written());
   EXPECT_EQ(directory.files(), std::vector<std::string>{});
   first.set_value();
-  MPI_Barrier(MPI_COMM_WORLD);
   // The second stage begins once all ranks have done the first one.
   while (directory.files().empty())
-    {
-      EXPECT_FALSE(background.written());
-      MPI_Barrier(MPI_COMM_WORLD);
-    }
+    EXPECT_FALSE(background.written());
   second.set_value();
   while (!background.written())
     ;
@@ -160,7 +154,6 @@ TEST(BackgroundFiles, FailTogetherLater)
     EXPECT_THROW(background.finish(), std::runtime_error);
   }
   EXPECT_FALSE(background.pending());
-  MPI_Barrier(MPI_COMM_WORLD); // rank 0 has removed what there was
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a"});
   EXPECT_EQ(content(directory / "a"), "as it was");
 }
@@ -173,6 +166,5 @@ TEST(BackgroundFiles, AreGivenUpAtTheEnd)
     BackgroundFiles background(MPI_COMM_WORLD);
     background.start(one_file(directory / "a", at_once()), false);
   }
-  MPI_Barrier(MPI_COMM_WORLD);
   EXPECT_EQ(directory.files(), std::vector<std::string>{});
 }

@@ -129,7 +129,6 @@ TEST(Directory, DoesNotLoseTheInputOfTheNewRun)
   EXPECT_EQ(
     directory.files(),
     (Names{"cells-0003.csv", "log.txt", "parameters.prm", "statistics.csv"}));
-  MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST(Directory, KeepsRunsThatWouldBeLost)

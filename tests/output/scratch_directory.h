@@ -50,14 +50,19 @@ public:
     return path + '/' + name;
   }
 
-  /** Names of the files in it, sorted. */
+  /**
+   * Names of the files in it, sorted. Collective: no rank looks before all have
+   * done what they do before, and none goes on before all have looked.
+   */
   std::vector<std::string>
   files() const
   {
+    MPI_Barrier(comm);
     std::vector<std::string> names;
     for (const auto &entry : std::filesystem::directory_iterator(path))
       names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
+    MPI_Barrier(comm);
     return names;
   }
 

@@ -265,7 +265,7 @@ namespace Morula
     std::set<Bodies>          touching;
     std::vector<unsigned int> numbers;
     for (const ContactForce<dim> &one : forces)
-      if (one.other <= one.body)
+      if (one.touches && one.other <= one.body)
         touching.emplace(one.other, one.body);
     for (const Bodies &bodies : touching)
       {
@@ -288,7 +288,7 @@ namespace Morula
         for (const ContactForce<dim> &one : forces)
           if (Bodies(one.other, one.body) == bodies)
             {
-              ++row.points;
+              row.points += one.touches ? 1 : 0;
               row.area += one.area.norm();
               row.force += in_space(one.force);
               row.moment +=

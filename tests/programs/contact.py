@@ -160,6 +160,16 @@ class Contact(ProgramTest):
                                2.004, delta=0.01)
         whole = [(self.work / f"output/{name}.csv").read_bytes()
                  for name in ("cells-0002", "surface-0002", "forces")]
+        # anywhere on the grid, also in a softer ring
+        for offset, ring, exact in (("7.4, 9.2", 1, 0.0391286),
+                                    ("0.3, 4.7", 1, 0.0391286),
+                                    ("9, 1.1", 0.2, 0.0087181)):
+            self.run_scene(scene, {
+                **keys, "Grid/Offset": offset, "Time/End time": "1",
+                "Material/Young's modulus": f"if(type == b, {ring}, 1)"})
+            row = self.forces().iloc[-1]
+            self.assertAlmostEqual(row["force_inward"] / row["area"] / exact, 1,
+                                   delta=5e-3 if ring == 1 else 1e-2)
         self.run_scene(scene, {**keys, "Time/End time": "1"})
         self.execute(scene, "--resume", *overrides(keys))
         self.assertEqual(whole, [(self.work / f"output/{name}.csv")

@@ -10,7 +10,7 @@ import random
 import numpy as np
 
 from morula.run import Run
-from program import ProgramTest, main, overrides, read_csv
+from program import TESTS, ProgramTest, main, overrides, read_csv
 
 SCENE = """
 subsection Time
@@ -368,6 +368,55 @@ class Folds(ProgramTest):
         self.execute(scene, "--resume")
         self.assertTrue(whole == [(self.work / f"output/{name}.csv").read_bytes()
                                   for name in names])
+
+    def test_creases_close_and_open(self):
+        """A layer grows until it has creases, and shrinks until it has none.
+        Planes stand behind the slip walls, which no point of the surface above
+        them keeps in its place."""
+        planes = {}
+        for name, side in (("left", 1), ("right", -1)):
+            planes.update({f"Obstacles/{name}/Shape": "plane",
+                           f"Obstacles/{name}/Center": f"{-200 * side}, 0",
+                           f"Obstacles/{name}/Normal": f"{side}; 0"})
+        self.execute(TESTS.parent / "prm/hard/growing-layer.prm", "--replace", *overrides({
+            "Time/End time": "1.36", "Grid/Spacing": "12",
+            "Tissue/Cell spacing": "4", "Tissue/Refine surface": "true",
+            "Tissue/Coarsen surface": "true", "Contact/Between": "all",
+            "Growth/Isotropic/Stretch": "if(t < 0.85, 1 + t, 2.7 - t)",
+            "Obstacles/Names": "left, right", **planes}))
+        run = Run(self.work / "output")
+        times = run.forces[run.forces["name"] == "body 0 on itself"]["time"]
+        self.assertGreater(len(times), 5)
+        self.assertLess(max(times), 1.1)
+
+        def depth(time):
+            points = run.surface(round(time / 0.02))
+            top = points["y"][points["Y"] > 79.9]
+            return max(top) - min(top)
+        self.assertGreater(depth(0.84), 40)
+        self.assertLess(depth(1.36), 0.2 * depth(0.84))
+
+    def test_sheets_do_not_touch_themselves(self):
+        """The two faces of a bent sheet of few cells are no pair: it moves as
+        without contact, to the last digit."""
+        for n, side in ((2, 2.5), (3, 2.5), (1, 5), (2, 5)):
+            cells = [((i + 0.5) * side, (j + 0.5) * side, side * side)
+                     for i in range(round(100 / side)) for j in range(n)]
+            width = n * side
+            scene = self.polygon(
+                cells, [(0, 0), (100, 0), (100, width), (0, width)])
+            moved = []
+            for between in ("all", "none"):
+                self.execute(scene, "--replace", *overrides({
+                    "Contact/Between": between,
+                    "Tissue/Boundary points": str(round((200 + 2 * width) / side)),
+                    "Boundary conditions/Fixed where": "X < 0.001",
+                    "Body force/Force density": f"0; -{4e-7 * width**2}*t",
+                    "Grid/Offset": "3, 7"}))
+                cells_of = read_csv(self.work / "output/cells-0004.csv")
+                moved.append((cells_of["x"], cells_of["y"]))
+            self.assertGreater(max(cells_of["Y"] - cells_of["y"]), 1)
+            self.assertTrue(np.array_equal(*moved))
 
     def test_what_is_said(self):
         self.assertIn("1 body, whose folds and arms have contact, too",

@@ -35,7 +35,10 @@ namespace Morula
           const auto [sum, is_new] =
             sums.emplace(std::make_pair(one.p, one.other), one);
           if (!is_new)
-            sum->second.force += one.force;
+            {
+              sum->second.force += one.force;
+              sum->second.touches |= one.touches;
+            }
         }
     std::vector<ContactForce<dim>> result;
     for (const auto &[key, sum] : sums)
@@ -51,16 +54,20 @@ namespace Morula
   {
     // Every point tells its area and the normal force on it. A tree finds those
     // around a point, which are summed by id, so that nothing depends on ranks.
+    // The areas are those at t, which a step of growth changes: what the
+    // point's own patch has become since then stands for its surroundings.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     std::vector<double>        of_points(store.size(), 0.);
     for (const ContactForce<dim> &one : forces)
       of_points[one.p] -= one.force * one.area / one.area.norm();
     std::vector<Point<dim>>   queries;
     std::vector<unsigned int> loaded;
+    std::vector<double>       widening;
     for (const ContactForce<dim> &one : forces)
       if (loaded.empty() || loaded.back() != one.p)
         {
           loaded.push_back(one.p);
+          widening.push_back(one.area.norm() / store.area_vector(one.p).norm());
           queries.push_back(store.position(one.p));
         }
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
@@ -92,7 +99,7 @@ namespace Morula
               force += near.row(i)[0];
               area += around.norm();
             }
-        pressures[loaded[k]] = force / area;
+        pressures[loaded[k]] = force / (area * widening[k]);
       }
     return pressures;
   }

@@ -379,25 +379,39 @@ namespace Morula
   {
     // Each pair that touches adds its force to both points, apart for each body
     // that touches a point. What the drag of the last turn has left counts: it
-    // is part of the equilibrium.
+    // is part of the equilibrium. Pairs that all but touch add none, but tell
+    // how far the contact reaches.
     const std::vector<State>    now = states(u);
     std::vector<Tensor<1, dim>> ways;
     for (const State &state : now)
       ways.push_back(state.u);
-    std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> sums;
+    struct Sum
+    {
+      Tensor<1, dim> force;
+      bool           touches = false;
+    };
+    std::map<std::pair<unsigned int, unsigned int>, Sum> sums;
     for (const Pair &pair : pairs)
-      if (gap(pair, ways) < 0. || pair.slow > 0.)
-        {
-          const Tensor<1, dim> t = force(pair, ways);
-          sums[{pair.b, points.points()[pair.c].body}] += t;
-          sums[{pair.c, points.points()[pair.b].body}] -= t;
-        }
+      {
+        const double g = gap(pair, ways);
+        if (g >= ContactForce<dim>::reach * law.h && pair.slow == 0.)
+          continue;
+        Sum &of_b = sums[{pair.b, points.points()[pair.c].body}];
+        Sum &of_c = sums[{pair.c, points.points()[pair.b].body}];
+        if (g >= 0. && pair.slow == 0.)
+          continue;
+        const Tensor<1, dim> t = force(pair, ways);
+        of_b.force += t;
+        of_c.force -= t;
+        of_b.touches = of_c.touches = true;
+      }
     std::vector<ContactForce<dim>> list;
     for (const auto &[key, sum] : sums)
       list.push_back({key.first,
                       points.points()[key.first].body,
                       key.second,
-                      sum,
+                      sum.touches,
+                      sum.force,
                       now[key.first].x,
                       now[key.first].a * now[key.first].n});
     return list;

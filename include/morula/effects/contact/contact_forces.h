@@ -13,8 +13,8 @@ namespace Morula
   /**
    * The forces of contact on this rank's boundary points at the displacement
    * with these values at the relevant unknowns, one for each point and body
-   * that touches it, in the order of the store; p is the position there. Pairs
-   * of other ranks are among them. Collective.
+   * that touches it, or all but does, in the order of the store; p is the
+   * position there. Pairs of other ranks are among them. Collective.
    */
   template <int dim>
   std::vector<ContactForce<dim>>

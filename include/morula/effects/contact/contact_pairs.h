@@ -16,12 +16,18 @@ namespace Morula
   template <int dim>
   struct ContactForce
   {
-    unsigned int   p;     // number of the point
-    unsigned int   body;  // of the point
-    unsigned int   other; // body
-    Tensor<1, dim> force; // on the point, kPa µm^(dim-1)
-    Point<dim>     place; // where it acts, µm
-    Tensor<1, dim> area;  // a n there, µm^(dim-1)
+    unsigned int   p;       // number of the point
+    unsigned int   body;    // of the point
+    unsigned int   other;   // body
+    bool           touches; // or only all but does, without a force
+    Tensor<1, dim> force;   // on the point, kPa µm^(dim-1)
+    Point<dim>     place;   // where it acts, µm
+    Tensor<1, dim> area;    // a n there, µm^(dim-1)
+
+    /** Points are in contact up to this gap, in grid spacings: facets of two
+     *  surfaces do not match, so that within a contact some have a little gap.
+     */
+    static constexpr double reach = 0.005;
   };
 
   /** How stiff contact is. */

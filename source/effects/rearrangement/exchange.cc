@@ -287,7 +287,7 @@ namespace Morula
       for (unsigned int p = 0; p < places.size(); ++p)
         place_of[places.keys[p]] = p;
     const auto p = place_of.find(result.p), q = place_of.find(result.q);
-    for (const auto &[place, occupant] :
+    for (const auto [place, occupant] :
          {std::make_pair(p, &result.at_p), std::make_pair(q, &result.at_q)})
       if (place != place_of.end())
         {

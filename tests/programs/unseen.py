@@ -93,6 +93,28 @@ class Unseen(ProgramTest):
             self.assertAlmostEqual((cells.u * cells.volume).sum(), 15000,
                                    places=5)
 
+    def test_cells_that_are_held_die(self):
+        """The run goes on without what held or loaded the tissue, and says
+        so, on any ranks; with some of the cells left it says nothing."""
+        keys = {"Time/End time": 0.3, "Time/Step": 0.1,
+                "Output/Interval": 0.1,
+                "Death/Shrinking time": 0,
+                "Boundary conditions/Fixed where": "X < -49.9",
+                "Boundary conditions/Pressure where": "X > 49.9",
+                "Boundary conditions/Pressure": 0.05}
+        word = "acts on no boundary point any more, and did on 10 before"
+        for when, ranks, lost in (("X < 0", 1, "fixed"), ("X < 0", 2, "fixed"),
+                                  ("X > 0", 1, "pressure"), ("Y > 0", 1, None)):
+            run = self.run_keys({**keys, "Death/When": f"{when} && t > 0.05"},
+                                f"die-{when[0]}-{ranks}-{lost}", ranks=ranks)
+            log = (run.directory / "log.txt").read_text()
+            self.assertEqual(log.count(word), lost is not None)
+            if lost:
+                self.assertIn(f"{lost} {word}", log)
+                forces = run.forces[run.forces.name == lost]
+                self.assertEqual(list(forces.points), [10, 0, 0])
+            self.assertEqual(len(run.statistics), 4)
+
     def test_lumen_resumed(self):
         keys = {"Tissue/Shape": "sphere", "Tissue/Radius": 100,
                 "Tissue/Inner radius": 60, "Tissue/Cell spacing": 6,

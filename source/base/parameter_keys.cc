@@ -187,8 +187,13 @@ namespace Morula
       suggestion += ' ';
     if (const std::string open = missing_end(statement); !open.empty())
       suggestion = open;
-    if (suggestion.empty() && !is_section)
-      suggestion = keys_of(section == statement.path ? "" : section, keys);
+    // A name of another section may not be what was meant in this one.
+    const bool is_of_section =
+      suggestion.find('\'' + section + '/') != std::string::npos;
+    if (!is_section && (suggestion.empty() ||
+                        (section != statement.path && has_section(section) &&
+                         !is_of_section && missing_end(statement).empty())))
+      suggestion += keys_of(section == statement.path ? "" : section, keys);
     throw InputError(statement.place +
                        (is_section ? "subsection" : statement.path),
                      is_section ? statement.path : statement.value,

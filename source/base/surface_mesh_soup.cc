@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/mesh_file_fault.h>
 #include <morula/base/surface_mesh_soup.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -26,6 +27,7 @@
 #include <limits>
 #include <locale>
 #include <regex>
+#include <set>
 
 namespace Morula::MeshFile
 {
@@ -189,6 +191,24 @@ namespace Morula::MeshFile
                  ". Copy or export it again.");
     }
 
+    /** How many triangles a complete STL file has. */
+    std::size_t
+    triangles_of_stl(const std::string &text)
+    {
+      const std::string word = "outer loop";
+      if (text.find('\0') == std::string::npos)
+        {
+          std::size_t n = 0;
+          for (auto at = text.find(word); at != std::string::npos;
+               at      = text.find(word, at + word.size()))
+            ++n;
+          return n;
+        }
+      std::uint32_t n = 0;
+      std::memcpy(&n, text.data() + 80, sizeof(n));
+      return n;
+    }
+
     /** Lets CGAL's reader of the format @p ending append to @p soup.
      *  @returns whether it could */
     bool
@@ -272,6 +292,28 @@ namespace Morula::MeshFile
           vertex = first[vertex];
       return n_merged;
     }
+
+    /** Drops what is there twice, or not at all: vertices, polygons, and
+     *  polygons without three corners. Counts the polygons. */
+    void
+    repair(Soup &soup)
+    {
+      // Polygons can be compared once equal vertices have one number. Those
+      // without three corners go first, so that each counts as one thing.
+      Processing::merge_duplicate_points_in_polygon_soup(soup.points,
+                                                         soup.polygons);
+      const auto is_flat = [](const std::vector<std::size_t> &polygon) {
+        return std::set<std::size_t>(polygon.begin(), polygon.end()).size() < 3;
+      };
+      const auto flat =
+        std::remove_if(soup.polygons.begin(), soup.polygons.end(), is_flat);
+      soup.n_flat += static_cast<std::size_t>(soup.polygons.end() - flat);
+      soup.polygons.erase(flat, soup.polygons.end());
+      soup.n_doubled +=
+        Processing::merge_duplicate_polygons_in_polygon_soup(soup.points,
+                                                             soup.polygons);
+      Processing::repair_polygon_soup(soup.points, soup.polygons);
+    }
   } // namespace
 
   [[noreturn]] void
@@ -316,6 +358,9 @@ namespace Morula::MeshFile
         try
           {
             good = read_polygons(text, ending, soup);
+            // CGAL drops triangles of STL files that have no three corners.
+            if (good && ending == ".stl")
+              soup.n_flat = triangles_of_stl(text) - soup.polygons.size();
           }
         catch (const std::exception &)
           {
@@ -329,20 +374,30 @@ namespace Morula::MeshFile
       refuse(file,
              "The file cannot be read: its numbers have commas. Write decimal "
              "points, and blanks between numbers.");
-    if (!good)
-      refuse(file,
-             "The file cannot be read: check that it exists, that its name "
-             "ends with .stl, .off, .ply or .obj, that it is whole, and that "
-             "it holds numbers only.");
-    for (const std::vector<std::size_t> &polygon : soup.polygons)
-      for (const std::size_t vertex : polygon)
-        if (vertex >= soup.points.size())
-          refuse(file,
-                 "The file cannot be read: a polygon names a vertex that is "
-                 "none of the " +
-                   std::to_string(soup.points.size()) + " there.");
+    const bool names_no_vertex =
+      std::any_of(soup.polygons.begin(),
+                  soup.polygons.end(),
+                  [&](const std::vector<std::size_t> &polygon) {
+                    return std::any_of(polygon.begin(),
+                                       polygon.end(),
+                                       [&](const std::size_t vertex) {
+                                         return vertex >= soup.points.size();
+                                       });
+                  });
+    if (!good || names_no_vertex)
+      {
+        const std::string fault =
+          content.empty() ? "" : fault_in(content, ending);
+        refuse(file,
+               "The file cannot be read: " +
+                 (fault.empty() ?
+                    "check that it exists, that its name ends with .stl, .off, "
+                    ".ply or .obj, that it is whole, and that it holds numbers "
+                    "only." :
+                    fault));
+      }
     check_finite(soup, file);
-    Processing::repair_polygon_soup(soup.points, soup.polygons);
+    repair(soup);
     if (soup.polygons.empty())
       refuse(file, "The file has no polygons: export the surface again.");
     const Edges edges = edges_of(soup);
@@ -353,7 +408,7 @@ namespace Morula::MeshFile
       {
         soup.n_merged = merge_vertices(soup);
         if (soup.n_merged > 0)
-          Processing::repair_polygon_soup(soup.points, soup.polygons);
+          repair(soup);
       }
     return soup;
   }

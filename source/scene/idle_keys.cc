@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/growth/isotropic.h>
-#include <morula/effects/growth/rate_growth.h>
 #include <morula/scene/checks.h>
+#include <morula/scene/idle_founders.h>
 #include <morula/scene/idle_keys.h>
+#include <morula/scene/idle_rates.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -122,86 +121,6 @@ namespace Morula
                     "the tissue begins with " + std::to_string(n_founders) +
                       " cells: the run ends at its first step.",
                     "Raise it, or set it to 0 for a run to the end.");
-    }
-
-    /** Cells that never enter S. */
-    void
-    review_cycle(const Scene &scene, Review &review)
-    {
-      if (!scene.has_proliferation())
-        return;
-      const CellCycleParameters &cycle = scene.cell_cycle;
-      const auto rate = cycle.exit_rate.largest_number(scene.dimension);
-      if (cycle.start == "waiting" && rate && *rate == 0. &&
-          cycle.exit_rate.expression(scene.dimension).is_always(0.))
-        review.warn(cycle.exit_rate.path(),
-                    cycle.exit_rate.text(),
-                    "all cells wait in G0 at t = 0, and none ever leaves it: "
-                    "no cell divides.",
-                    "Set a rate > 0, or " + cycle.start.path() +
-                      " = together.");
-      const Expression &checkpoint =
-        cycle.size_checkpoint.expression(scene.dimension);
-      if (checkpoint.is_constant() && checkpoint.number() &&
-          *checkpoint.number() >= 1.)
-        review.warn(cycle.size_checkpoint.path(),
-                    cycle.size_checkpoint.text(),
-                    "cells at rest have J_e = 1, which is not above it: only "
-                    "stretched cells enter S.",
-                    "Choose a number below 1.");
-    }
-
-    /** Growth that is none. */
-    void
-    review_growth(const Scene &scene, Review &review)
-    {
-      const auto &rate    = scene.keys<RateGrowthParameters>();
-      const auto &stretch = scene.keys<IsotropicGrowthParameters>().stretch;
-      const bool  is_idle =
-        scene.law_of_growth() == "rate" ?
-           !differs(rate.rate) && !differs(rate.homeostasis) :
-           scene.law_of_growth() == "isotropic" && !differs(stretch);
-      if (is_idle)
-        review.warn(scene.growth_law.path(),
-                    scene.law_of_growth(),
-                    "no cell grows: its keys have their defaults.",
-                    "Set them in the section Growth, or remove the law.");
-    }
-
-    /** Death of nobody: a condition that holds at no founder in no step, as far
-     *  as place and time alone tell. Collective. */
-    template <int dim>
-    void
-    review_death(const Scene         &scene,
-                 const Founders<dim> &founders,
-                 const MPI_Comm       comm,
-                 Review              &review)
-    {
-      const ExpressionKey &when = scene.keys<DeathParameters>().when;
-      if (!differs(when) || when.differs_by_type() ||
-          when.expression(dim).depends_on_state())
-        return;
-      constexpr double most_times = 1e6;
-      const double     end = scene.time.end_time, step = scene.time.step;
-      const double     n      = std::ceil(end / step - 1e-9);
-      unsigned int     anyone = n * founders.n_global > most_times;
-      try
-        {
-          for (double i = 0.; i <= n && anyone == 0; ++i)
-            for (const Point<dim> &X : founders.positions)
-              if (when.expression(dim).value(X, std::min(i * step, end)) > 0.)
-                anyone = 1;
-        }
-      catch (const std::exception &)
-        {
-          anyone = 1; // refused elsewhere
-        }
-      if (Utilities::MPI::max(anyone, comm) == 0)
-        review.warn(when.path(),
-                    when.text(),
-                    "it holds for no founder at the beginning or end of any "
-                    "step: no cell dies by it.",
-                    "Correct it, or remove it.");
     }
 
     /** Types that no cell has, and none can get. */
@@ -419,9 +338,8 @@ namespace Morula
     // same lists.
     review_needs(scene, review);
     review_time(scene, founders.n_global, review);
-    review_cycle(scene, review);
-    review_growth(scene, review);
-    review_death(scene, founders, comm, review);
+    review_idle_rates(scene, founders, comm, review);
+    review_idle_founders(scene, founders, comm, review);
     if (scene.cell_types.present())
       {
         review_types(scene,

@@ -5,6 +5,7 @@
 #include <morula/seeding/outliers.h>
 #include <morula/seeding/points_file.h>
 #include <morula/seeding/points_file_rows.h>
+#include <morula/seeding/points_file_words.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -441,16 +442,20 @@ namespace Morula
     // Names that are not known may be misspelt, and a line of words may be a
     // cell with a fault: neither is an error, both are worth a warning.
     if (!header.format.skipped.empty())
-      review.warn(TissueKeys::points_file,
-                  file,
-                  "its columns '" + boost::join(header.format.skipped, "', '") +
-                    "' say nothing about cells here and are skipped.",
-                  "Columns that count are x, y, z, volume, generation, phase "
-                  "and type: correct the name of one that is misspelt.");
+      review.warn(
+        TissueKeys::points_file,
+        file,
+        "its columns '" + boost::join(header.format.skipped, "', '") +
+          "' say nothing about cells here and are skipped. Read are '" +
+          boost::join(header.format.read, "', '") + "'.",
+        "Columns that count are x, y, z, volume, generation, phase "
+        "and type: correct the name of one that is misspelt.");
     if (!header.further.empty())
       review.warn(TissueKeys::points_file,
                   file,
-                  "its line '" + boost::trim_copy(header.further.back()) +
+                  "its line '" +
+                    boost::trim_copy(
+                      PointsFileWords::in_utf8(header.further.back())) +
                     "' is taken for a line of the header, and skipped" +
                     (header.further.size() == 1 ?
                        "." :

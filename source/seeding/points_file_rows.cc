@@ -2,13 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/seeding/points_file_rows.h>
+#include <morula/seeding/points_file_words.h>
 
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -16,6 +15,12 @@ namespace Morula
 {
   namespace
   {
+    using PointsFileWords::fields;
+    using PointsFileWords::in_utf8;
+    using PointsFileWords::number;
+    using PointsFileWords::remedy_for;
+    using PointsFileWords::trimmed;
+
     /** The columns of a points file; their places are their meanings. */
     constexpr unsigned int volume = 3, generation = 4, phase = 5, type = 6,
                            moment = 7, skipped = 8, n_meanings = skipped;
@@ -25,39 +30,6 @@ namespace Morula
     /** Longest line, in characters. A few numbers and their names are far
      *  shorter; a file without line ends could fill the memory. */
     constexpr std::size_t longest_line = 10000;
-
-    std::string
-    trimmed(const std::string &text)
-    {
-      // Quotes around an entry do not count, nor the carriage return of
-      // Windows.
-      const char *const blanks = " \t\r\"";
-      const auto        begin  = text.find_first_not_of(blanks);
-      return begin == std::string::npos ?
-               "" :
-               text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-    }
-
-    /** The entries of a line. A separator within quotes belongs to a text. */
-    std::vector<std::string>
-    fields(const std::string &line, const char separator)
-    {
-      std::vector<std::string> result(1);
-      bool                     quoted = false;
-      for (const char c : separator == ' ' ? trimmed(line) : line)
-        {
-          // Several blanks in a row are one separator, several commas are empty
-          // entries.
-          quoted = quoted != (c == '"');
-          if (quoted || c != separator)
-            result.back() += c;
-          else if (separator != ' ' || !result.back().empty())
-            result.emplace_back();
-        }
-      for (std::string &entry : result)
-        entry = trimmed(entry);
-      return result;
-    }
 
     std::string
     name_of(const char separator)
@@ -73,22 +45,6 @@ namespace Morula
           default:
             return "tabs";
         }
-    }
-
-    std::optional<double>
-    number(const std::string &text)
-    {
-      if (text.empty())
-        return {};
-      double            value = 0.;
-      const char *const end   = text.data() + text.size();
-      // std::from_chars() does not depend on the locale, but knows no plus
-      // sign.
-      const auto [rest, error] =
-        std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
-      if (error != std::errc() || rest != end || !std::isfinite(value))
-        return {};
-      return value;
     }
 
     /** The number of a type that is given by its name, or by that number. */
@@ -301,7 +257,7 @@ namespace Morula
                                header_fault<dim>(titles, format.columns);
     if (!fault.empty())
       {
-        problem.value = trimmed(line);
+        problem.value = in_utf8(trimmed(line));
         problem.allowed =
           dim == 3 ?
             "a header line that names the columns x, y, z and, if there, "
@@ -312,11 +268,14 @@ namespace Morula
         return format;
       }
     for (std::size_t i = 0; i < titles.size(); ++i)
-      if (format.columns[i] >= moment)
-        format.skipped.push_back(titles[i].empty() ? "(no name)" : titles[i]);
-      else if (const auto unit = split_unit(titles[i]).second;
-               format.columns[i] <= volume && is_other_unit(unit))
-        set_unit_problem(titles[i], unit, problem);
+      {
+        const bool is_read = format.columns[i] < moment;
+        (is_read ? format.read : format.skipped)
+          .push_back(titles[i].empty() ? "(no name)" : titles[i]);
+        if (const auto unit = split_unit(titles[i]).second;
+            format.columns[i] <= volume && is_other_unit(unit))
+          set_unit_problem(titles[i], unit, problem);
+      }
     return format;
   }
 
@@ -371,7 +330,7 @@ namespace Morula
       {
         rows.problem = {
           rows.n_lines,
-          trimmed(text.substr(0, longest_line)),
+          in_utf8(trimmed(text.substr(0, longest_line))),
           std::to_string(columns.size()) + " entries separated by " +
             name_of(format.separator) + ", as in the header",
           "This line has " + std::to_string(entries.size()) +
@@ -416,25 +375,25 @@ namespace Morula
                             entries[i],
                             "a finite number with a decimal point, in um "
                             "(volumes: um^3, 2-D: um^2)",
-                            entries[i].find(',') != std::string::npos ?
-                              "Write decimal points instead of decimal "
-                              "commas." :
-                              "Correct the line."};
+                            remedy_for(entries[i])};
             return;
           }
         values[columns[i]] = *value;
       }
     if (!(values[volume] > 0.))
       rows.problem = {rows.n_lines,
-                      trimmed(text),
+                      in_utf8(trimmed(text)),
                       "a volume above 0 um^3 (2-D: um^2)",
                       "Correct the volume or drop the cell."};
-    check_state(values[generation], values[phase], trimmed(text), rows);
+    check_state(values[generation],
+                values[phase],
+                in_utf8(trimmed(text)),
+                rows);
     // A third dimension is no cell's in 2-D, but z = 0 may stand there.
     if (dim == 2 && values[2] != 0.)
       rows.problem = {
         rows.n_lines,
-        trimmed(text),
+        in_utf8(trimmed(text)),
         "z = 0 um in 2-D",
         "Project the cells into the plane, or set Dimension = 3."};
     Point<dim> x;

@@ -46,6 +46,37 @@ namespace Morula
              way * m < -least_cosine * length && n * m < -least_cosine;
     }
 
+    /** The box of all places that a point at @p x with the normal @p n may face
+     *  within a distance: that of a cone around the normal. */
+    template <int dim>
+    BoundingBox<dim>
+    box_of_view(const Point<dim>     &x,
+                const Tensor<1, dim> &n,
+                const double          reach)
+    {
+      // Of the directions in the cone, the one that goes farthest along an axis
+      // is the axis itself or stands on the rim.
+      const auto farthest = [](const double cosine) {
+        if (cosine >= least_cosine)
+          return 1.;
+        const auto sine = [](const double c) {
+          return std::sqrt(std::max(0., 1. - c * c));
+        };
+        return std::max(0.,
+                        cosine * least_cosine +
+                          sine(cosine) * sine(least_cosine));
+      };
+      // Rounding must not leave out a point on the rim.
+      const double margin = 1e-9 * reach;
+      Point<dim>   lower, upper;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = x[d] - reach * farthest(-n[d]) - margin;
+          upper[d] = x[d] + reach * farthest(n[d]) + margin;
+        }
+      return BoundingBox<dim>({lower, upper});
+    }
+
     /** A grid cell, by its number, and one of the bodies in it. */
     using Entry = std::pair<unsigned int, unsigned int>;
 
@@ -133,13 +164,7 @@ namespace Morula
         const auto         n    = Flat<Tensor<1, dim>>::read(numbers.data());
         const unsigned int body = store.body(p);
         const Entry        here{box.number(box.locate(x)), body};
-        Point<dim>         lower, upper;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            lower[d] = x[d] - widest * h;
-            upper[d] = x[d] + widest * h;
-          }
-        const auto faces = [&](const auto i) {
+        const auto         faces = [&](const auto i) {
           const Point<dim> &y     = near.positions[i];
           const double      width = x.distance(y);
           // Bodies with splines of their own do not stick together.
@@ -152,12 +177,12 @@ namespace Morula
           // other point is on another rank, only a gap below one grid spacing
           // counts.
           return unknowns.has(here) && unknowns.has(there) ?
-                   unknowns.are_shared(here, there) :
-                   width < h;
+                           unknowns.are_shared(here, there) :
+                           width < h;
         };
         namespace bgi = boost::geometry::index;
         for (auto found =
-               tree.qbegin(bgi::intersects(BoundingBox<dim>({lower, upper})) &&
+               tree.qbegin(bgi::intersects(box_of_view(x, n, widest * h)) &&
                            bgi::satisfies(faces));
              found != tree.qend();
              ++found)

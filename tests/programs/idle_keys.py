@@ -20,6 +20,60 @@ DIES = {**BOX, "Death/When": "X > 40", "Death/Shrinking time": 0}
 FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100,
          "Fields/u/Consumption": 1, "Fields/u/Production": 1}
 
+POINTS = {**{key: value for key, value in BOX.items()
+             if key not in ("Tissue/Size", "Tissue/Cell spacing")},
+          "Tissue/Shape": "points"}
+POINTS_CYCLE = {**POINTS, **{key: CYCLE[key] for key in CYCLE
+                             if key.startswith("Proliferation")}}
+POINTS_TYPES = {**POINTS, "Cell types/Names": "a, b"}
+
+# Key, value, the other keys, and the columns of a points file.
+OF_POINTS = (
+    ("Tissue/Cell spacing", 12, POINTS, {"volume": 100}),
+    ("Tissue/Closed gap", 5, POINTS, {}),
+    ("Tissue/Boundary points", 50, POINTS, {}),
+    ("Tissue/Refine surface", "true", POINTS, {}),
+    ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE,
+     {"phase": 1}),
+    ("Cell types/b/Where", "X > 0", POINTS_TYPES, {"type": "a"}))
+OF_POINTS_READ = (
+    ("Tissue/Cell spacing", 12, POINTS, {}),
+    ("Tissue/Closed gap", 5, {**POINTS, "Tissue/Points surface": "always"},
+     {}),
+    ("Tissue/Refine surface", "true",
+     {**POINTS, "Boundary conditions/Fixed where": "X < -45"}, {}),
+    ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {}),
+    ("Cell types/b/Where", "X > 0", POINTS_TYPES, {}))
+
+# Effects that are asked for and happen to nobody: what is said, and a scene of
+# the same kind in which something happens.
+LEAVES = {**BOX, "Death/Shrinking time": 0}
+CYCLE_WAIT = "Proliferation/Cell cycle/G0 exit rate"
+NOBODY = (
+    (RATE, {"Growth/Rate/Rate": "0*X"}, {"Growth/Rate/Rate": "X > 40"},
+     "no cell grows: "),
+    (RATE, {"Growth/Rate/Rate": "t > 3"}, {"Growth/Rate/Rate": "t > 0.1"},
+     "no cell grows: "),
+    (RATE, {"Growth/Rate/Rate": 0, "Cell types/b/Growth/Rate/Rate": "0*t"},
+     {"Growth/Rate/Rate": 0, "Cell types/b/Growth/Rate/Rate": 1},
+     "no cell grows: "),
+    (RATE, {"Growth/Rate/Rate": 0}, {"Growth/Rate/Rate": "0*pressure"},
+     "no cell grows: "),
+    (GROWS, {"Growth/Isotropic/Stretch": "1 + (X > 90)"}, {},
+     "no cell grows: "),
+    (LEAVES, {"Death/Rate": "0.1*(X > 500)"}, {"Death/Rate": "0.1*(X > 40)"},
+     "no cell dies by it."),
+    (LEAVES, {"Death/When": "X > 500"}, {"Death/When": "X > 40"},
+     "no cell dies by it."),
+    (BOX, {"Extrusion/Rate": "0*t"}, {"Extrusion/Rate": 0.1},
+     "no cell leaves by it."),
+    (MOVES, {"Rearrangement/Diffusion": "10*(t > 9)"}, {},
+     "no cell changes its place by it."),
+    (TYPES, {"Cell types/a/Transitions/To b": "0*X"},
+     {"Cell types/a/Transitions/To b": "X < 0"},
+     "no cell changes its type by it."),
+    (CYCLE, {CYCLE_WAIT: "0*X"}, {CYCLE_WAIT: "X > 0"}, "no cell divides."))
+
 IDLE = (
     ("Neighbours/Reach", 1.3, TYPES), ("Neighbours/Found by", "radius", TYPES),
     ("Neighbours/Reach", 1.3, MOVES), ("Tension/Force", "false", TYPES),
@@ -77,6 +131,38 @@ class IdleKeys(ProgramTest):
         for number, (key, value, keys) in enumerate(READ):
             self.assertNotIn("it does nothing",
                              self.explain({**keys, key: value}, number), key)
+
+    def points(self, columns, name):
+        """A file of 100 cells, with columns that are the same in all rows."""
+        rows = [",".join(map(str, (x, y, *columns.values())))
+                for x in range(-45, 50, 10) for y in range(-45, 50, 10)]
+        return str(self.write(f"{name}.csv", "\n".join(
+            [",".join(["x", "y", *columns]), *rows]) + "\n"))
+
+    def test_of_points(self):
+        for number, (key, value, keys, columns) in enumerate(OF_POINTS):
+            file = {"Tissue/Points file": self.points(columns, number)}
+            said = self.explain({**keys, **file, key: value}, number)
+            self.assertIn(f"Warning: {key} = '{value}': it does nothing here: ",
+                          said)
+        for number, (key, value, keys, columns) in enumerate(OF_POINTS_READ):
+            file = {"Tissue/Points file": self.points(columns, number)}
+            self.assertNotIn("it does nothing", self.explain(
+                {**keys, **file, key: value}, number), key)
+
+    def test_columns_that_nothing_reads(self):
+        file = {"Tissue/Points file": self.points({"phase": 1, "id": 7}, "s")}
+        said = self.explain({**POINTS, **file}, "none")
+        self.assertIn("its columns 'id' say nothing about cells here and are "
+                      "skipped. Read are 'x', 'y', 'phase'.", said)
+        self.assertIn("nothing reads its column 'phase'", said)
+        self.assertNotIn("nothing reads its column",
+                         self.explain({**POINTS_CYCLE, **file}, "cycle"))
+
+    def test_what_happens_to_nobody(self):
+        for number, (keys, idle, acts, word) in enumerate(NOBODY):
+            self.assertIn(word, self.explain({**keys, **idle}, number), idle)
+            self.assertNotIn(word, self.explain({**keys, **acts}, number), acts)
 
     def test_all_of_an_effect_in_one_line(self):
         said = self.explain({**GROWS, "Growth/Rate/Rate": 0.3,

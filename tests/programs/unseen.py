@@ -74,6 +74,47 @@ class Unseen(ProgramTest):
         self.assertAlmostEqual(mean[4], 1, places=9)
         self.assertLess(mean[5], 0.9)
 
+    def test_what_goes_along_when_cells_change_places(self):
+        """A field that hardly spreads stays with its cell, or with its place,
+        and its amount is kept."""
+        keys = {"Time/End time": 1, "Time/Step": 0.1, "Output/Formats": "csv",
+                "Cell types/Names": "a, b", "Cell types/b/Where": "X > 0",
+                "Rearrangement/Diffusion": 200, "Fields/Names": "u",
+                "Fields/u/Time": "transient", "Fields/u/Diffusion": 1e-6,
+                "Fields/u/Initial": "1 + (X > 0)"}
+        for along in (True, False):
+            cells = self.run_keys({**keys, "Fields/u/Exchanged": str(along).lower()},
+                                  f"along-{along}").cells(-1)
+            is_right = (cells.x > 0).to_numpy()
+            is_b = (cells.type == 1).to_numpy()
+            self.assertGreater((is_right & ~is_b).sum(), 3)
+            np.testing.assert_allclose(
+                cells.u, 1 + (is_b if along else is_right), rtol=1e-6)
+            self.assertAlmostEqual((cells.u * cells.volume).sum(), 15000,
+                                   places=5)
+
+    def test_cells_that_are_held_die(self):
+        """The run goes on without what held or loaded the tissue, and says
+        so, on any ranks; with some of the cells left it says nothing."""
+        keys = {"Time/End time": 0.3, "Time/Step": 0.1,
+                "Output/Interval": 0.1,
+                "Death/Shrinking time": 0,
+                "Boundary conditions/Fixed where": "X < -49.9",
+                "Boundary conditions/Pressure where": "X > 49.9",
+                "Boundary conditions/Pressure": 0.05}
+        word = "acts on no boundary point any more, and did on 10 before"
+        for when, ranks, lost in (("X < 0", 1, "fixed"), ("X < 0", 2, "fixed"),
+                                  ("X > 0", 1, "pressure"), ("Y > 0", 1, None)):
+            run = self.run_keys({**keys, "Death/When": f"{when} && t > 0.05"},
+                                f"die-{when[0]}-{ranks}-{lost}", ranks=ranks)
+            log = (run.directory / "log.txt").read_text()
+            self.assertEqual(log.count(word), lost is not None)
+            if lost:
+                self.assertIn(f"{lost} {word}", log)
+                forces = run.forces[run.forces.name == lost]
+                self.assertEqual(list(forces.points), [10, 0, 0])
+            self.assertEqual(len(run.statistics), 4)
+
     def test_lumen_resumed(self):
         keys = {"Tissue/Shape": "sphere", "Tissue/Radius": 100,
                 "Tissue/Inner radius": 60, "Tissue/Cell spacing": 6,

@@ -7,6 +7,7 @@
 #include <boost/algorithm/string.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <sstream>
 #include <string>
@@ -240,4 +241,114 @@ TEST(MeshFiles, RefusesFilesThatAreCutOff)
   binary += std::string("\2\0\0\0", 4) + std::string(50, '\0');
   EXPECT_TRUE(contains(refusal(binary, ".STL"), "1 whole triangles"));
   EXPECT_TRUE(contains(refusal("", ".ply"), "empty"));
+}
+
+TEST(MeshFiles, SaysWhichLineNoReaderCouldTake)
+{
+  const std::string off = "OFF\n8 12 0\n" + lists("", "3 ", 0);
+  const std::string obj = "# by hand\n\no box\n" + lists("v ", "f ", 1);
+  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 8\n"
+                          "property float x\nproperty float y\n"
+                          "property float z\nelement face 12\n"
+                          "property list uchar int vertex_indices\n"
+                          "end_header\n" +
+                          lists("", "3 ", 0);
+  struct Case
+  {
+    std::string text, ending, reason;
+  };
+  for (const Case &one : std::vector<Case>{
+         {replaced(obj, "f 3 8 7", "f 3 80 7"),
+          ".obj",
+          "line 21, 'f 3 80 7', names vertex 80 (from 1), which is none of the "
+          "8 there"},
+         {replaced(obj, "f 3 8 7", "f -9 8 7"), ".obj", "line 21, 'f -9 8 7'"},
+         {replaced(obj, "v 3 4 5", "v 3 nan 5"),
+          ".obj",
+          "line 10, 'v 3 nan 5', is no vertex of three finite numbers"},
+         {replaced(obj, "v 3 4 5", "v 3 \\\n 5"), ".obj", "line 10, 'v 3"},
+         {replaced(off, "3 2 3 7", "3 2 3 8"), ".off", "names vertex 8"},
+         {replaced(off, "3 2 3 7", "2 2 x"), ".off", "line 19, '2 2 x'"},
+         {replaced(off, "\n3 4 5\n", "\n3 inf 5\n"),
+          ".off",
+          "line 9, '3 inf 5'"},
+         {off.substr(0, off.size() - 16),
+          ".off",
+          "ends after 10 of the 12 records 'face'"},
+         {"OFF 8\n", ".off", "does not say how many"},
+         {replaced(ply, "\n3 4 5\n", "\n3 4 -nan\n"),
+          ".ply",
+          "line 16, '3 4 -nan'"},
+         {replaced(ply, "3 2 3 7", "3 2 3 x"),
+          ".ply",
+          "line 26, '3 2 3 x', is no polygon"},
+         {ply.substr(0, ply.find("3 4 0")), ".ply", "records 'vertex'"},
+         {replaced(ply, "end_header\n", ""), ".ply", "no line of a PLY header"},
+         {replaced(stl(), "vertex 3 4 5", "vertex 3 4 infinite"),
+          ".stl",
+          "'vertex 3 4 infinite', is no vertex"}})
+    EXPECT_TRUE(contains(refusal(one.text, one.ending), one.reason))
+      << one.reason << "\nbut:\n"
+      << refusal(one.text, one.ending);
+}
+
+TEST(MeshFiles, RecordsOfABinaryFile)
+{
+  const auto bytes = [](const bool big, const auto value) {
+    std::string text(reinterpret_cast<const char *>(&value), sizeof(value));
+    if (big)
+      std::reverse(text.begin(), text.end());
+    return text;
+  };
+  for (const bool big : {false, true})
+    {
+      std::string text = std::string("ply\nformat binary_") +
+                         (big ? "big" : "little") +
+                         "_endian 1.0\nelement vertex 8\nproperty float x\n"
+                         "property float y\nproperty float z\nelement face 12\n"
+                         "property list uchar int vertex_indices\nend_header\n";
+      for (const Point<3> &x : corners)
+        for (unsigned int d = 0; d < 3; ++d)
+          text += bytes(big, static_cast<float>(x[d]));
+      std::string wrong;
+      for (const auto &triangle : box)
+        {
+          wrong = text;
+          text += '\3', wrong += '\3';
+          for (const unsigned int vertex : triangle)
+            {
+              text += bytes(big, static_cast<std::int32_t>(vertex));
+              wrong += bytes(big, static_cast<std::int32_t>(vertex + 10));
+            }
+        }
+      EXPECT_NEAR(volume(text, ".ply"), 60., 1e-12);
+      EXPECT_TRUE(contains(refusal(text.substr(0, text.size() - 20), ".ply"),
+                           "ends after 10 of the 12 records 'face'"));
+      EXPECT_TRUE(contains(refusal(wrong, ".ply"),
+                           "face 11 (from 0), names vertex 13 (from 0)"));
+    }
+}
+
+TEST(MeshFiles, SaysWhichFacesWereDropped)
+{
+  const std::string end   = "endsolid box\n";
+  const std::string facet = "facet normal 0 0 0\nouter loop\nvertex 0 0 0\n"
+                            "vertex 3 4 0\nvertex 3 0 0\nendloop\nendfacet\n";
+  const std::string turned =
+    replaced(replaced(replaced(facet, "3 4 0", "A"), "3 0 0", "3 4 0"),
+             "A",
+             "3 0 0");
+  const std::string flat = replaced(facet, "3 4 0", "0 0 0");
+  for (const std::string &more : {facet, turned})
+    {
+      const std::string text = replaced(stl(), end, more + end);
+      EXPECT_NEAR(volume(text, ".stl"), 60., 1e-12);
+      const auto said = warnings(text, ".stl");
+      ASSERT_EQ(said.size(), 1u);
+      EXPECT_TRUE(contains(said[0], "1 of its faces are there twice"))
+        << said[0];
+    }
+  const auto said = warnings(replaced(stl(), end, flat + flat + end), ".stl");
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_TRUE(contains(said[0], "2 of its faces have no three corners"));
 }

@@ -248,6 +248,37 @@ TEST(PointsFile, TablesOfTrackers)
   EXPECT_TRUE(contains(refusal<3>("x (nm),y (nm),z (nm)\n1,2,3\n"), "'nm'"));
 }
 
+TEST(PointsFile, NumbersOfOtherCountriesAndTimes)
+{
+  EXPECT_EQ(read_and_gather<3>("x,y,z,volume\n1.0D0,2d+0,30D-1,.4d1\n"),
+            (Rows{{1., 2., 3., 4.}}));
+  const std::string header = "x,y,z,volume\n1,2,3,";
+  EXPECT_TRUE(contains(refusal<3>(header + "\"1,000.0\"\n"), "as in 1000.0"));
+  EXPECT_TRUE(
+    contains(refusal<3>(header + "\"1,000,000\"\n"), "part thousands"));
+  EXPECT_TRUE(contains(refusal<3>(header + "1'000.0\n"), "part thousands"));
+  EXPECT_TRUE(contains(refusal<3>(header + "1.000.000\n"), "as in 1000000"));
+  EXPECT_TRUE(contains(refusal<3>(header + "\"1.000,5\"\n"), "Its points"));
+  EXPECT_TRUE(contains(refusal<3>(header + "\"1,5\"\n"), "decimal commas"));
+  EXPECT_TRUE(contains(refusal<3>(header + "1.0-103\n"), "Correct the line"));
+}
+
+TEST(PointsFile, LatinLetters)
+{
+  EXPECT_EQ(read_and_gather<3>("x (\xB5m),y (\xB5m),z (\xB5m)\n1,2,3\n"),
+            (Rows{{1., 2., 3., 1000.}}));
+  const TemporaryFile file(".csv",
+                           "x,y,z,gr\xF6\xDF"
+                           "e\n1,2,3,4\n");
+  Review              review;
+  review_points_file<3>(file.path, review);
+  ASSERT_EQ(review.warnings.size(), 1u);
+  EXPECT_TRUE(contains(review.warnings[0],
+                       "'gr\xC3\xB6\xC3\x9F"
+                       "e' say nothing about cells here "
+                       "and are skipped. Read are 'x', 'y', 'z'."));
+}
+
 TEST(PointsFile, SaysWhyAHeaderIsWrong)
 {
   EXPECT_TRUE(contains(refusal<3>("1;2;3\n4;5;6\n"), "numbers only"));

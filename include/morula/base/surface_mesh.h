@@ -93,8 +93,8 @@ namespace Morula
     std::vector<SurfaceTriangle>    all_triangles;
   };
 
-  /** Warns of vertices of a good mesh that were merged though they differ, and
-   *  of faces that were turned round. Reads the file.
+  /** Warns of vertices of a good mesh that were merged though they differ, of
+   *  faces that were dropped, and of those turned round. Reads the file.
    *  @param key path of the key that names the file */
   void
   review_mesh(const std::string &key, const std::string &name, Review &review);

@@ -35,7 +35,9 @@ namespace Morula
     {
       std::vector<Kernel::Point_3>          points;
       std::vector<std::vector<std::size_t>> polygons;
-      std::size_t                           n_merged = 0;
+      /** Vertices that differed by rounding, polygons that were there twice,
+       *  and those without three corners: all are gone. */
+      std::size_t n_merged = 0, n_doubled = 0, n_flat = 0;
     };
 
     /** A file and the path of the key that names it. */

@@ -61,8 +61,8 @@ namespace Morula
     /** The meaning of each column: 0, 1, 2 are x, y, z, 3 the volume, 4 the
      *  generation, 5 the phase, 6 the type, 7 the moment; 8 is skipped. */
     std::vector<unsigned int> columns;
-    /** Names of the columns whose entries are skipped. */
-    std::vector<std::string> skipped;
+    /** Names of the columns whose entries are read, and are skipped. */
+    std::vector<std::string> read, skipped;
   };
 
   /** Whether a line is blank, has separators only, or begins with #. Such

@@ -5,6 +5,7 @@
 #define morula_simulation_simulation_h
 
 #include <morula/scene/seeded_tissue.h>
+#include <morula/simulation/condition_watch.h>
 #include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
 #include <morula/simulation/gap_watch.h>
@@ -218,6 +219,7 @@ namespace Morula
 
     PieceWarnings<dim>    pieces;
     GapWatch<dim>         gaps;
+    ConditionWatch        lost_conditions;
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started

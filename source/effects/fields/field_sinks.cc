@@ -63,7 +63,7 @@ namespace Morula
         "boundary point, of each separate piece of the tissue in which "
         "something makes the field",
         "Without a sink a steady field has no level: any constant could be "
-        "added to it.");
+        "added to it. Dead cells take nothing.");
     return n_nothing;
   }
 

@@ -227,6 +227,9 @@ namespace Morula
       }
     double totals[3];
     Utilities::MPI::sum(sums, tissue.communicator(), totals);
+    // Held points whose cells are all gone have no traction.
+    if (totals[2] == 0.)
+      return false;
     const double least  = least_traction * attempt.typical_stiffness;
     const double before = change;
     change =

@@ -212,7 +212,7 @@ namespace Morula
     // interface that it is in, doc/theory.md (12.2): the term of a surface
     // whose area is V g. In the middle of a domain there is none, which costs
     // nothing in the iterations. The smoothing ε is one number per length, and
-    // the volume stands in the tension.
+    // the volume stands in the tension, with what ε takes from flat interfaces.
     const TypeFractions<dim> field =
       fractions(tissue, reader.columns.type, tensions.size());
     GroupedPoints<dim> points;
@@ -236,7 +236,7 @@ namespace Morula
                   if (tensions[a][b] == 0. || g.norm() * points.h < 1e-10)
                     continue;
                   points.xi.push_back(xi);
-                  loads.push_back({tensions[a][b] * V, g});
+                  loads.push_back({tensions[a][b] * V / left_by_smoothing, g});
                 }
           }
         points.offsets.push_back(points.xi.size());

@@ -49,6 +49,7 @@ namespace Morula
         here_index   = index;
         is_somewhere = true;
       }
+    ++counts[index];
     const SplineValues<dim> splines(box.unit_position(x, index), box.spacing());
     for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
       {
@@ -70,6 +71,24 @@ namespace Morula
         for (unsigned int k = 0; k <= n_types; ++k)
           of_spline[k] += more[k];
       }
+    for (const auto &[index, more] : other.counts)
+      counts[index] += more;
+  }
+
+
+  template <int dim>
+  bool
+  TypeFractions<dim>::is_filled_by(const unsigned int    n,
+                                   const GridIndex<dim> &index) const
+  {
+    const auto own = counts.find(index);
+    if (own == counts.end() || own->second != n)
+      return false;
+    // The splines of a grid cell are centred in it and around it.
+    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+      if (counts.count(center_of_spline<dim>(index, a)) == 0)
+        return false;
+    return true;
   }
 
 

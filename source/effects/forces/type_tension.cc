@@ -6,6 +6,9 @@
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/particles/point_exchange.h>
 
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -130,6 +133,56 @@ namespace Morula
         }
       return found;
     }
+
+    /** A place with the volume that it stands for. */
+    template <int dim>
+    struct WeightedPlace
+    {
+      Point<dim> x;  // µm
+      Point<dim> xi; // in its grid cell
+      double     V;  // µm^dim
+    };
+
+    /**
+     * The places where the tension of the cells [begin, end) of one grid cell
+     * and body is summed. Inside of the tissue they are Gauss points: cells are
+     * no even quadrature, so that interfaces would pull more where cells are
+     * many, and would drive them away from there. A grid cell that the surface
+     * may cut, or that bodies share, has its cells, which lie in the tissue.
+     */
+    template <int dim>
+    std::vector<WeightedPlace<dim>>
+    quadrature(const Tissue<dim>                           &tissue,
+               const TypeFractions<dim>                    &field,
+               const GroupedPoints<dim>                    &positions,
+               const std::pair<unsigned int, unsigned int> &range)
+    {
+      const auto [begin, end] = range;
+      if (begin == end)
+        return {};
+      std::vector<WeightedPlace<dim>> places;
+      const Cells<dim>               &cells = tissue.cells();
+      const GridBox<dim>             &box   = tissue.grid().box();
+      const GridIndex<dim>            index = box.locate(cells.position(begin));
+      if (!field.is_filled_by(end - begin, index))
+        {
+          for (unsigned int p = begin; p < end; ++p)
+            places.push_back(
+              {cells.position(p), positions.xi[p], cells.volume(p)});
+          return places;
+        }
+      const QGauss<dim> gauss(3);
+      const double      size = Utilities::fixed_power<dim>(box.spacing());
+      for (unsigned int k = 0; k < gauss.size(); ++k)
+        {
+          const Point<dim> xi = gauss.point(k);
+          places.push_back(
+            {box.corner(index) + box.spacing() * Tensor<1, dim>(xi),
+             xi,
+             size * gauss.weight(k)});
+        }
+      return places;
+    }
   } // namespace
 
 
@@ -155,11 +208,11 @@ namespace Morula
                          const double,
                          const double) const
   {
-    // Each cell with a gradient has V |cof f g| of each interface that it is
-    // in, doc/theory.md (12.2): the term of a surface whose area is V g. A cell
-    // in the middle of a domain has none and costs nothing in the iterations.
-    // The smoothing ε is one number per length, and the volume stands in the
-    // tension.
+    // Each point of quadrature with a gradient has V |cof f g| of each
+    // interface that it is in, doc/theory.md (12.2): the term of a surface
+    // whose area is V g. In the middle of a domain there is none, which costs
+    // nothing in the iterations. The smoothing ε is one number per length, and
+    // the volume stands in the tension, with what ε takes from flat interfaces.
     const TypeFractions<dim> field =
       fractions(tissue, reader.columns.type, tensions.size());
     GroupedPoints<dim> points;
@@ -168,11 +221,13 @@ namespace Morula
     std::vector<typename AreaTerm<dim>::Load> loads;
     for (unsigned int c = 0; c + 1 < positions.offsets.size(); ++c)
       {
-        for (unsigned int p = positions.offsets[c];
-             p < positions.offsets[c + 1];
-             ++p)
+        for (const auto &[x, xi, V] :
+             quadrature(tissue,
+                        field,
+                        positions,
+                        {positions.offsets[c], positions.offsets[c + 1]}))
           {
-            const auto at = field.at(tissue.cells().position(p));
+            const auto at = field.at(x);
             for (unsigned int a = 0; a < tensions.size(); ++a)
               for (unsigned int b = a + 1; b < tensions.size(); ++b)
                 {
@@ -180,9 +235,8 @@ namespace Morula
                                            at.fraction[b] * at.gradient[a];
                   if (tensions[a][b] == 0. || g.norm() * points.h < 1e-10)
                     continue;
-                  points.xi.push_back(positions.xi[p]);
-                  loads.push_back(
-                    {tensions[a][b] * tissue.cells().volume(p), g});
+                  points.xi.push_back(xi);
+                  loads.push_back({tensions[a][b] * V / left_by_smoothing, g});
                 }
           }
         points.offsets.push_back(points.xi.size());

@@ -61,11 +61,11 @@ namespace
                        random_field<dim>(generator, 0.2));
   }
 
-  /** The energy of a flat interface at this angle over its area, with h = 5
-   *  cells, inside of a large tissue. */
+  /** The tension of a flat interface at this angle over γ, with h = 5 cells,
+   *  inside of a large tissue. Without smoothing this is its area by area. */
   template <int dim>
   double
-  energy_per_area(const double angle)
+  part_of_tension(const double angle, const double smoothing = 0.)
   {
     const double         h    = 5.;
     const double         half = dim == 2 ? 40. : 20.;
@@ -86,7 +86,10 @@ namespace
         // The part of the tissue that counts is a cylinder along the normal.
         const Tensor<1, dim> across = x - (x * normal) * normal;
         if (across.norm() < r && std::abs(x * normal) < 15.)
-          sum += field.at(x).gradient[1].norm();
+          {
+            const double g = field.at(x).gradient[1].norm();
+            sum += g > 0. ? g * g / std::hypot(g, smoothing / h) : 0.;
+          }
       }
     return sum / (dim == 2 ? 2. * r : numbers::PI * r * r);
   }
@@ -120,9 +123,50 @@ TEST(TypeFractions, AddUpToOneAlsoBesideTheSurface)
 TEST(TypeTension, OfAFlatInterfaceIsTheSameInAllDirections)
 {
   for (const double angle : {0., 0.2, 0.4, 0.7854})
-    EXPECT_NEAR(energy_per_area<2>(angle), 1., 0.02) << angle;
+    EXPECT_NEAR(part_of_tension<2>(angle), 1., 0.02) << angle;
   for (const double angle : {0.1, 0.6})
-    EXPECT_NEAR(energy_per_area<3>(angle), 1., 0.04) << angle;
+    EXPECT_NEAR(part_of_tension<3>(angle), 1., 0.04) << angle;
+}
+
+
+TEST(TypeTension, MakesUpForWhatSmoothingTakes)
+{
+  for (const double angle : {0., 0.2, 0.4, 0.7854})
+    EXPECT_NEAR(part_of_tension<2>(angle, TypeTension<2>::smoothing) /
+                  part_of_tension<2>(angle),
+                TypeTension<2>::left_by_smoothing,
+                0.005)
+      << angle;
+}
+
+
+TEST(TypeFractions, FillGridCellsThatHaveNeighboursAllAround)
+{
+  TypeFractions<3> field(unit_box<3>(3.), 2);
+  const auto       cells = ball_points<3>(Point<3>(), 9., 1.);
+  for (const Point<3> &x : cells)
+    field.add(x, 1., 0);
+  const GridBox<3>                     box = unit_box<3>(3.);
+  std::map<GridIndex<3>, unsigned int> counts;
+  for (const Point<3> &x : cells)
+    ++counts[box.locate(x)];
+  unsigned int n_filled = 0;
+  for (const auto &[index, n] : counts)
+    {
+      const bool filled = field.is_filled_by(n, index);
+      n_filled += filled;
+      // The ball contains a filled grid cell; another body's cells do not fill.
+      for (unsigned int corner = 0; filled && corner < 8; ++corner)
+        {
+          Point<3> x = box.corner(index);
+          for (unsigned int d = 0; d < 3; ++d)
+            x[d] += 3. * (corner >> d & 1);
+          EXPECT_LT(x.norm(), 9.);
+        }
+      EXPECT_FALSE(field.is_filled_by(n - 1, index));
+    }
+  EXPECT_GT(n_filled, 20u);
+  EXPECT_LT(n_filled, counts.size() / 2);
 }
 
 

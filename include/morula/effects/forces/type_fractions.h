@@ -41,6 +41,11 @@ namespace Morula
     Values
     at(const Point<dim> &x) const;
 
+    /** Whether all @p n cells of a grid cell were added and no grid cell around
+     *  it is empty, so that the tissue fills it. */
+    bool
+    is_filled_by(const unsigned int n, const GridIndex<dim> &index) const;
+
     /** The largest fraction of each type on any spline. */
     std::vector<double>
     largest() const;
@@ -53,6 +58,8 @@ namespace Morula
     using Sums = std::vector<double>;
     /** Sums by the grid cell in which a spline is centred. */
     std::map<std::array<int, dim>, Sums> sums;
+    /** How many cells a grid cell has. */
+    std::map<std::array<int, dim>, unsigned int> counts;
 
   private:
     GridBox<dim> box;

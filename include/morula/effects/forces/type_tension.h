@@ -72,6 +72,9 @@ namespace Morula
 
     /** ε of doc/theory.md (12.2) times h. */
     static constexpr double smoothing = 0.05;
+    /** What it leaves of the tension of a flat interface, ∫ |g|²/√(|g|² + ε²)
+     *  across the splines' profile, mean over places in a grid cell. */
+    static constexpr double left_by_smoothing = 0.9706;
 
   private:
     const std::vector<std::vector<double>> tensions;

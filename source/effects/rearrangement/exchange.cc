@@ -287,13 +287,14 @@ namespace Morula
       for (unsigned int p = 0; p < places.size(); ++p)
         place_of[places.keys[p]] = p;
     const auto p = place_of.find(result.p), q = place_of.find(result.q);
-    for (const auto [place, occupant] :
-         {std::make_pair(p, &result.at_p), std::make_pair(q, &result.at_q)})
-      if (place != place_of.end())
-        {
-          occupants_[place->second] = *occupant;
-          n_exchanges_[place->second] += result.accepted;
-        }
+    const auto occupy = [&](const auto place, const Occupant &occupant) {
+      if (place == place_of.end())
+        return;
+      occupants_[place->second] = occupant;
+      n_exchanges_[place->second] += result.accepted;
+    };
+    occupy(p, result.at_p);
+    occupy(q, result.at_q);
     if (p == place_of.end() || q == place_of.end())
       return;
     for (const std::size_t k : of_place[p->second])

@@ -234,9 +234,17 @@ namespace Morula::MeshFile
     std::string
     fault_in_stl(const std::string &content)
     {
+      std::size_t n = 0;
       for (const Line &line : lines_of(content, false))
-        if (line.words[0] == "vertex" && !is_vertex(line, 1))
-          return no_vertex(line);
+        {
+          const std::string &word = line.words[0];
+          if (word == "vertex" && !is_vertex(line, 1))
+            return no_vertex(line);
+          if (word == "endloop" && n != 3)
+            return begin_of(line) + ", ends a polygon of " + std::to_string(n) +
+                   " vertices, and STL has triangles only.";
+          n = word == "vertex" ? n + 1 : word == "outer" ? 0 : n;
+        }
       return "";
     }
 

@@ -390,13 +390,17 @@ namespace Morula
       return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
                                                 comm);
     };
+    lost_conditions.begin(tissue);
     const std::uint64_t          n_before = n_points();
     const std::vector<CellEvent> removals = remove_dead_cells(
       tissue, model.development, time_steps.time(), model.fields.carried());
     events.insert(events.end(), removals.begin(), removals.end());
     // A cut surface stays open unless the scene renews it. What it encloses
     // is no measure any more.
-    if (surface.is_cut(n_before, n_points()))
+    const std::uint64_t n_left = n_points();
+    if (n_left < n_before)
+      lost_conditions.look(tissue, time_steps.time());
+    if (surface.is_cut(n_before, n_left))
       run_state.enclosed_share.reset();
     // The events are those of this rank's cells. The length of a step is the
     // same on all ranks.

@@ -103,7 +103,6 @@ namespace Morula
     row.turns             = newton_report.turns;
     row.proximal_paths    = newton_report.proximal_paths;
     row.residual          = newton_report.residual;
-    lost_conditions.look(forces, time_steps.time());
     if (row.proximal_paths > 0 && !told_of_path)
       {
         told_of_path = true;

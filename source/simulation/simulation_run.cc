@@ -33,7 +33,8 @@ namespace Morula
     , pieces(model.development.is_mortal(),
              [this](const std::string &text) { files->message(text); })
     , gaps([this](const std::string &text) { files->message(text); })
-    , lost_conditions([this](const std::string &text) { files->message(text); })
+    , lost_conditions(model,
+                      [this](const std::string &text) { files->message(text); })
     , fields(model,
              timer,
              [this](const std::string &text) { files->message(text); })

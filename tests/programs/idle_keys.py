@@ -164,6 +164,16 @@ class IdleKeys(ProgramTest):
             self.assertIn(word, self.explain({**keys, **idle}, number), idle)
             self.assertNotIn(word, self.explain({**keys, **acts}, number), acts)
 
+    def test_key_twice(self):
+        """The last line counts, and both are named."""
+        scene = self.write("twice.prm", "set Grid/Spacing = 30\n"
+                           "subsection Grid\n  set Spacing = 40\nend\n")
+        said = self.run_words(self.command(scene, "--explain", *overrides(
+            {key: BOX[key] for key in BOX if key != "Grid/Spacing"}))).text
+        self.assertRegex(said, "twice.prm:3: the key 'Grid/Spacing' is set to "
+                               "'40', which counts; .*twice.prm:1: it was set "
+                               "to '30'")
+
     def test_all_of_an_effect_in_one_line(self):
         said = self.explain({**GROWS, "Growth/Rate/Rate": 0.3,
                              "Growth/Rate/Homeostasis": 0.1,

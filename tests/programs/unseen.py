@@ -101,14 +101,20 @@ class Unseen(ProgramTest):
                 "Death/Shrinking time": 0,
                 "Boundary conditions/Fixed where": "X < -49.9",
                 "Boundary conditions/Pressure where": "X > 49.9",
-                "Boundary conditions/Pressure": 0.05}
+                "Boundary conditions/Pressure": 0.05,
+                "Fields/Names": "u", "Fields/u/Diffusion": 1e4,
+                "Fields/u/Consumption": 1, "Fields/u/Value": 1,
+                "Fields/u/Fixed where": "X < -49.9"}
         word = "acts on no boundary point any more, and did on 10 before"
         for when, ranks, lost in (("X < 0", 1, "fixed"), ("X < 0", 2, "fixed"),
                                   ("X > 0", 1, "pressure"), ("Y > 0", 1, None)):
             run = self.run_keys({**keys, "Death/When": f"{when} && t > 0.05"},
                                 f"die-{when[0]}-{ranks}-{lost}", ranks=ranks)
             log = (run.directory / "log.txt").read_text()
-            self.assertEqual(log.count(word), lost is not None)
+            self.assertEqual(log.count(word),
+                             {"fixed": 2, "pressure": 1}.get(lost, 0))
+            self.assertEqual(f"Fields/u/Fixed where {word}" in log,
+                             lost == "fixed")
             if lost:
                 self.assertIn(f"{lost} {word}", log)
                 forces = run.forces[run.forces.name == lost]

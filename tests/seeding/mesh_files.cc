@@ -284,6 +284,9 @@ TEST(MeshFiles, SaysWhichLineNoReaderCouldTake)
           "line 26, '3 2 3 x', is no polygon"},
          {ply.substr(0, ply.find("3 4 0")), ".ply", "records 'vertex'"},
          {replaced(ply, "end_header\n", ""), ".ply", "no line of a PLY header"},
+         {replaced(stl(), "vertex 3 4 5\n", "vertex 3 4 5\nvertex 1 1 1\n"),
+          ".stl",
+          "'endloop', ends a polygon of 4 vertices"},
          {replaced(stl(), "vertex 3 4 5", "vertex 3 4 infinite"),
           ".stl",
           "'vertex 3 4 infinite', is no vertex"}})

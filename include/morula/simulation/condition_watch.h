@@ -4,32 +4,45 @@
 #ifndef morula_simulation_condition_watch_h
 #define morula_simulation_condition_watch_h
 
-#include <morula/output/forces.h>
+#include <morula/particles/tissue.h>
 #include <morula/simulation/announce.h>
+#include <morula/simulation/tissue_model.h>
 
 #include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 namespace Morula
 {
-  /** Tells the user when a condition on the surface has lost its last point, as
-   *  the cells there are gone: what it held or loaded goes on without it. */
+  /** Tells the user when a condition on the surface, of the tissue or of a
+   *  field, has lost its last point, as the cells there are gone: what it held,
+   *  loaded or fed goes on without it. */
+  template <int dim>
   class ConditionWatch
   {
   public:
-    explicit ConditionWatch(const Announce &announce);
+    /** @param model of the run; it must stay */
+    ConditionWatch(const TissueModel<dim> &model, const Announce &announce);
 
-    /** Looks at the rows of a step that ends at @p t (day). They are equal on
-     *  all ranks. */
+    /** Counts the points of each condition, before cells are removed for the
+     *  first time. Collective. */
     void
-    look(const std::vector<ForceRow> &rows, const double t);
+    begin(const Tissue<dim> &tissue);
+
+    /** Counts them anew after boundary points have gone with their cells, at
+     *  @p t (day). Collective. */
+    void
+    look(const Tissue<dim> &tissue, const double t);
 
   private:
-    const Announce announce;
-    /** How many points each condition acted on in the last step. */
+    /** How many points each condition acts on. Collective. */
+    std::map<std::string, std::uint64_t>
+    count(const Tissue<dim> &tissue) const;
+
+    const TissueModel<dim>              &model;
+    const Announce                       announce;
     std::map<std::string, std::uint64_t> before;
+    bool                                 has_begun = false;
   };
 } // namespace Morula
 

@@ -219,7 +219,7 @@ namespace Morula
 
     PieceWarnings<dim>    pieces;
     GapWatch<dim>         gaps;
-    ConditionWatch        lost_conditions;
+    ConditionWatch<dim>   lost_conditions;
     StepFields<dim>       fields;
     FollowingSurface<dim> surface;
     bool warned_of_long_cells = false; // once a run, or before it started

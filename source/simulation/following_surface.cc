@@ -4,6 +4,7 @@
 #include <morula/effects/contact/fusion.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
+#include <morula/particles/even_spread.h>
 #include <morula/particles/surface_coarsening.h>
 #include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
@@ -40,10 +41,6 @@ namespace Morula
     /** The largest change of q/q₀ in doc/theory.md (4.12f): of the part of the
      *  cells' volume that the surface of flowing tissue encloses. */
     constexpr double largest_misfit = 0.01;
-
-    /** A misfit that the volumes of growing cells can have. A larger one is a
-     *  hole, or a surface that has left its cells. */
-    constexpr double slight_misfit = 0.05;
 
     /** In this time, day, the volumes of cells that grow and flow are brought
      * in line with their space: slowly beside the flow, which must carry the
@@ -210,8 +207,12 @@ namespace Morula
     if (restores(share))
       {
         if (grows)
-          change_volumes(tissue,
-                         [&]() { even_out(tissue, space, dt / evening_time); });
+          {
+            change_volumes(tissue, [&]() {
+              even_out(tissue, space, dt / evening_time);
+            });
+            spread_cells(tissue);
+          }
         restore_fit(tissue, *share, is_torn);
       }
     if (model.scene.contact.is_on() && model.scene.contact.fusion_time > 0.)
@@ -256,26 +257,9 @@ namespace Morula
     const double misfit = fit.share() / share;
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
         std::abs(misfit - 1.) > largest_misfit)
-      {
-        // Where tissue grows and flows, the volumes of its cells are integrals
-        // over many steps, but the surface stands where the tissue ends: then a
-        // slight misfit is one of the volumes. A surface that gave way to them
-        // would leave its outermost cells behind.
-        const bool follow_surface = grows && !is_torn && fit.enclosed > 0. &&
-                                    std::abs(misfit - 1.) < slight_misfit;
-        if (follow_surface)
-          change_volumes(tissue, [&]() {
-            const double stretch = std::pow(misfit, 1. / dim);
-            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-              {
-                const CellView<dim, double> cell = tissue.cell(p);
-                cell.set(cell.columns().deformation, stretch * cell.F());
-              }
-          });
-        renew(tissue,
-              tissue.boundary_points().copy(),
-              {0., length, follow_surface ? fit.enclosed : share * fit.cells});
-      }
+      renew(tissue,
+            tissue.boundary_points().copy(),
+            {0., length, share * fit.cells});
     pull_to_cells(tissue, length);
   }
 

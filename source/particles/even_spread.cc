@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
@@ -9,9 +10,14 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
 #include <tuple>
+#include <unordered_map>
 #include <vector>
 
 namespace Morula
@@ -22,11 +28,16 @@ namespace Morula
      *  one if that is wider. */
     constexpr double kernel_width = 1.3;
 
-    /** The part κ of H² ∇C that a cell moves in a step. */
-    constexpr double step_part = 0.2;
+    /** In this time, day, a cell moves by the part κ of H² ∇C, and by no more
+     *  than that part of its width, if growth around it is fully uneven. No
+     *  step takes more. */
+    constexpr double spreading_time = 0.125;
+    constexpr double spread_part    = 0.2;
+    constexpr double longest_way    = 0.1;
 
-    /** A cell moves by no more than this part of its width in a step. */
-    constexpr double longest_way = 0.1;
+    /** The variance of ln det F_g from which on growth is fully uneven: that of
+     *  cells half of which are larger by a half than the others. */
+    constexpr double fully_uneven = 0.04;
 
     /** The depth below the surface, in widths of the cell, above which a cell
      *  is not moved towards it. */
@@ -41,6 +52,15 @@ namespace Morula
     /** Outward normal, area, spacing and body of a patch. */
     template <int dim>
     using Patch = std::tuple<Tensor<1, dim>, double, double, unsigned int>;
+
+    /** ln det F_g of cell @p p: the same along a line of cells as they divide.
+     */
+    template <int dim>
+    double
+    log_growth(const Cells<dim> &cells, const unsigned int p)
+    {
+      return std::log(determinant(cells.growth(p)));
+    }
 
     /** The cells of this rank, and those of others within @p reach. */
     template <int dim>
@@ -98,7 +118,12 @@ namespace Morula
     {
       Tensor<1, dim> normal;
       double         offset = 0.;
-      bool           exists = false;
+
+      double
+      depth(const Point<dim> &x) const
+      {
+        return offset - normal * x;
+      }
     };
 
     /** What the motions of cells depend on. */
@@ -151,27 +176,19 @@ namespace Morula
       return found;
     }
 
-    /** The plane through the patches around @p x that look the same way as the
-     *  nearest one. */
+    /** The plane at the patches around @p x that look the same way as patch
+     *  @p first of @p near. */
     template <int dim>
     Plane<dim>
-    plane_near(const Point<dim>                &x,
-               const std::vector<unsigned int> &near,
-               const PointList<dim>            &patches,
-               const double                     radius)
+    plane_at(const unsigned int               first,
+             const Point<dim>                &x,
+             const std::vector<unsigned int> &near,
+             const PointList<dim>            &patches,
+             const double                     radius)
     {
-      Plane<dim> plane;
-      if (near.empty())
-        return plane;
-      const unsigned int first =
-        *std::min_element(near.begin(),
-                          near.end(),
-                          [&](const unsigned int a, const unsigned int b) {
-                            return x.distance_square(patches.positions[a]) <
-                                   x.distance_square(patches.positions[b]);
-                          });
-      const Tensor<1, dim> nearest =
+      const Tensor<1, dim> like =
         std::get<0>(patches.template value<Patch<dim>>(first));
+      Plane<dim>     plane;
       double         sum = 0.;
       Tensor<1, dim> centre;
       for (const unsigned int k : near)
@@ -180,7 +197,7 @@ namespace Morula
             patches.template value<Patch<dim>>(k);
           const Tensor<1, dim> way = patches.positions[k] - x;
           const double         far = way.norm() / radius;
-          if (normal * nearest < alike_cosine || far >= 1.)
+          if (normal * like < alike_cosine || far >= 1.)
             continue;
           const double weight = area * Utilities::fixed_power<4>(1. - far);
           sum += weight;
@@ -189,8 +206,66 @@ namespace Morula
         }
       plane.normal /= plane.normal.norm();
       plane.offset = plane.normal * (x + centre / sum);
-      plane.exists = true;
       return plane;
+    }
+
+    /** The planes at @p x: one at the nearest patch, and where faces meet one
+     *  at the nearest of those that look another way. */
+    template <int dim>
+    std::vector<Plane<dim>>
+    planes_at(const Point<dim>                &x,
+              const std::vector<unsigned int> &near,
+              const PointList<dim>            &patches,
+              const double                     radius)
+    {
+      std::vector<unsigned int> rest;
+      for (const unsigned int k : near)
+        if (x.distance(patches.positions[k]) < radius)
+          rest.push_back(k);
+      std::vector<Plane<dim>> planes;
+      while (!rest.empty() && planes.size() < dim)
+        {
+          const unsigned int first =
+            *std::min_element(rest.begin(),
+                              rest.end(),
+                              [&](const unsigned int a, const unsigned int b) {
+                                return x.distance_square(patches.positions[a]) <
+                                       x.distance_square(patches.positions[b]);
+                              });
+          const Tensor<1, dim> like =
+            std::get<0>(patches.template value<Patch<dim>>(first));
+          planes.push_back(plane_at(first, x, rest, patches, radius));
+          rest.erase(
+            std::remove_if(rest.begin(),
+                           rest.end(),
+                           [&](const unsigned int k) {
+                             return std::get<0>(
+                                      patches.template value<Patch<dim>>(k)) *
+                                      like >=
+                                    alike_cosine;
+                           }),
+            rest.end());
+        }
+      return planes;
+    }
+
+    /** Calls @p visit for @p y and its mirror images beyond planes that it is
+     *  not deeper below than @p reach; along edges the images have images. */
+    template <int dim, typename Visit>
+    void
+    with_images(const Point<dim>              &y,
+                const std::vector<Plane<dim>> &planes,
+                const double                   reach,
+                const Visit                   &visit)
+    {
+      std::vector<Point<dim>> all = {y};
+      for (const Plane<dim> &plane : planes)
+        for (std::size_t i = 0, n = all.size(); i < n; ++i)
+          if (const double depth = plane.depth(all[i]);
+              depth > 0. && depth < reach)
+            all.push_back(all[i] + 2. * depth * plane.normal);
+      for (const Point<dim> &image : all)
+        visit(image);
     }
 
     /** What is left of a motion from @p x where patches are in its way. */
@@ -216,13 +291,91 @@ namespace Morula
       return way;
     }
 
-    /** The motion of cell @p i, µm: doc/theory.md (6.9e). */
+    /** How unevenly cells have grown that share splines. */
+    template <int dim>
+    class GrowthBySplines
+    {
+    public:
+      /** Sums over grid cells, which their owners send to the ranks that own
+       *  grid cells with common splines. Collective. */
+      explicit GrowthBySplines(const Tissue<dim> &tissue)
+        : grid(tissue.grid())
+      {
+        const Cells<dim>                &cells = tissue.cells();
+        std::map<unsigned int, GridCell> own;
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          {
+            const GridIndex<dim> index = grid.box().locate(cells.position(p));
+            GridCell            &one   = own[grid.box().number(index)];
+            const double         V     = cells.volume(p);
+            const double         g     = log_growth(cells, p);
+            one.index                  = index;
+            one.sums[0] += V;
+            one.sums[1] += V * g;
+            one.sums[2] += V * g * g;
+          }
+        std::map<unsigned int, std::vector<GridCell>> by_rank;
+        for (const auto &[number, one] : own)
+          {
+            std::set<unsigned int> ranks;
+            grid.box().for_neighbors(
+              one.index, reach, [&](const unsigned int, const auto &other) {
+                ranks.insert(grid.owner(other));
+              });
+            for (const unsigned int rank : ranks)
+              by_rank[rank].push_back(one);
+          }
+        for (const auto &[sender, list] :
+             send_records(by_rank, grid.communicator()))
+          for (const GridCell &one : list)
+            for (unsigned int k = 0; k < 3; ++k)
+              sums[grid.box().number(one.index)][k] += one.sums[k];
+      }
+
+      /** The variance of ln det F_g, by volume, of the cells that share splines
+       *  with those at @p x, over that of fully uneven growth, at most 1. */
+      double
+      unevenness(const Point<dim> &x) const
+      {
+        std::array<double, 3> all{};
+        grid.box().for_neighbors(grid.box().locate(x),
+                                 reach,
+                                 [&](const unsigned int number, const auto &) {
+                                   const auto found = sums.find(number);
+                                   if (found != sums.end())
+                                     for (unsigned int k = 0; k < 3; ++k)
+                                       all[k] += found->second[k];
+                                 });
+        const double mean     = all[1] / all[0];
+        const double variance = all[2] / all[0] - mean * mean;
+        return std::min(1., std::max(0., variance) / fully_uneven);
+      }
+
+    private:
+      /** Quadratic splines span three grid cells, so that cells of grid cells
+       *  two apart share one. */
+      static constexpr unsigned int reach = 2;
+
+      struct GridCell
+      {
+        GridIndex<dim>        index;
+        std::array<double, 3> sums{}; // of V, V ln det F_g, V (ln det F_g)²
+      };
+
+      const BackgroundGrid<dim>                              &grid;
+      std::unordered_map<unsigned int, std::array<double, 3>> sums;
+    };
+
+    /** The motion of cell @p i, µm, if it takes @p share of that in the
+     *  spreading time: doc/theory.md (6.9e). */
     template <int dim>
     Tensor<1, dim>
-    motion_of(const SpreadAround<dim> &around, const unsigned int i)
+    motion_of(const SpreadAround<dim> &around,
+              const unsigned int       i,
+              const double             share)
     {
       // The cells around push in proportion to their volumes, and so do their
-      // mirror images beyond the plane where the body ends: as if tissue went
+      // mirror images beyond the planes where the body ends: as if tissue went
       // on there, so that cells along an even surface stay. Then the cell takes
       // no more than the part of the way that leaves it inside.
       const Point<dim> &x           = around.cells.positions[i];
@@ -239,39 +392,55 @@ namespace Morula
                return std::get<3>(
                         around.patches.template value<Patch<dim>>(k)) == body;
              });
-      const Plane<dim> plane =
-        plane_near(x, patches, around.patches, around.patch_reach);
-      Tensor<1, dim> way;
-      const auto push = [&](const Point<dim> &from, const double of_volume) {
-        const Tensor<1, dim> r        = x - from;
-        const double         distance = r.norm();
-        if (distance > 0.)
-          way += step_part * H * H * of_volume * slope<dim>(distance, H) /
-                 distance * r;
-      };
+      const std::vector<Plane<dim>> planes =
+        planes_at(x, patches, around.patches, around.patch_reach);
       const auto is_of_body = [&](const unsigned int k) {
         return std::get<1>(around.cells.template value<Grain>(k)) == body;
       };
+      Tensor<1, dim> way;
       for (const unsigned int j :
            near(around.cell_bins, around.cells, x, 2. * H, is_of_body))
         {
           const double other =
             std::get<0>(around.cells.template value<Grain>(j));
-          const Point<dim> &y     = around.cells.positions[j];
-          const double      depth = plane.offset - plane.normal * y;
-          push(y, other); // a cell does not push itself, but its image does
-          if (plane.exists && depth > 0. && depth < 2. * H)
-            push(y + 2. * depth * plane.normal, other);
+          with_images(around.cells.positions[j],
+                      planes,
+                      2. * H,
+                      [&](const Point<dim> &y) {
+                        // a cell does not push itself, but its image does
+                        if (const double r = x.distance(y); r > 0.)
+                          way += H * H * other * slope<dim>(r, H) / r * (x - y);
+                      });
         }
-      if (way.norm() > longest_way * width)
-        way *= longest_way * width / way.norm();
+      way *= share * spread_part;
+      if (way.norm() > share * longest_way * width)
+        way *= share * longest_way * width / way.norm();
       return inside_part(way, x, width, patches, around.patches);
+    }
+
+    /** Whether any two cells of all ranks have grown differently. Collective.
+     */
+    template <int dim>
+    bool
+    grows_unevenly(const Tissue<dim> &tissue)
+    {
+      const Cells<dim> &cells = tissue.cells();
+      double least = std::numeric_limits<double>::max(), most = -least;
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          least = std::min(least, log_growth(cells, p));
+          most  = std::max(most, log_growth(cells, p));
+        }
+      const MPI_Comm comm = tissue.communicator();
+      return Utilities::MPI::max(most, comm) -
+               Utilities::MPI::min(least, comm) >
+             1e-9;
     }
   } // namespace
 
   template <int dim>
   void
-  spread_cells(Tissue<dim> &tissue)
+  spread_cells(Tissue<dim> &tissue, const double dt)
   {
     // All motions are those of the same configuration. The kernel of the
     // largest cell reaches farthest.
@@ -289,21 +458,25 @@ namespace Morula
     for (unsigned int p = 0; p < points.size(); ++p)
       spacing = std::max(spacing, points[p].spacing());
     const auto n = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
-    if (n == 0)
+    if (n == 0 || !grows_unevenly(tissue))
       return;
     const SpreadAround<dim> around(
       tissue,
       2. * kernel_width * Utilities::MPI::max(width, comm),
       Utilities::MPI::max(spacing, comm),
       std::pow(Utilities::MPI::sum(volume, comm) / n, 1. / dim));
-    std::vector<Point<dim>> places = cells.positions();
+    std::vector<Point<dim>>    places = cells.positions();
+    const GrowthBySplines<dim> growth(tissue);
+    const double               part = std::min(1., dt / spreading_time);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      places[p] += motion_of(around, p);
+      if (const double share = part * growth.unevenness(cells.position(p));
+          share > 0.)
+        places[p] += motion_of(around, p, share);
     tissue.move(places, points.positions());
   }
 
   template void
-  spread_cells(Tissue<2> &);
+  spread_cells(Tissue<2> &, const double);
   template void
-  spread_cells(Tissue<3> &);
+  spread_cells(Tissue<3> &, const double);
 } // namespace Morula

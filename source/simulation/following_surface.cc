@@ -211,7 +211,7 @@ namespace Morula
             change_volumes(tissue, [&]() {
               even_out(tissue, space, dt / evening_time);
             });
-            spread_cells(tissue);
+            spread_cells(tissue, dt);
           }
         restore_fit(tissue, *share, is_torn);
       }

@@ -114,7 +114,7 @@ namespace
   {
     Tissue<dim> even(grid<dim>(), CellColumns<dim>(), MPI_COMM_WORLD);
     place(even, 0.);
-    spread_cells(even);
+    spread_cells(even, 0.125);
     EXPECT_NEAR(middle_and_depth(even)[0], 0.5 * edge, 1e-9);
     for (unsigned int p = 0; p < even.cells().size(); ++p)
       {
@@ -131,7 +131,7 @@ namespace
     EXPECT_NEAR(before, -0.05 * edge, 1e-9);
     for (unsigned int step = 0; step < 60; ++step)
       {
-        spread_cells(uneven);
+        spread_cells(uneven, 0.125);
         EXPECT_GT(middle_and_depth(uneven)[1], 0.2 * length);
       }
     EXPECT_LT(std::abs(middle_and_depth(uneven)[0] - 0.5 * edge),

@@ -17,7 +17,7 @@ namespace Morula
    */
   template <int dim>
   void
-  spread_cells(Tissue<dim> &tissue);
+  spread_cells(Tissue<dim> &tissue, const double dt);
 } // namespace Morula
 
 #endif

@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "common/body_on_grid.h"
 #include "particles/random_points.h"
@@ -22,13 +24,24 @@ namespace
   constexpr int    n      = 8;   // of them along an edge
   constexpr double edge   = n * length;
 
+  template <int dim>
+  CellColumns<dim>
+  with_growth()
+  {
+    CellColumns<dim> columns;
+    columns.need_growth();
+    return columns;
+  }
+
   /** A box of cells in its surface, from the origin on. The half at small x
-   *  has @p overlap of its own volume too much, the other half too little. */
+   *  has @p overlap of its own volume too much, the other half too little.
+   *  Every second cell has grown by @p growth, and been pressed to the volume
+   *  of the others. */
   template <int dim>
   void
-  place(Tissue<dim> &tissue, const double overlap)
+  place(Tissue<dim> &tissue, const double overlap, const double growth)
   {
-    const CellColumns<dim>     columns;
+    const CellColumns<dim>     columns = with_growth<dim>();
     const BoundaryColumns<dim> boundary_columns;
     PointList<dim>             cells(columns.n_numbers());
     PointList<dim>             surface(boundary_columns.n_numbers());
@@ -60,10 +73,12 @@ namespace
                             SurfaceCondition::free)));
             }
         x[0] = squeezed(x[0]);
-        cells.add(i,
-                  x,
-                  make_array_view(
-                    columns.founder(x, Utilities::fixed_power<dim>(length))));
+        std::vector<double> row =
+          columns.founder(x, Utilities::fixed_power<dim>(length));
+        if (i % 2 == 0)
+          columns.growth.set(make_array_view(row),
+                             std::pow(growth, 1. / dim) * unit_tensor<dim>());
+        cells.add(i, x, make_array_view(row));
       }
     tissue.place(dealt(cells), dealt(surface));
   }
@@ -94,54 +109,74 @@ namespace
              Utilities::MPI::min(depth, MPI_COMM_WORLD)}};
   }
 
-  /** Whether kernels at a place reach one face of the box at most. */
+  /** The largest distance of a cell from where it was placed, um. */
   template <int dim>
-  bool
-  sees_one_face(const Point<dim> &x)
+  double
+  farthest(const Tissue<dim> &tissue)
   {
-    unsigned int n_faces = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      n_faces += std::min(x[d], edge - x[d]) < 2.6 * length;
-    return n_faces <= 1;
+    double way = 0.;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      way = std::max(way,
+                     tissue.cells().position(p).distance(
+                       tissue.cells().founder_position(p)));
+    return Utilities::MPI::max(way, MPI_COMM_WORLD);
   }
 
-  /** Cells that fill their body evenly stay, but for those along its edges,
-   *  where two faces meet. Others move until their centre is
-   *  that of the body, and no farther; none leaves it. */
+  /** Cells that fill their body evenly stay, also along its edges, and those
+   *  that have grown alike stay whatever they fill. */
   template <int dim>
   void
-  check()
+  check_stay()
   {
-    Tissue<dim> even(grid<dim>(), CellColumns<dim>(), MPI_COMM_WORLD);
-    place(even, 0.);
-    spread_cells(even, 0.125);
-    EXPECT_NEAR(middle_and_depth(even)[0], 0.5 * edge, 1e-9);
-    for (unsigned int p = 0; p < even.cells().size(); ++p)
-      {
-        if (!sees_one_face(even.cells().founder_position(p)))
-          continue;
-        EXPECT_LT(even.cells().position(p).distance(
-                    even.cells().founder_position(p)),
-                  0.02 * length);
-      }
+    Tissue<dim> filled(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
+    place(filled, 0., 2.);
+    spread_cells(filled, 0.125);
+    EXPECT_LT(farthest(filled), 1e-9 * length);
 
-    Tissue<dim> uneven(grid<dim>(), CellColumns<dim>(), MPI_COMM_WORLD);
-    place(uneven, 0.2);
-    const double before = middle_and_depth(uneven)[0] - 0.5 * edge;
+    Tissue<dim> alike(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
+    place(alike, 0.2, 1.);
+    const std::vector<Point<dim>> before = alike.cells().positions();
+    spread_cells(alike, 0.125);
+    EXPECT_EQ(alike.cells().positions(), before);
+  }
+
+  /** Cells that have grown unevenly move until their centre is that of the
+   *  body, and no farther; none leaves it. Two half steps are about a whole. */
+  template <int dim>
+  void
+  check_move()
+  {
+    Tissue<dim> tissue(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
+    place(tissue, 0.2, 2.);
+    const double before = middle_and_depth(tissue)[0] - 0.5 * edge;
     EXPECT_NEAR(before, -0.05 * edge, 1e-9);
     for (unsigned int step = 0; step < 60; ++step)
       {
-        spread_cells(uneven, 0.125);
-        EXPECT_GT(middle_and_depth(uneven)[1], 0.2 * length);
+        spread_cells(tissue, 0.125);
+        EXPECT_GT(middle_and_depth(tissue)[1], 0.2 * length);
       }
-    EXPECT_LT(std::abs(middle_and_depth(uneven)[0] - 0.5 * edge),
+    EXPECT_LT(std::abs(middle_and_depth(tissue)[0] - 0.5 * edge),
               0.2 * std::abs(before));
-    for (unsigned int p = 0; p < uneven.cells().size(); ++p)
-      EXPECT_EQ(uneven.cells().volume(p), Utilities::fixed_power<dim>(length));
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      EXPECT_EQ(tissue.cells().volume(p), Utilities::fixed_power<dim>(length));
+
+    std::array<double, 2> ways;
+    for (const unsigned int n_steps : {1, 2})
+      {
+        Tissue<dim> other(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
+        place(other, 0.2, 1.1);
+        for (unsigned int step = 0; step < n_steps; ++step)
+          spread_cells(other, 0.1 / n_steps);
+        ways[n_steps - 1] = middle_and_depth(other)[0] - 0.5 * edge - before;
+      }
+    EXPECT_GT(ways[0], 0.);
+    EXPECT_NEAR(ways[1] / ways[0], 1., 0.05);
   }
 } // namespace
 
-TEST(EvenSpread, FillsTheBody)
+TEST(EvenSpread, FillsTheBody){MORULA_BOTH_DIMENSIONS(check_move)}
+
+TEST(EvenSpread, MovesNoMoreThanNeeded)
 {
-  MORULA_BOTH_DIMENSIONS(check)
+  MORULA_BOTH_DIMENSIONS(check_stay)
 }

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/send_records.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
+#include <morula/particles/uneven_growth.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <map>
-#include <set>
 #include <tuple>
-#include <unordered_map>
 #include <vector>
 
 namespace Morula
@@ -52,15 +47,6 @@ namespace Morula
     /** Outward normal, area, spacing and body of a patch. */
     template <int dim>
     using Patch = std::tuple<Tensor<1, dim>, double, double, unsigned int>;
-
-    /** ln det F_g of cell @p p: the same along a line of cells as they divide.
-     */
-    template <int dim>
-    double
-    log_growth(const Cells<dim> &cells, const unsigned int p)
-    {
-      return std::log(determinant(cells.growth(p)));
-    }
 
     /** The cells of this rank, and those of others within @p reach. */
     template <int dim>
@@ -291,81 +277,6 @@ namespace Morula
       return way;
     }
 
-    /** How unevenly cells have grown that share splines. */
-    template <int dim>
-    class GrowthBySplines
-    {
-    public:
-      /** Sums over grid cells, which their owners send to the ranks that own
-       *  grid cells with common splines. Collective. */
-      explicit GrowthBySplines(const Tissue<dim> &tissue)
-        : grid(tissue.grid())
-      {
-        const Cells<dim>                &cells = tissue.cells();
-        std::map<unsigned int, GridCell> own;
-        for (unsigned int p = 0; p < cells.size(); ++p)
-          {
-            const GridIndex<dim> index = grid.box().locate(cells.position(p));
-            GridCell            &one   = own[grid.box().number(index)];
-            const double         V     = cells.volume(p);
-            const double         g     = log_growth(cells, p);
-            one.index                  = index;
-            one.sums[0] += V;
-            one.sums[1] += V * g;
-            one.sums[2] += V * g * g;
-          }
-        std::map<unsigned int, std::vector<GridCell>> by_rank;
-        for (const auto &[number, one] : own)
-          {
-            std::set<unsigned int> ranks;
-            grid.box().for_neighbors(
-              one.index, reach, [&](const unsigned int, const auto &other) {
-                ranks.insert(grid.owner(other));
-              });
-            for (const unsigned int rank : ranks)
-              by_rank[rank].push_back(one);
-          }
-        for (const auto &[sender, list] :
-             send_records(by_rank, grid.communicator()))
-          for (const GridCell &one : list)
-            for (unsigned int k = 0; k < 3; ++k)
-              sums[grid.box().number(one.index)][k] += one.sums[k];
-      }
-
-      /** The variance of ln det F_g, by volume, of the cells that share splines
-       *  with those at @p x, over that of fully uneven growth, at most 1. */
-      double
-      unevenness(const Point<dim> &x) const
-      {
-        std::array<double, 3> all{};
-        grid.box().for_neighbors(grid.box().locate(x),
-                                 reach,
-                                 [&](const unsigned int number, const auto &) {
-                                   const auto found = sums.find(number);
-                                   if (found != sums.end())
-                                     for (unsigned int k = 0; k < 3; ++k)
-                                       all[k] += found->second[k];
-                                 });
-        const double mean     = all[1] / all[0];
-        const double variance = all[2] / all[0] - mean * mean;
-        return std::min(1., std::max(0., variance) / fully_uneven);
-      }
-
-    private:
-      /** Quadratic splines span three grid cells, so that cells of grid cells
-       *  two apart share one. */
-      static constexpr unsigned int reach = 2;
-
-      struct GridCell
-      {
-        GridIndex<dim>        index;
-        std::array<double, 3> sums{}; // of V, V ln det F_g, V (ln det F_g)²
-      };
-
-      const BackgroundGrid<dim>                              &grid;
-      std::unordered_map<unsigned int, std::array<double, 3>> sums;
-    };
-
     /** The motion of cell @p i, µm, if it takes @p share of that in the
      *  spreading time: doc/theory.md (6.9e). */
     template <int dim>
@@ -417,25 +328,6 @@ namespace Morula
         way *= share * longest_way * width / way.norm();
       return inside_part(way, x, width, patches, around.patches);
     }
-
-    /** Whether any two cells of all ranks have grown differently. Collective.
-     */
-    template <int dim>
-    bool
-    grows_unevenly(const Tissue<dim> &tissue)
-    {
-      const Cells<dim> &cells = tissue.cells();
-      double least = std::numeric_limits<double>::max(), most = -least;
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        {
-          least = std::min(least, log_growth(cells, p));
-          most  = std::max(most, log_growth(cells, p));
-        }
-      const MPI_Comm comm = tissue.communicator();
-      return Utilities::MPI::max(most, comm) -
-               Utilities::MPI::min(least, comm) >
-             1e-9;
-    }
   } // namespace
 
   template <int dim>
@@ -458,18 +350,22 @@ namespace Morula
     for (unsigned int p = 0; p < points.size(); ++p)
       spacing = std::max(spacing, points[p].spacing());
     const auto n = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
-    if (n == 0 || !grows_unevenly(tissue))
+    if (n == 0)
+      return;
+    const UnevenGrowth<dim> growth(tissue);
+    if (!growth.exists())
       return;
     const SpreadAround<dim> around(
       tissue,
       2. * kernel_width * Utilities::MPI::max(width, comm),
       Utilities::MPI::max(spacing, comm),
       std::pow(Utilities::MPI::sum(volume, comm) / n, 1. / dim));
-    std::vector<Point<dim>>    places = cells.positions();
-    const GrowthBySplines<dim> growth(tissue);
-    const double               part = std::min(1., dt / spreading_time);
+    std::vector<Point<dim>> places = cells.positions();
+    const double            part   = std::min(1., dt / spreading_time);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (const double share = part * growth.unevenness(cells.position(p));
+      if (const double share =
+            part *
+            std::min(1., growth.variance(cells.position(p)) / fully_uneven);
           share > 0.)
         places[p] += motion_of(around, p, share);
     tissue.move(places, points.positions());

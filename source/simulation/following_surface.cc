@@ -42,6 +42,10 @@ namespace Morula
      *  cells' volume that the surface of flowing tissue encloses. */
     constexpr double largest_misfit = 0.01;
 
+    /** A misfit that the volumes of growing cells can have. A larger one is a
+     *  hole, or a surface that has left its cells. */
+    constexpr double slight_misfit = 0.05;
+
     /** In this time, day, the volumes of cells that grow and flow are brought
      * in line with their space: slowly beside the flow, which must carry the
      *  pressure away, and fast beside a cell cycle. */
@@ -98,6 +102,8 @@ namespace Morula
     , longest_edge(0.5 * model.scene.grid.spacing)
     , flows(model.scene.flows())
     , grows(model.scene.has_active_tissue())
+    , spreads(grows &&
+              model.material.volumetric_form() == VolumetricStrain::pooled)
     , exists_(has_surface<dim>(model.scene))
   {}
 
@@ -211,7 +217,8 @@ namespace Morula
             change_volumes(tissue, [&]() {
               even_out(tissue, space, dt / evening_time);
             });
-            spread_cells(tissue, dt);
+            if (spreads)
+              spread_cells(tissue, dt);
           }
         restore_fit(tissue, *share, is_torn);
       }
@@ -257,9 +264,28 @@ namespace Morula
     const double misfit = fit.share() / share;
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
         std::abs(misfit - 1.) > largest_misfit)
-      renew(tissue,
-            tissue.boundary_points().copy(),
-            {0., length, share * fit.cells});
+      {
+        // Where the volumes of growing cells are integrals of their motion over
+        // many steps, a slight misfit is one of the volumes, as the surface
+        // stands where the tissue ends. A surface that gave way to them would
+        // leave its outermost cells behind. Pooled volumes are what the cells
+        // have grown to, and it is the surface that is wrong.
+        const bool follow_surface = grows && !spreads && !is_torn &&
+                                    fit.enclosed > 0. &&
+                                    std::abs(misfit - 1.) < slight_misfit;
+        if (follow_surface)
+          change_volumes(tissue, [&]() {
+            const double stretch = std::pow(misfit, 1. / dim);
+            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+              {
+                const CellView<dim, double> cell = tissue.cell(p);
+                cell.set(cell.columns().deformation, stretch * cell.F());
+              }
+          });
+        renew(tissue,
+              tissue.boundary_points().copy(),
+              {0., length, follow_surface ? fit.enclosed : share * fit.cells});
+      }
     pull_to_cells(tissue, length);
   }
 

@@ -10,10 +10,11 @@ namespace Morula
 {
   /**
    * Moves cells from where their volumes overlap to where they leave gaps,
-   * inside their body's surface: doc/theory.md (6.9d). Volumes, strains and the
-   * surface stay. A cell that is several points stays, too. Where faces
-   * meet in an edge, only the nearest counts as the end of the tissue: there
-   * cells move towards the other one. Collective.
+   * inside their body's surface, as far as growth is uneven among the cells
+   * that share splines: doc/theory.md (6.9e). Volumes, strains and the surface
+   * stay, and so do cells that are several points. Collective.
+   *
+   * @param dt length of the step, day
    */
   template <int dim>
   void

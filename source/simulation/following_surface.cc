@@ -4,6 +4,7 @@
 #include <morula/effects/contact/fusion.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
+#include <morula/particles/even_spread.h>
 #include <morula/particles/surface_coarsening.h>
 #include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
@@ -101,6 +102,8 @@ namespace Morula
     , longest_edge(0.5 * model.scene.grid.spacing)
     , flows(model.scene.flows())
     , grows(model.scene.has_active_tissue())
+    , spreads(grows &&
+              model.material.volumetric_form() == VolumetricStrain::pooled)
     , exists_(has_surface<dim>(model.scene))
   {}
 
@@ -210,8 +213,13 @@ namespace Morula
     if (restores(share))
       {
         if (grows)
-          change_volumes(tissue,
-                         [&]() { even_out(tissue, space, dt / evening_time); });
+          {
+            change_volumes(tissue, [&]() {
+              even_out(tissue, space, dt / evening_time);
+            });
+            if (spreads)
+              spread_cells(tissue, dt);
+          }
         restore_fit(tissue, *share, is_torn);
       }
     if (model.scene.contact.is_on() && model.scene.contact.fusion_time > 0.)
@@ -257,11 +265,13 @@ namespace Morula
     if (is_torn || !(fit.enclosed > 0.) || fit.distance > 2. * length ||
         std::abs(misfit - 1.) > largest_misfit)
       {
-        // Where tissue grows and flows, the volumes of its cells are integrals
-        // over many steps, but the surface stands where the tissue ends: then a
-        // slight misfit is one of the volumes. A surface that gave way to them
-        // would leave its outermost cells behind.
-        const bool follow_surface = grows && !is_torn && fit.enclosed > 0. &&
+        // Where the volumes of growing cells are integrals of their motion over
+        // many steps, a slight misfit is one of the volumes, as the surface
+        // stands where the tissue ends. A surface that gave way to them would
+        // leave its outermost cells behind. Pooled volumes are what the cells
+        // have grown to, and it is the surface that is wrong.
+        const bool follow_surface = grows && !spreads && !is_torn &&
+                                    fit.enclosed > 0. &&
                                     std::abs(misfit - 1.) < slight_misfit;
         if (follow_surface)
           change_volumes(tissue, [&]() {

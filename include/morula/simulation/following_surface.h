@@ -129,6 +129,7 @@ namespace Morula
     const double            longest_edge; // of a patch, µm
     const bool              flows;        // whether shear relaxes
     const bool              grows;        // whether cells grow or divide
+    const bool              spreads; // whether their volumes are pooled, too
     const bool              exists_;
   };
 } // namespace Morula

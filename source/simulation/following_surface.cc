@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/contact/fusion.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
 #include <morula/particles/even_spread.h>
@@ -269,10 +270,11 @@ namespace Morula
         // many steps, a slight misfit is one of the volumes, as the surface
         // stands where the tissue ends. A surface that gave way to them would
         // leave its outermost cells behind. Pooled volumes are what the cells
-        // have grown to, and it is the surface that is wrong.
-        const bool follow_surface = grows && !spreads && !is_torn &&
-                                    fit.enclosed > 0. &&
-                                    std::abs(misfit - 1.) < slight_misfit;
+        // have grown to, and it is the surface that is wrong, unless it is
+        // held.
+        const bool follow_surface = grows && !is_torn && fit.enclosed > 0. &&
+                                    std::abs(misfit - 1.) < slight_misfit &&
+                                    (!spreads || is_mostly_held(tissue));
         if (follow_surface)
           change_volumes(tissue, [&]() {
             const double stretch = std::pow(misfit, 1. / dim);

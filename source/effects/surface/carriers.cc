@@ -30,6 +30,24 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  is_mostly_held(const Tissue<dim> &tissue)
+  {
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    double                     held = 0., all = 0.;
+    for (unsigned int p = 0; p < store.size(); ++p)
+      {
+        const double area = store.area_vector(p).norm();
+        all += area;
+        if (is_held(store.condition(p)))
+          held += area;
+      }
+    return 2. * Utilities::MPI::sum(held, tissue.communicator()) >
+           Utilities::MPI::sum(all, tissue.communicator());
+  }
+
+
+  template <int dim>
   void
   add_carriers(BoundaryColumns<dim> &columns)
   {
@@ -100,6 +118,7 @@ namespace Morula
 
 
 #define INSTANTIATE(dim)                                     \
+  template bool is_mostly_held(const Tissue<dim> &);         \
   template void add_carriers(BoundaryColumns<dim> &);        \
   template std::vector<types::particle_index> carriers(      \
     const std::vector<unsigned int> &, const Tissue<dim> &); \

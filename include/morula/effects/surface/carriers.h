@@ -20,6 +20,11 @@ namespace Morula
   bool
   is_held(const SurfaceCondition condition);
 
+  /** Whether conditions hold most of the surface's area. Collective. */
+  template <int dim>
+  bool
+  is_mostly_held(const Tissue<dim> &tissue);
+
   /** The held points of this rank by active grid cell. */
   template <int dim>
   PointGroups

@@ -191,22 +191,19 @@ namespace Morula::MeshFile
                  ". Copy or export it again.");
     }
 
-    /** How many triangles a complete STL file has. */
+    /** How many triangles a complete STL file has more than @p n_read. */
     std::size_t
-    triangles_of_stl(const std::string &text)
+    dropped_of_stl(const std::string &text, const std::size_t n_read)
     {
-      const std::string word = "outer loop";
+      const std::string word = "endfacet";
+      std::uint32_t     n    = 0;
       if (text.find('\0') == std::string::npos)
-        {
-          std::size_t n = 0;
-          for (auto at = text.find(word); at != std::string::npos;
-               at      = text.find(word, at + word.size()))
-            ++n;
-          return n;
-        }
-      std::uint32_t n = 0;
-      std::memcpy(&n, text.data() + 80, sizeof(n));
-      return n;
+        for (auto at = text.find(word); at != std::string::npos;
+             at      = text.find(word, at + word.size()))
+          ++n;
+      else
+        std::memcpy(&n, text.data() + 80, sizeof(n));
+      return n > n_read ? n - n_read : 0;
     }
 
     /** Lets CGAL's reader of the format @p ending append to @p soup.
@@ -360,7 +357,7 @@ namespace Morula::MeshFile
             good = read_polygons(text, ending, soup);
             // CGAL drops triangles of STL files that have no three corners.
             if (good && ending == ".stl")
-              soup.n_flat = triangles_of_stl(text) - soup.polygons.size();
+              soup.n_flat = dropped_of_stl(text, soup.polygons.size());
           }
         catch (const std::exception &)
           {

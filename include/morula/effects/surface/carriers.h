@@ -20,7 +20,8 @@ namespace Morula
   bool
   is_held(const SurfaceCondition condition);
 
-  /** Whether conditions hold most of the surface's area. Collective. */
+  /** Whether conditions hold most of the surface's area, more than 0.55 of it.
+   *  Collective. */
   template <int dim>
   bool
   is_mostly_held(const Tissue<dim> &tissue);

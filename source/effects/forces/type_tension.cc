@@ -171,8 +171,8 @@ namespace Morula
               {cells.position(p), positions.xi[p], cells.volume(p)});
           return places;
         }
-      const QGauss<dim> gauss(3);
-      const double      size = Utilities::fixed_power<dim>(box.spacing());
+      static const QGauss<dim> gauss(3);
+      const double size = Utilities::fixed_power<dim>(box.spacing());
       for (unsigned int k = 0; k < gauss.size(); ++k)
         {
           const Point<dim> xi = gauss.point(k);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <utility>
@@ -65,15 +66,64 @@ namespace Morula
       }
     };
 
-    /** What a simplex adds to a facet. */
-    struct Part
+    /**
+     * The areas of the facets of each point a with points b > a. They are sums
+     * of integers, so that the order in which CGAL visits its simplices, and
+     * what else is in the list, leave no trace.
+     */
+    class Sums
     {
-      unsigned int b;
-      double       area;
-    };
+    public:
+      struct Sum
+      {
+        unsigned int b;
+        std::int64_t units;
+      };
 
-    /** The parts of the facets of each point a with points b > a. */
-    using Parts = std::vector<std::vector<Part>>;
+      /** @param largest about the largest area, µm^(dim-1) */
+      Sums(const unsigned int n_points, const double largest)
+        : of_points(n_points)
+        , unit(std::ldexp(largest, -n_bits))
+      {}
+
+      void
+      add(const unsigned int i, const unsigned int j, const double area)
+      {
+        // By rounding a simplex may have no volume, and no circumcentre.
+        if (!std::isfinite(area))
+          return;
+        const unsigned int b     = std::max(i, j);
+        const std::int64_t units = std::llround(area / unit);
+        // A point has about eight of them.
+        for (Sum &sum : of_points[std::min(i, j)])
+          if (sum.b == b)
+            {
+              sum.units += units;
+              return;
+            }
+        of_points[std::min(i, j)].push_back({b, units});
+      }
+
+      /** Sorts the facets of point @p a, and calls visit(b, area) for them. */
+      template <typename Visit>
+      void
+      for_facets(const unsigned int a, const Visit &visit)
+      {
+        std::sort(of_points[a].begin(),
+                  of_points[a].end(),
+                  [](const Sum &one, const Sum &other) {
+                    return one.b < other.b;
+                  });
+        for (const Sum &sum : of_points[a])
+          visit(sum.b, unit * static_cast<double>(sum.units));
+      }
+
+    private:
+      /** As fine as doubles, and room for a thousand of the largest. */
+      static constexpr int          n_bits = 52;
+      std::vector<std::vector<Sum>> of_points;
+      double                        unit;
+    };
 
     constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -83,7 +133,7 @@ namespace Morula
     {
       const std::vector<Point<dim>> &points;
       const double                   reach, radius;
-      Parts                         &parts;
+      Sums                          &sums;
       /** The outward normal of the first face that is seen at each edge of the
        *  hull, in 3-D. */
       std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> &outward;
@@ -113,15 +163,6 @@ namespace Morula
                ((across == infinite ? 0.5 * numbers::PI :
                                       std::atan2(across, near)) -
                 std::atan2(inside, near));
-    }
-
-    void
-    add_part(Parts             &parts,
-             const unsigned int i,
-             const unsigned int j,
-             const double       area)
-    {
-      parts[std::min(i, j)].push_back({std::max(i, j), area});
     }
 
     /** Circumcentre of a triangle minus its first corner, from its edges @p u
@@ -160,10 +201,11 @@ namespace Morula
           const Tensor<1, 2> inward = cross_product_2d(edge) / length;
           const double       sign   = inward * (y[k] - middle) > 0. ? 1. : -1.;
           const double       rho    = diagram.rho(length);
-          add_part(diagram.parts,
-                   corners[i],
-                   corners[j],
-                   std::clamp(sign * (inward * (c - middle)), -rho, rho));
+          diagram.sums.add(corners[i],
+                           corners[j],
+                           std::clamp(sign * (inward * (c - middle)),
+                                      -rho,
+                                      rho));
         }
     }
 
@@ -176,7 +218,7 @@ namespace Morula
       const double length =
         diagram.points[edge[0]].distance(diagram.points[edge[1]]);
       if (length <= diagram.reach)
-        add_part(diagram.parts, edge[0], edge[1], diagram.rho(length));
+        diagram.sums.add(edge[0], edge[1], diagram.rho(length));
     }
 
     /**
@@ -201,7 +243,8 @@ namespace Morula
     }
 
     /** The parts of a tetrahedron, two for each edge: one for each face there.
-     */
+     *  If nothing of them is cut off, as nearly always, their sum has a simple
+     *  form without roots and angles. */
     void
     add_parts(const Diagram<3>                  &diagram,
               const std::array<unsigned int, 4> &corners)
@@ -214,6 +257,7 @@ namespace Morula
          y[2].norm_square() * cross_product_3d(y[3], y[1]) +
          y[3].norm_square() * cross_product_3d(y[1], y[2])) /
         (2. * (y[1] * cross_product_3d(y[2], y[3])));
+      const bool is_whole = c.norm_square() <= diagram.radius * diagram.radius;
       // The circumcentre of the face opposite of each corner.
       std::array<Tensor<1, 3>, 4> of_face;
       for (unsigned int k = 0; k < 4; ++k)
@@ -233,22 +277,26 @@ namespace Morula
             const unsigned int l    = 6 - i - j - k;
             const Tensor<1, 3> axis = edge / length;
             const Tensor<1, 3> m    = 0.5 * (y[i] + y[j]);
-            const double       rho  = diagram.rho(length);
-            const double       turns =
-              axis * cross_product_3d(y[k] - m, y[l] - m) > 0. ? 1. : -1.;
             // The face without l holds k; about the edge it lies on the other
             // side than the face without k.
-            for (const auto &[without, turn] :
-                 {std::make_pair(l, turns), std::make_pair(k, -turns)})
-              {
-                const Tensor<1, 3> way = c - of_face[without];
-                add_part(
-                  diagram.parts,
-                  corners[i],
-                  corners[j],
-                  part_of_face(
-                    of_face[without] - m, axis, turn, way, way.norm(), rho));
-              }
+            const double turns =
+              axis * cross_product_3d(y[k] - m, y[l] - m) > 0. ? 1. : -1.;
+            double area = 0.;
+            if (is_whole)
+              area = 0.5 * turns *
+                     (axis * cross_product_3d(of_face[l] - of_face[k], c - m));
+            else
+              for (const unsigned int without : {l, k})
+                {
+                  const Tensor<1, 3> way = c - of_face[without];
+                  area += part_of_face(of_face[without] - m,
+                                       axis,
+                                       without == l ? turns : -turns,
+                                       way,
+                                       way.norm(),
+                                       diagram.rho(length));
+                }
+            diagram.sums.add(corners[i], corners[j], area);
           }
     }
 
@@ -279,20 +327,20 @@ namespace Morula
           const Tensor<1, 3> axis = edge / length, m = 0.5 * (y[i] + y[j]);
           const double       turn =
             axis * cross_product_3d(y[k] - m, n) > 0. ? 1. : -1.;
-          add_part(diagram.parts,
-                   face[i],
-                   face[j],
-                   part_of_face(
-                     center - m, axis, turn, n, infinite, diagram.rho(length)));
+          diagram.sums.add(
+            face[i],
+            face[j],
+            part_of_face(
+              center - m, axis, turn, n, infinite, diagram.rho(length)));
           const auto [first, is_first] =
             diagram.outward.try_emplace(std::minmax(face[i], face[j]), n);
           if (!is_first)
-            add_part(diagram.parts,
-                     face[i],
-                     face[j],
-                     0.5 * std::pow(diagram.rho(length), 2) *
-                       std::atan2(cross_product_3d(first->second, n).norm(),
-                                  first->second * n));
+            diagram.sums.add(
+              face[i],
+              face[j],
+              0.5 * std::pow(diagram.rho(length), 2) *
+                std::atan2(cross_product_3d(first->second, n).norm(),
+                           first->second * n));
         }
     }
 
@@ -358,10 +406,8 @@ namespace Morula
                  const double                              reach,
                  const double                              radius)
   {
-    // The parts of all facets are collected by their first point. Those of a
-    // facet are then sorted by size and added up, so that the order in which
-    // CGAL visits its simplices leaves no trace. Fewer than dim + 1 points, or
-    // points in one plane, have no simplex and no facet.
+    // Fewer than dim + 1 points, or points in one plane, have no simplex and no
+    // facet.
     std::vector<
       std::pair<decltype(Simplices<dim>::point(points[0])), unsigned int>>
       list;
@@ -372,9 +418,9 @@ namespace Morula
     std::vector<VoronoiFacet>                    facets;
     if (triangulation.dimension() < dim)
       return facets;
-    Parts parts(points.size());
+    Sums sums(points.size(), std::pow(radius, dim - 1));
     std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>> outward;
-    const Diagram<dim> diagram{points, reach, radius, parts, outward};
+    const Diagram<dim> diagram{points, reach, radius, sums, outward};
     const auto         by_ids = [&](auto corners) {
       std::sort(corners.begin(),
                 corners.end(),
@@ -389,22 +435,10 @@ namespace Morula
       [&](const auto &side, const unsigned int inner) {
         add_outer_parts(diagram, by_ids(side), inner);
       });
-    for (unsigned int a = 0; a < parts.size(); ++a)
-      {
-        std::sort(parts[a].begin(),
-                  parts[a].end(),
-                  [](const Part &one, const Part &other) {
-                    return std::make_pair(one.b, one.area) <
-                           std::make_pair(other.b, other.area);
-                  });
-        for (const Part &part : parts[a])
-          if (!facets.empty() && facets.back().a == a &&
-              facets.back().b == part.b)
-            facets.back().area += part.area;
-          else
-            facets.push_back(
-              {a, part.b, part.area, points[a].distance(points[part.b])});
-      }
+    for (unsigned int a = 0; a < points.size(); ++a)
+      sums.for_facets(a, [&](const unsigned int b, const double area) {
+        facets.push_back({a, b, area, points[a].distance(points[b])});
+      });
     return facets;
   }
 

@@ -29,10 +29,7 @@ namespace Morula
    * that are farther than @p reach (µm) from each other; sorted by a, then b.
    * What of a facet is farther than @p radius (µm) from its points does not
    * count, so that facets at the hull have an end, and that no point farther
-   * than twice the radius from a or b has any influence. The facets of no area,
-   * as lattices have them, are among them or not. An area is added up in an
-   * order that follows from @p ids alone, so that any list which has these
-   * points gives the same, but for rounding where a facet has been cut. Of
+   *
    * points in one place all but one have no facet.
    */
   template <int dim>

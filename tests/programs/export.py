@@ -237,6 +237,53 @@ class Export(ProgramTest):
         np.testing.assert_array_equal(read[:, "volume"].X[:len(cells[0]), 0],
                                       cells[0]["volume"])
 
+    def test_points_over_time(self):
+        """Every state is a step, and begins where its offsets say; VTK's own
+        reader finds it where it knows steps."""
+        run = self.run_of("disc")
+        said = self.export(run, "cells.vtkhdf")
+        states = [run.cells(i) for i in range(len(run.times))]
+        self.assertIn(f"{sum(map(len, states))} rows", said)
+        with h5py.File(self.work / "cells.vtkhdf") as file:
+            root, steps = file["VTKHDF"], file["VTKHDF/Steps"]
+            self.assertEqual(root.attrs["Type"], b"PolyData")
+            np.testing.assert_array_equal(steps["Values"], run.times)
+            np.testing.assert_array_equal(root["NumberOfPoints"],
+                                          [len(state) for state in states])
+            for i, state in enumerate(states):
+                begin = steps["PointOffsets"][i]
+                rows = slice(begin, begin + len(state))
+                np.testing.assert_array_equal(root["Points"][rows, 0], state["x"])
+                np.testing.assert_array_equal(root["PointData/volume"][rows],
+                                              state["volume"])
+                begin = steps["CellOffsets"][i, 0]
+                np.testing.assert_array_equal(
+                    root["Vertices/Connectivity"][begin:begin + len(state)],
+                    np.arange(len(state)))
+                ends = root["Vertices/Offsets"][begin + i:][:len(state) + 1]
+                np.testing.assert_array_equal(ends, np.arange(len(state) + 1))
+        self.assert_read_by_vtk(self.work / "cells.vtkhdf", run, states)
+
+    def assert_read_by_vtk(self, file, run, states):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOHDF import vtkHDFReader
+        reader = vtkHDFReader()
+        if not hasattr(reader, "SetStep"):
+            return  # before VTK 9.3
+        reader.SetFileName(str(file))
+        reader.UpdateInformation()
+        self.assertEqual(reader.GetNumberOfSteps(), len(states))
+        for i, state in enumerate(states):
+            reader.UpdateTimeStep(run.times[i])
+            read = reader.GetOutput()
+            self.assertEqual(read.GetNumberOfPoints(), len(state))
+            self.assertEqual(read.GetNumberOfVerts(), len(state))
+            np.testing.assert_array_equal(
+                vtk_to_numpy(read.GetPoints().GetData())[:, 1], state["y"])
+            np.testing.assert_array_equal(
+                vtk_to_numpy(read.GetPointData().GetArray("volume")),
+                state["volume"])
+
     def assert_volumes(self, run, number, voxel):
         """Each cell's voxels have the volume of its region but for those that
         its walls go through, of which a half is wrong at most; all of them
@@ -313,7 +360,7 @@ class Export(ProgramTest):
                 (["a.tif", "--voxel", "1,2"], "three edges, for a run in 3-D"),
                 (["a.tif", "--voxel", "0.01"], "take larger voxels"),
                 (["a.h5ad", "--voxel", "1"], "nothing without an image"),
-                (["a.geff", "--all"], "nothing for tracks alone"),
+                (["a.geff", "--all"], "nothing for files over time alone"),
                 (["a.h5ad", "--time", "0.3"], "a day of a state that was written"),
                 (["folder.geff", "--again"], "Something else is there")):
             with self.subTest(words):

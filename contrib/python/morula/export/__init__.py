@@ -4,7 +4,7 @@
 
 `tool` is the command. `tracks` makes the graph of all cells over time, and a
 lineage of such a graph; `geff` writes and reads it. `h5ad` writes cells as
-annotated data, `rasters` fills voxels with the cells' regions, and `images`
-writes them. h5py, zarr and tifffile do the work on files, each where it is
-asked for.
+annotated data, `vtkhdf` as points over time. `rasters` fills voxels with the
+cells' regions, and `images` writes them. h5py, zarr and tifffile do the work on
+files, each where it is asked for.
 """

@@ -16,12 +16,16 @@ DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
     contrib/export output/bud tracks.geff          all cells over time, as a graph
     contrib/export output/bud cells.h5ad           the last state, for scanpy
     contrib/export output/bud cells.h5ad --all     all states in one table
+    contrib/export output/bud cells.vtkhdf         all states, for ParaView
     contrib/export output/bud labels.tif --voxel 2 every voxel has its cell's label
     contrib/export output/bud labels.tif --voxel 1,1,4 --all
 
 doc/python.md explains the files.
 """
-ENDINGS = (".geff", ".h5ad", ".tif", ".tiff", ".npy")
+# Files of all states, and those that are no images.
+OVER_TIME = (".geff", ".vtkhdf")
+TABLES = (*OVER_TIME, ".h5ad")
+ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 
 def parser():
@@ -31,8 +35,8 @@ def parser():
     add = result.add_argument
     add("directory", type=Path, help="output directory of a run, finished or not")
     add("file", type=Path, nargs="+", metavar="FILE",
-        help=".geff: tracks; .h5ad: annotated data; .tif (OME),\n"
-        ".npy: a label image, id + 1, of the cells' regions")
+        help=".geff: tracks; .h5ad: annotated data; .vtkhdf: points\n"
+        "over time; .tif (OME), .npy: a label image, id + 1, of the cells' regions")
     add("--time", metavar="DAY", help="of the state; default: the last one "
         "written")
     add("--all", action="store_true", help="all states; each one's image is "
@@ -60,9 +64,9 @@ def voxel_of(text):
 
 
 def kind_of(file):
-    """Of a file by its ending: ".geff", ".h5ad", or "image"."""
+    """Of a file by its ending: one of TABLES, or "image"."""
     ending = file.suffix.lower()
-    return ending if ending in (".geff", ".h5ad") else "image"
+    return ending if ending in TABLES else "image"
 
 
 def check(options):
@@ -80,8 +84,8 @@ def check(options):
                           "Choose another one, or replace that one with --again.")
     if options.voxel and "image" not in kinds:
         raise Refused("--voxel", options.voxel, "nothing without an image")
-    if kinds == {".geff"} and (options.all or options.time is not None):
-        raise Refused("--time, --all", "", "nothing for tracks alone",
+    if kinds <= set(OVER_TIME) and (options.all or options.time is not None):
+        raise Refused("--time, --all", "", "nothing for files over time alone",
                       "They have all states.")
     return voxel_of(options.voxel) if "image" in kinds else None
 
@@ -99,9 +103,12 @@ def export(options):
             geff.write(found, file)
             print(f"export: {file}: {len(run.lineage)} cells, {len(found)} nodes, "
                   f"{len(found.edges)} edges")
-        elif kind_of(file) == ".h5ad":
-            from . import h5ad
-            rows, columns = h5ad.write(run, chosen_states(run, options), file)
+        elif kind_of(file) in TABLES:
+            from . import h5ad, vtkhdf
+            rows, columns = (
+                vtkhdf.write(run, range(len(run.times)), file)
+                if kind_of(file) == ".vtkhdf" else
+                h5ad.write(run, chosen_states(run, options), file))
             print(f"export: {file}: {rows} rows, {columns} columns")
         else:
             from . import images

@@ -137,6 +137,9 @@ namespace Morula
           << "one core for " << size.steps << " steps, without output; a "
           << "rough estimate, from runs on an AMD EPYC with AVX-512 "
           << "(doc/performance.md)\n";
+      for (const auto &[name, seconds] : size.of_effects)
+        out << "    of it " << name << ": " << duration_text(seconds) << ", "
+            << std::round(100. * seconds / size.seconds) << " % of the steps\n";
     }
 
     /** Everything that is known of a scene before it runs, on rank 0. */
@@ -330,7 +333,10 @@ namespace Morula
         keys.emplace_back(key->path(), Json::text(key->text()));
       std::ostringstream folds;
       print_folds(folds, scene, found.free);
-      const SizeEstimate &size = found.size;
+      const SizeEstimate                              &size = found.size;
+      std::vector<std::pair<std::string, std::string>> of_effects;
+      for (const auto &[name, seconds] : size.of_effects)
+        of_effects.emplace_back(name, Json::number(seconds));
       out << Json::object(
                {{"dimension", Json::number(dim)},
                 {"shape", Json::text(scene.tissue.shape)},
@@ -351,6 +357,7 @@ namespace Morula
                      Json::number(std::round(size.unknowns))},
                     {"steps", Json::number(size.steps)},
                     {"seconds", Json::number(size.seconds)},
+                    {"seconds of effects", Json::object(of_effects)},
                     {"seconds of seeding", Json::number(found.seeding)},
                     {"bytes", Json::number(size.memory)},
                     {"bytes of the machine", Json::number(found.memory)}})},

@@ -79,6 +79,23 @@ namespace Morula
       return newton_iterations * (n_points * point + n * equation + factors);
     }
 
+    /** Seconds of a step of one core for each cell, of effects that say so. */
+    template <int dim>
+    std::map<std::string, double>
+    seconds_of_effects(const Scene &scene)
+    {
+      const SceneEffects<dim>       effects = effects_of<dim>(scene);
+      std::map<std::string, double> seconds;
+      for (const auto &[name, effect] : effects.step_effects)
+        if (const double of_one = effect->seconds_per_cell(); of_one > 0.)
+          seconds[name] = of_one;
+      // Transitions that see neighbours find them within the step.
+      if (effects.development.neighbours)
+        seconds["transitions"] =
+          effects.development.neighbours->seconds_per_cell(dim);
+      return seconds;
+    }
+
     /** Equations of a compact tissue of this volume. */
     double
     n_equations(const Scene &scene, const double volume)
@@ -137,11 +154,16 @@ namespace Morula
     const auto mean = [](const double a, const double b) {
       return std::abs(b - a) < 1e-3 * a ? a : (b - a) / std::log(b / a);
     };
-    size.seconds =
-      size.steps *
-      step_seconds<dim>(scene,
-                        mean(founders.n_global, size.cells),
-                        mean(size.unknowns_at_start, size.unknowns));
+    const double n_cells = mean(founders.n_global, size.cells);
+    size.seconds         = size.steps * step_seconds<dim>(scene,
+                                                  n_cells,
+                                                  mean(size.unknowns_at_start,
+                                                       size.unknowns));
+    for (const auto &[name, of_one] : seconds_of_effects<dim>(scene))
+      {
+        size.of_effects[name] = size.steps * n_cells * of_one;
+        size.seconds += size.of_effects[name];
+      }
     return size;
   }
 

@@ -107,21 +107,37 @@ namespace
     EXPECT_NEAR(sum / count, 1., 3. * 0.55 / std::sqrt(count));
   }
 
-  /** A tissue of cells of unit volume scaled to spacing 10. */
+  /** A tissue of cells of unit volume scaled to spacing 10, with a surface at
+   *  some places. */
   template <int dim>
   std::unique_ptr<Tissue<dim>>
-  tissue_of(const std::vector<Point<dim>> &points)
+  tissue_of(const std::vector<Point<dim>> &points,
+            const std::vector<Point<dim>> &surface = {})
   {
     GridParameters parameters;
     parameters.spacing = 30.;
     CellColumns<dim> columns;
     auto             tissue =
       std::make_unique<Tissue<dim>>(parameters, columns, MPI_COMM_WORLD);
-    PointList<dim> list(columns.n_numbers());
+    PointList<dim>             list(columns.n_numbers());
+    const BoundaryColumns<dim> of_surface;
+    PointList<dim>             patches(of_surface.n_numbers());
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      for (unsigned int i = 0; i < points.size(); ++i)
-        list.add(i, points[i], columns.founder(points[i], std::pow(10., dim)));
-    tissue->place(list, PointList<dim>());
+      {
+        for (unsigned int i = 0; i < points.size(); ++i)
+          list.add(i,
+                   points[i],
+                   columns.founder(points[i], std::pow(10., dim)));
+        for (unsigned int i = 0; i < surface.size(); ++i)
+          patches.add(i,
+                      surface[i],
+                      make_array_view(
+                        of_surface.initial_point(surface[i],
+                                                 Point<dim>::unit_vector(0),
+                                                 std::pow(10., dim - 1),
+                                                 SurfaceCondition::free)));
+      }
+    tissue->place(list, patches);
     return tissue;
   }
 
@@ -213,6 +229,51 @@ namespace
       }
   }
 
+  /** Two blocks whose outermost layers are @p distance apart: how many pairs
+   *  of them have a cell in each. */
+  template <int dim>
+  unsigned int
+  pairs_across(const double distance, const bool has_surface)
+  {
+    std::vector<Point<dim>> points, surface;
+    Point<dim>              centre;
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] = 5.;
+    for (const Point<dim> &x :
+         lattice_points<dim>(centre, 30., 10., [](const auto &) {
+           return true;
+         }))
+      {
+        Point<dim> y = x;
+        y[0] += x[0] > 0. ? 0.5 * distance - 5. : 5. - 0.5 * distance;
+        points.push_back(y);
+        if (std::abs(std::abs(x[0]) - 5.) < 1e-6)
+          {
+            y[0] += x[0] > 0. ? -5. : 5.;
+            surface.push_back(y);
+          }
+      }
+    if (!has_surface)
+      surface.clear();
+    unsigned int n = 0;
+    for (const auto &[pair, area] :
+         all_edges(*tissue_of(points, surface), {true, 1.8}))
+      n += points[pair.first][0] < 0. && points[pair.second][0] > 0.;
+    return n;
+  }
+
+  template <int dim>
+  void
+  check_gap()
+  {
+    const unsigned int layer = Utilities::fixed_power<dim - 1>(7u);
+    EXPECT_EQ(pairs_across<dim>(17., true), layer) << "within reach";
+    EXPECT_EQ(pairs_across<dim>(19., true), 0u) << "the surface is between";
+    EXPECT_EQ(pairs_across<dim>(28., true), 0u) << "the surface is between";
+    EXPECT_EQ(pairs_across<dim>(19., false), layer) << "in full tissue";
+    EXPECT_EQ(pairs_across<dim>(31., false), 0u) << "beyond the ring";
+  }
+
   template <int dim>
   void
   check_random()
@@ -258,6 +319,10 @@ TEST(Neighbours,
 
 TEST(Neighbours,
      DoNotDependOnRanksAndOrder){MORULA_BOTH_DIMENSIONS(check_random)}
+
+// doc/theory.md, section 12.1.
+TEST(Neighbours,
+     AcrossAGapAreThoseWithinReach){MORULA_BOTH_DIMENSIONS(check_gap)}
 
 TEST(Neighbours, ByRadiusAreThoseWithinIt){MORULA_BOTH_DIMENSIONS(check_radius)}
 

@@ -5,6 +5,7 @@
 forms on a lattice, on one rank and on several, and resumed; lateral inhibition; that
 scenes without them have nothing of it."""
 import csv
+import json
 
 import numpy
 from program import TESTS, ProgramTest, main, overrides, read_csv
@@ -157,6 +158,25 @@ class Neighbours(ProgramTest):
             self.assertNotIn(section, timings)
         self.assertNotIn("exchanges",
                          read_csv(output / "statistics.csv").dtype.names)
+        said = self.execute(self.work / "absent.prm", "--explain").stdout
+        self.assertIn("  time: about ", said)
+        self.assertNotIn("    of it ", said)
+
+    def test_time_is_told(self):
+        """Before the run, where neighbours take a large part of it: found by
+        distance they take less."""
+        def seconds(*words):
+            said = json.loads(self.execute(
+                INHIBITION, "--explain=json", *words).stdout)["size"]
+            self.assertLess(sum(said["seconds of effects"].values()),
+                            said["seconds"])
+            return said["seconds of effects"]
+        facets = seconds()
+        self.assertEqual(set(facets), {"neighbours", "transitions"})
+        self.assertLess(seconds("-s", "Neighbours/Found by=radius")["neighbours"],
+                        facets["neighbours"])
+        self.assertIn("of it neighbours: ",
+                      self.execute(INHIBITION, "--explain").stdout)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,9 @@
 #include <morula/scene/size.h>
 #include <morula/seeding/seeding.h>
 
+#include <map>
 #include <optional>
+#include <string>
 
 namespace Morula
 {
@@ -20,6 +22,9 @@ namespace Morula
     double memory            = 0.; // bytes
     double seconds           = 0.; // of one core, all steps, without output
     double steps             = 0.;
+    /** Of `seconds` those of effects that take a large part of them, by name.
+     */
+    std::map<std::string, double> of_effects;
   };
 
   /**

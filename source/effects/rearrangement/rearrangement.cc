@@ -126,6 +126,17 @@ namespace Morula
 
 
   template <int dim>
+  double
+  Rearrangement<dim>::seconds_per_cell() const
+  {
+    // Besides the neighbours it takes the places' edges, the attempts, here
+    // about one a cell, and the move.
+    constexpr double exchange = 3e-6;
+    return neighbours.seconds_per_cell(dim) + exchange;
+  }
+
+
+  template <int dim>
   std::vector<Occupant>
   Rearrangement<dim>::cells_of(const Tissue<dim>     &tissue,
                                const CellReader<dim> &reader) const

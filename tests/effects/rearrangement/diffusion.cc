@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -21,9 +22,62 @@ namespace
   enum class Order
   {
     lattice,
-    moved,  // each at random by up to 0.3 a along each axis
-    Poisson // anywhere
+    moved,   // each at random by up to 0.3 a along each axis
+    Poisson, // anywhere
+    even     // anywhere, then moved to the middles of their Voronoi cells
   };
+
+  /** The points, each moved to the middle of what is nearest to it of the
+   *  square whose opposite sides are joined, many times (Lloyd). */
+  template <int dim>
+  void
+  even_out(std::vector<Point<dim>> &points, const unsigned int n)
+  {
+    constexpr unsigned int n_rounds = 20, per_cell = 6;
+    const double           edge = n * a;
+    for (unsigned int round = 0; round < n_rounds; ++round)
+      {
+        // The points by squares of edge a; nearly all samples have their
+        // nearest one within two squares.
+        std::vector<std::vector<unsigned int>> boxes(n * n);
+        for (unsigned int i = 0; i < points.size(); ++i)
+          boxes[unsigned(points[i][1] / a) % n * n +
+                unsigned(points[i][0] / a) % n]
+            .push_back(i);
+        std::vector<Tensor<1, dim>> sums(points.size());
+        std::vector<unsigned int>   numbers(points.size(), 0);
+        for (unsigned int k = 0; k < n * n * per_cell * per_cell; ++k)
+          {
+            const unsigned int x = k % (n * per_cell), y = k / (n * per_cell);
+            std::array<double, 2> at = {
+              {(x + 0.5) * a / per_cell, (y + 0.5) * a / per_cell}};
+            double         least = edge * edge;
+            unsigned int   first = 0;
+            Tensor<1, dim> to_sample;
+            for (unsigned int other = 0; other < 25; ++other)
+              for (const unsigned int i :
+                   boxes[(y / per_cell + n + other / 5 - 2) % n * n +
+                         (x / per_cell + n + other % 5 - 2) % n])
+                {
+                  Tensor<1, dim> r;
+                  for (unsigned int d = 0; d < 2; ++d)
+                    r[d] = std::remainder(at[d] - points[i][d], edge);
+                  if (r.norm_square() < least)
+                    {
+                      least     = r.norm_square();
+                      first     = i;
+                      to_sample = r;
+                    }
+                }
+            sums[first] += to_sample;
+            ++numbers[first];
+          }
+        for (unsigned int i = 0; i < points.size(); ++i)
+          for (unsigned int d = 0; d < 2 && numbers[i] > 0; ++d)
+            points[i][d] =
+              std::fmod(points[i][d] + edge + sums[i][d] / numbers[i], edge);
+      }
+  }
 
   /** Places in a cube of so many cells along an edge, whose opposite sides are
    *  joined. */
@@ -38,12 +92,14 @@ namespace
       for (unsigned int d = 0, k = i; d < dim; ++d, k /= n)
         {
           const double u = uniform(generator);
-          if (order == Order::Poisson)
+          if (order == Order::Poisson || order == Order::even)
             points[i][d] = n * a * u;
           else
             points[i][d] =
               (k % n + 0.5 + (order == Order::moved ? 0.6 * u - 0.3 : 0.)) * a;
         }
+    if (order == Order::even)
+      even_out(points, n);
     return points;
   }
 
@@ -205,6 +261,59 @@ namespace
     return result;
   }
 
+  /** The share of unlike neighbours, by facets. */
+  double
+  unlike_share(const Places &places, const std::vector<Occupant> &occupants)
+  {
+    double all = 0., unlike = 0.;
+    for (unsigned int p = 0; p < places.size(); ++p)
+      for (unsigned int e = places.offsets[p]; e < places.offsets[p + 1]; ++e)
+        {
+          const Places::Edge &edge = places.edges[e];
+          all += edge.area;
+          unlike +=
+            occupants[p].type == occupants[edge.other].type ? 0. : edge.area;
+        }
+    return unlike / all;
+  }
+
+  /** Two types, half of the cells each at random, with γ a = 1: the share of
+   *  unlike neighbours after each time. */
+  std::vector<double>
+  sorted(Places                     places,
+         const double               T,
+         const double               part,
+         const std::vector<double> &times)
+  {
+    const AdhesionEnergy  energy({{{0., 1. / a}, {1. / a, 0.}}, {0., 0.}}, T);
+    std::mt19937          generator(5);
+    std::vector<Occupant> occupants;
+    for (unsigned int p = 0; p < places.size(); ++p)
+      occupants.push_back(
+        {p + 1, p < part * places.size(), D, {{0., 0., 0.}}, 0, p});
+    std::shuffle(occupants.begin(), occupants.end(), generator);
+    std::vector<double> shares;
+    constexpr double    step = 0.2;
+    double              t    = 0.;
+    for (const double end : times)
+      {
+        for (; t < end - 0.5 * step; t += step)
+          {
+            for (unsigned int p = 0; p < places.size(); ++p)
+              places.keys[p] = occupants[p].key;
+            places.sort_edges();
+            ExchangeRounds rounds(places,
+                                  occupants,
+                                  attempts(places, occupants, 9, t, step),
+                                  energy);
+            rounds.run_in_order();
+            occupants = rounds.occupants();
+          }
+        shares.push_back(unlike_share(places, occupants));
+      }
+    return shares;
+  }
+
   template <int dim>
   void
   check_spread(const unsigned int         n,
@@ -244,4 +353,25 @@ TEST(Diffusion, IsThatOfTheKeyOnLattices)
       check_spread<2>(80, order, {1., 3.});
       check_spread<3>(16, order, {1., 3.});
     }
+}
+
+// Two types that avoid each other. The shares were found independently, with
+// rates that go as S.
+TEST(Diffusion, SortsTwoTypes)
+{
+  const Places places     = closed_places<2>(64, Order::even, 3);
+  const auto   equal      = sorted(places, 0.8, 0.5, {0., 4.6, 18., 74.});
+  const auto   fewer      = sorted(places, 0.8, 0.3, {0., 4.6, 18., 74.});
+  const double of_equal[] = {0.508, 0.303, 0.255, 0.208};
+  const double of_fewer[] = {0.423, 0.256, 0.218, 0.183};
+  for (unsigned int k = 0; k < 4; ++k)
+    {
+      EXPECT_NEAR(equal[k], of_equal[k], 0.015) << k;
+      EXPECT_NEAR(fewer[k], of_fewer[k], 0.015) << k;
+    }
+  const Places poisson    = closed_places<3>(16, Order::Poisson, 3);
+  const auto   cubes      = sorted(poisson, 1.6, 0.5, {0., 3.3, 13., 52.});
+  const double of_cubes[] = {0.502, 0.353, 0.306, 0.269};
+  for (unsigned int k = 0; k < 4; ++k)
+    EXPECT_NEAR(cubes[k], of_cubes[k], 0.015) << k;
 }

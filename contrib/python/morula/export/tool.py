@@ -22,9 +22,9 @@ DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
 
 doc/python.md explains the files.
 """
-# Files of all states, and those that are no images.
+# Those that are no images, and of them those that have all states.
+TABLES = (".geff", ".h5ad", ".vtkhdf")
 OVER_TIME = (".geff", ".vtkhdf")
-TABLES = (*OVER_TIME, ".h5ad")
 ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 

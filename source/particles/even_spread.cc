@@ -4,12 +4,14 @@
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
+#include <morula/particles/surface_around.h>
 #include <morula/particles/uneven_growth.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <tuple>
@@ -23,12 +25,10 @@ namespace Morula
      *  one if that is wider. */
     constexpr double kernel_width = 1.3;
 
-    /** In this time, day, a cell moves by the part κ of H² ∇C, and by no more
-     *  than that part of its width, if growth around it is fully uneven. No
-     *  step takes more. */
-    constexpr double spreading_time = 0.125;
-    constexpr double spread_part    = 0.2;
-    constexpr double longest_way    = 0.1;
+    /** κ of a cell that spreads fully for the spreading time or longer, and the
+     *  part of its width that it moves then at most. */
+    constexpr double spread_part = 0.2;
+    constexpr double longest_way = 0.1;
 
     /** The variance of ln det F_g from which on growth is fully uneven: that of
      *  cells half of which are larger by a half than the others. */
@@ -40,6 +40,10 @@ namespace Morula
 
     /** Patches whose normals differ by more than 60° are not one plane. */
     constexpr double alike_cosine = 0.5;
+
+    /** The edge of the boxes in which cells are looked up, in reaches: nearly
+     *  half of those that are found are near, and few boxes are looked at. */
+    constexpr double bin_part = 0.5;
 
     /** Volume and body of a cell. */
     using Grain = std::tuple<double, unsigned int>;
@@ -84,18 +88,21 @@ namespace Morula
       return list;
     }
 
-    /** -dW/dr of Wendland's kernel of length @p H, µm^-(dim+1). */
+    /** -dW/dq of Wendland's kernel, q = r/H, but for what all q have. */
+    double
+    slope(const double q)
+    {
+      return q < 2. ? q * Utilities::fixed_power<3>(1. - 0.5 * q) : 0.;
+    }
+
+    /** What is missing there, for the length @p H, µm^-dim. */
     template <int dim>
     double
-    slope(const double r, const double H)
+    slope_factor(const double H)
     {
-      const double q = r / H;
-      if (q >= 2.)
-        return 0.;
-      const double norm =
-        (dim == 2 ? 7. / (4. * numbers::PI) : 21. / (16. * numbers::PI)) /
-        Utilities::fixed_power<dim + 1>(H);
-      return norm * 5. * q * Utilities::fixed_power<3>(1. - 0.5 * q);
+      return 5. *
+             (dim == 2 ? 7. / (4. * numbers::PI) : 21. / (16. * numbers::PI)) /
+             Utilities::fixed_power<dim>(H);
     }
 
     /** Where a cell's surroundings end, if they do: x with n·x = offset. */
@@ -118,6 +125,7 @@ namespace Morula
     {
       const PointList<dim> cells;
       const PointList<dim> patches;
+      const GridBox<dim>   cell_box;
       const PointBins<dim> cell_bins;
       const PointBins<dim> patch_bins;
       const double         patch_reach; // µm
@@ -132,7 +140,10 @@ namespace Morula
                    const double       mean_width)
         : cells(cells_around(tissue, reach))
         , patches(patches_around(tissue, reach + largest_spacing))
-        , cell_bins(tissue.grid().box(), cells.positions)
+        , cell_box(cells.positions.empty() ?
+                     tissue.grid().box() :
+                     box_around(cells.positions, bin_part * reach))
+        , cell_bins(cell_box, cells.positions)
         , patch_bins(tissue.grid().box(), patches.positions)
         , patch_reach(reach + largest_spacing)
         , mean_width(mean_width)
@@ -244,14 +255,15 @@ namespace Morula
                 const double                   reach,
                 const Visit                   &visit)
     {
-      std::vector<Point<dim>> all = {y};
+      std::array<Point<dim>, (1 << dim)> all = {{y}}; // of dim planes at most
+      unsigned int                       n   = 1;
       for (const Plane<dim> &plane : planes)
-        for (std::size_t i = 0, n = all.size(); i < n; ++i)
+        for (unsigned int i = 0, n_before = n; i < n_before; ++i)
           if (const double depth = plane.depth(all[i]);
               depth > 0. && depth < reach)
-            all.push_back(all[i] + 2. * depth * plane.normal);
-      for (const Point<dim> &image : all)
-        visit(image);
+            all[n++] = all[i] + 2. * depth * plane.normal;
+      for (unsigned int i = 0; i < n; ++i)
+        visit(all[i]);
     }
 
     /** What is left of a motion from @p x where patches are in its way. */
@@ -320,10 +332,10 @@ namespace Morula
                       [&](const Point<dim> &y) {
                         // a cell does not push itself, but its image does
                         if (const double r = x.distance(y); r > 0.)
-                          way += H * H * other * slope<dim>(r, H) / r * (x - y);
+                          way += other * slope(r / H) * H / r * (x - y);
                       });
         }
-      way *= share * spread_part;
+      way *= slope_factor<dim>(H) * share * spread_part;
       if (way.norm() > share * longest_way * width)
         way *= share * longest_way * width / way.norm();
       return inside_part(way, x, width, patches, around.patches);
@@ -332,7 +344,9 @@ namespace Morula
 
   template <int dim>
   void
-  spread_cells(Tissue<dim> &tissue, const double dt)
+  spread_cells(Tissue<dim>               &tissue,
+               const double               dt,
+               const std::vector<double> &parts)
   {
     // All motions are those of the same configuration. The kernel of the
     // largest cell reaches farthest.
@@ -352,9 +366,6 @@ namespace Morula
     const auto n = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
     if (n == 0)
       return;
-    const UnevenGrowth<dim> growth(tissue);
-    if (!growth.exists())
-      return;
     const SpreadAround<dim> around(
       tissue,
       2. * kernel_width * Utilities::MPI::max(width, comm),
@@ -363,16 +374,32 @@ namespace Morula
     std::vector<Point<dim>> places = cells.positions();
     const double            part   = std::min(1., dt / spreading_time);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      if (const double share =
-            part *
-            std::min(1., growth.variance(cells.position(p)) / fully_uneven);
-          share > 0.)
+      if (const double share = part * parts[p]; share > 0.)
         places[p] += motion_of(around, p, share);
     tissue.move(places, points.positions());
   }
 
+  template <int dim>
+  void
+  spread_uneven_growth(Tissue<dim> &tissue, const double dt)
+  {
+    const UnevenGrowth<dim> growth(tissue);
+    if (!growth.exists())
+      return;
+    std::vector<double> parts;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      parts.push_back(
+        std::min(1.,
+                 growth.variance(tissue.cells().position(p)) / fully_uneven));
+    spread_cells(tissue, dt, parts);
+  }
+
   template void
-  spread_cells(Tissue<2> &, const double);
+  spread_cells(Tissue<2> &, const double, const std::vector<double> &);
   template void
-  spread_cells(Tissue<3> &, const double);
+  spread_cells(Tissue<3> &, const double, const std::vector<double> &);
+  template void
+  spread_uneven_growth(Tissue<2> &, const double);
+  template void
+  spread_uneven_growth(Tissue<3> &, const double);
 } // namespace Morula

@@ -219,7 +219,7 @@ namespace Morula
               even_out(tissue, space, dt / evening_time);
             });
             if (spreads)
-              spread_cells(tissue, dt);
+              spread_uneven_growth(tissue, dt);
           }
         restore_fit(tissue, *share, is_torn);
       }

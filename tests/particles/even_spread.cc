@@ -130,13 +130,13 @@ namespace
   {
     Tissue<dim> filled(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
     place(filled, 0., 2.);
-    spread_cells(filled, 0.125);
+    spread_uneven_growth(filled, 0.125);
     EXPECT_LT(farthest(filled), 1e-9 * length);
 
     Tissue<dim> alike(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
     place(alike, 0.2, 1.);
     const std::vector<Point<dim>> before = alike.cells().positions();
-    spread_cells(alike, 0.125);
+    spread_uneven_growth(alike, 0.125);
     EXPECT_EQ(alike.cells().positions(), before);
   }
 
@@ -152,7 +152,7 @@ namespace
     EXPECT_NEAR(before, -0.05 * edge, 1e-9);
     for (unsigned int step = 0; step < 60; ++step)
       {
-        spread_cells(tissue, 0.125);
+        spread_uneven_growth(tissue, 0.125);
         EXPECT_GT(middle_and_depth(tissue)[1], 0.2 * length);
       }
     EXPECT_LT(std::abs(middle_and_depth(tissue)[0] - 0.5 * edge),
@@ -166,7 +166,7 @@ namespace
         Tissue<dim> other(grid<dim>(), with_growth<dim>(), MPI_COMM_WORLD);
         place(other, 0.2, 1.1);
         for (unsigned int step = 0; step < n_steps; ++step)
-          spread_cells(other, 0.1 / n_steps);
+          spread_uneven_growth(other, 0.1 / n_steps);
         ways[n_steps - 1] = middle_and_depth(other)[0] - 0.5 * edge - before;
       }
     EXPECT_GT(ways[0], 0.);

@@ -62,7 +62,7 @@ namespace
     const double              edge   = std::pow(n, 1. / dim);
     std::vector<unsigned int> degree(n, 0);
     for (const VoronoiFacet &facet :
-         voronoi_facets(points, numbered(points), 1e9, 1e9))
+         voronoi_facets(points, numbered(points), 1e9, 30.))
       ++degree[facet.a], ++degree[facet.b];
     double sum = 0., count = 0.;
     for (unsigned int i = 0; i < n; ++i)
@@ -82,7 +82,7 @@ namespace
     std::vector<double>         size(points.size(), 0.);
     std::vector<double>         volume(points.size(), 0.);
     for (const VoronoiFacet &facet :
-         voronoi_facets(points, numbered(points), 1e9, 1e9))
+         voronoi_facets(points, numbered(points), 1e9, 30.))
       {
         const Tensor<1, dim> n =
           (points[facet.b] - points[facet.a]) / facet.distance;
@@ -236,11 +236,8 @@ namespace
   pairs_across(const double distance, const bool has_surface)
   {
     std::vector<Point<dim>> points, surface;
-    Point<dim>              centre;
-    for (unsigned int d = 0; d < dim; ++d)
-      centre[d] = 5.;
     for (const Point<dim> &x :
-         lattice_points<dim>(centre, 30., 10., [](const auto &) {
+         lattice_points<dim>(Point<dim>(), 30., 10., [](const auto &) {
            return true;
          }))
       {

@@ -111,6 +111,15 @@ class Engulfment(ProgramTest):
             self.assertLess(found[SHARE][1], found[PART][1] - 0.3)
             self.assertGreater(found[PART][1], 1.41)
 
+    def test_places_stay_even(self):
+        """The flow over the core draws cells out and together; without their
+        spreading 5 % of them would be nearer than half a spacing to another."""
+        output = self.run_scene(2, ENGULF, "even")
+        X, volume = (self.state(output)[0][name] for name in (["x", "y"], "volume"))
+        X = numpy.column_stack([X["x"], X["y"]])
+        nearest = cKDTree(X).query(X, 2)[0][:, 1] / numpy.sqrt(volume.mean())
+        self.assertGreater(numpy.percentile(nearest, 5), 0.55)
+
     def test_ranks_and_resumption(self):
         for dim in (2, 3):
             outputs = [

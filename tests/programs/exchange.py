@@ -12,7 +12,7 @@ EDGE = 120  # of a half, um
 SCENE = """
 set Dimension = 2
 subsection Time
-  set End time = 6
+  set End time = 12
   set Step     = 0.1
 end
 subsection Tissue
@@ -85,7 +85,7 @@ class Exchange(ProgramTest):
             before, after = (read_csv(output / f"cells-{k:04d}.csv")
                              for k in (0, 1))
             exchanges = read_csv(output / "statistics.csv")["exchanges"].sum()
-            self.assertGreater(2 * exchanges, 18 * len(before))
+            self.assertGreater(2 * exchanges, 36 * len(before))
             right = after["x"] > 0
             self.assertGreater((after["type"][right] == 0).mean(), 0.1)
             for side in (-1, 1):

@@ -6,19 +6,33 @@
 
 #include <morula/particles/tissue.h>
 
+#include <vector>
+
 namespace Morula
 {
+  /** In this time, day, a cell moves by a part of what evens its surroundings
+   *  out, if it spreads fully. */
+  constexpr double spreading_time = 0.125;
+
   /**
    * Moves cells from where their volumes overlap to where they leave gaps,
-   * inside their body's surface, as far as growth is uneven among the cells
-   * that share splines: doc/theory.md (6.9e). Volumes, strains and the surface
-   * stay, and so do cells that are several points. Collective.
+   * inside their body's surface: doc/theory.md (6.9e). Volumes, strains and the
+   * surface stay, and so do cells that are several points. Collective.
    *
-   * @param dt length of the step, day
+   * @param dt    length of the step, day
+   * @param parts of each cell of this rank, from 0, where it stays, to 1
    */
   template <int dim>
   void
-  spread_cells(Tissue<dim> &tissue, const double dt);
+  spread_cells(Tissue<dim>               &tissue,
+               const double               dt,
+               const std::vector<double> &parts);
+
+  /** Spreads cells as far as growth is uneven among those that share splines.
+   *  Collective. */
+  template <int dim>
+  void
+  spread_uneven_growth(Tissue<dim> &tissue, const double dt);
 } // namespace Morula
 
 #endif

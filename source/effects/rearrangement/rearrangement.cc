@@ -6,10 +6,12 @@
 #include <morula/effects/rearrangement/places_of_tissue.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/mechanics/material.h>
+#include <morula/particles/even_spread.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -130,8 +132,8 @@ namespace Morula
   Rearrangement<dim>::seconds_per_cell() const
   {
     // Besides the neighbours it takes the places' edges, the attempts, here
-    // about one a cell, and the move.
-    constexpr double exchange = 3e-6;
+    // about one a cell, the move, and the spreading.
+    constexpr double exchange = dim == 2 ? 3e-6 : 6e-6;
     return neighbours.seconds_per_cell(dim) + exchange;
   }
 
@@ -280,6 +282,27 @@ namespace Morula
         }
     tissue.move(positions, tissue.boundary_points().positions());
     tell(moment, around.places, rounds.occupants(), n_exchanges, comm);
+    spread(tissue, moment);
+  }
+
+
+  template <int dim>
+  void
+  Rearrangement<dim>::spread(Tissue<dim>            &tissue,
+                             const MomentOfRun<dim> &moment) const
+  {
+    // Flow draws places apart one way and together another; cells that find new
+    // places do not hold them there. At a surface the images stand for the
+    // tissue beyond: without one cells would be driven out.
+    if (Utilities::MPI::sum(tissue.boundary_points().size(),
+                            tissue.communicator()) == 0)
+      return;
+    const double        area = std::pow(mean_cell_volume(tissue), 2. / dim);
+    std::vector<double> parts;
+    for (const Occupant &cell : cells_of(tissue, moment.reader))
+      parts.push_back(
+        std::min(1., 2. * dim * cell.diffusion * spreading_time / area));
+    spread_cells(tissue, moment.dt, parts);
   }
 
 

@@ -86,6 +86,10 @@ namespace Morula
          const double                 n_exchanges,
          const MPI_Comm               comm) const;
 
+    /** Evens the places out as fast as cells exchange them. Collective. */
+    void
+    spread(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
+
     const Expression      diffusion, drive;
     const AdhesionEnergy  energy;
     const double          shear_released;

@@ -255,7 +255,8 @@ class Directories(ProgramTest):
 
     def test_temporary_files(self):
         """Two runs at once without mpiexec leave nothing behind: MPI starts no
-        daemon for them, which would make directories."""
+        daemon for them, which would make directories. Open MPI 5 makes one that
+        both use, and it may stay, empty, where they end at once."""
         temporary = self.work / "tmp"
         temporary.mkdir()
         runs = [subprocess.Popen(
@@ -264,7 +265,14 @@ class Directories(ProgramTest):
             env={**os.environ, "TMPDIR": str(temporary)},
             stdout=subprocess.DEVNULL) for name in ("one", "other")]
         self.assertEqual([run.wait(PATIENCE) for run in runs], [0, 0])
-        self.assertEqual(list(temporary.iterdir()), [])
+        version = subprocess.run(["ompi_info", "--version"], check=True,
+                                 capture_output=True, text=True).stdout
+        left = list(temporary.rglob("*"))
+        if "Open MPI v5" in version:
+            self.assertLessEqual(len(left), 1)
+            self.assertFalse([path for path in left if not path.is_dir()])
+        else:
+            self.assertEqual(left, [])
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/near_tree.h>
+#include <morula/grid/particle_domain.h>
 #include <morula/grid/parting.h>
+#include <morula/grid/point_bins.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,29 +43,42 @@ namespace Morula
      *  point to point. */
     constexpr double beside_chain = 1.5;
 
-    /** Whether the segment from @p x to @p y crosses a patch, which is one of
-     *  those @p near the segment. */
+    /** A patch near a cell, and how far in front of it the cell's middle is,
+     *  µm. */
+    struct NearPatch
+    {
+      unsigned int patch;
+      double       height;
+    };
+
+    /** Whether the segment from @p x to @p y crosses a patch: one of those
+     *  @p near x, which are all that it can cross. */
     template <int dim>
     bool
     crosses(const Point<dim>                    &x,
             const Point<dim>                    &y,
-            const PartedPatch<dim>              &patch,
-            const std::vector<unsigned int>     &near,
+            const std::vector<NearPatch>        &near,
             const std::vector<PartedPatch<dim>> &patches)
     {
-      const double from = (x - patch.x) * patch.n, to = (y - patch.x) * patch.n;
-      if ((from < 0.) == (to < 0.))
-        return false;
-      const Point<dim> at      = x + from / (from - to) * (y - x);
-      const auto       away_of = [&at](const PartedPatch<dim> &one) {
-        return at.distance(one.x) / one.spacing;
-      };
-      const double away = away_of(patch);
-      return away <= half_patch<dim> ||
-             (away <= farthest_patch<dim> &&
-              std::all_of(near.begin(), near.end(), [&](const unsigned int i) {
-                return away <= about_nearest * away_of(patches[i]);
-              }));
+      for (const NearPatch &one : near)
+        {
+          const PartedPatch<dim> &patch = patches[one.patch];
+          const double from = one.height, to = (y - patch.x) * patch.n;
+          if ((from < 0.) == (to < 0.))
+            continue;
+          const Point<dim> at      = x + from / (from - to) * (y - x);
+          const auto       away_of = [&at](const PartedPatch<dim> &other) {
+            return at.distance(other.x) / other.spacing;
+          };
+          const double away = away_of(patch);
+          if (away <= half_patch<dim> ||
+              (away <= farthest_patch<dim> &&
+               std::all_of(near.begin(), near.end(), [&](const NearPatch &i) {
+                 return away <= about_nearest * away_of(patches[i.patch]);
+               })))
+            return true;
+        }
+      return false;
     }
   } // namespace
 
@@ -85,24 +99,24 @@ namespace Morula
     for (const PartedPatch<dim> &patch : patches)
       patches_at.emplace(patch.id, patch.x);
     marks.assign(cells.size(), 0);
-    bond(cells, patches);
-    find_owners(cells, patches);
+    bond(box, cells, patches);
+    find_owners(box, cells, patches);
     find_parts(box, cells, patches);
   }
 
 
   template <int dim>
   void
-  Parting<dim>::bond(const std::vector<PartedCell<dim>>  &cells,
+  Parting<dim>::bond(const GridBox<dim>                  &box,
+                     const std::vector<PartedCell<dim>>  &cells,
                      const std::vector<PartedPatch<dim>> &patches)
   {
     // Cells are neighbours by their distance in units of their own boxes, so
     // that flat and long ones keep theirs. A bond between neighbours is cut by
-    // any patch that its segment crosses, whichever side's it is. Patches that
-    // can be crossed lie within half the segment's length and half a patch of
-    // its middle. A single bond that slips through between irregular patches
-    // would weld two surfaces. So a bond is also cut if the surfaces above its
-    // two cells face each other and each cell is beyond that of the other.
+    // any patch that its segment crosses, whichever side's it is. A single bond
+    // that slips through between irregular patches would weld two surfaces. So
+    // a bond is also cut if the surfaces above its two cells face each other
+    // and each cell is beyond that of the other.
     std::vector<Point<dim>> places_of_patches;
     double                  widest = 0.;
     for (const PartedPatch<dim> &patch : patches)
@@ -110,36 +124,31 @@ namespace Morula
         places_of_patches.push_back(patch.x);
         widest = std::max(widest, patch.spacing);
       }
-    const NearTree<dim> tree(positions), tree_of_patches(places_of_patches);
-    const auto          is_near = [](const PartedCell<dim> &cell,
+    const PointBins<dim> bins(box, positions),
+      bins_of_patches(box, places_of_patches);
+    const auto is_near = [](const PartedCell<dim> &cell,
                             const Tensor<1, dim>  &distance) {
       return (cell.from_edges * distance).norm() <= longest_bond;
     };
-    // Patches around a cell are found once for all of its bonds.
-    const double wide   = farthest_patch<dim> * widest;
-    const auto   is_cut = [&](const Point<dim>                &x,
-                            const Point<dim>                &y,
-                            const std::vector<unsigned int> &around) {
-      const Point<dim>          middle = x + 0.5 * (y - x);
-      std::vector<unsigned int> near;
-      for (const unsigned int i : around)
-        if (middle.distance(patches[i].x) <= 0.5 * x.distance(y) + wide)
-          near.push_back(i);
-      return std::any_of(near.begin(), near.end(), [&](const unsigned int i) {
-        return crosses(x, y, patches[i], near, patches);
-      });
-    };
-    // The nearest patch in front of each cell, if it is near.
+    // The nearest patch in front of each cell, if it is near; of several the
+    // first.
     constexpr unsigned int    none = numbers::invalid_unsigned_int;
     std::vector<unsigned int> above(cells.size(), none);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      for (const unsigned int i :
-           tree_of_patches.within(cells[p].x, near_surface * lengths[p]))
-        if ((cells[p].x - patches[i].x) * patches[i].n < 0. &&
-            (above[p] == none ||
-             cells[p].x.distance_square(patches[i].x) <
-               cells[p].x.distance_square(patches[above[p]].x)))
-          above[p] = i;
+      {
+        double nearest = 0.;
+        bins_of_patches.visit_within(
+          positions[p], near_surface * lengths[p], [&](const unsigned int i) {
+            const double distance = positions[p].distance_square(patches[i].x);
+            if ((positions[p] - patches[i].x) * patches[i].n < 0. &&
+                (above[p] == none || distance < nearest ||
+                 (distance == nearest && i < above[p])))
+              {
+                above[p] = i;
+                nearest  = distance;
+              }
+          });
+      }
     const auto is_across = [&](const unsigned int p, const unsigned int q) {
       if (above[p] == none || above[q] == none)
         return false;
@@ -149,24 +158,31 @@ namespace Morula
              (cells[p].x - b.x) * b.n > 0.;
     };
     bonds.resize(cells.size());
+    std::vector<NearPatch> around;
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         // The smaller of the two relative distances counts. The search is as
-        // wide as the cell's own box reaches; the partner looks, too.
+        // wide as the cell's own box reaches; the partner looks, too. All
+        // patches that a bond can cross are found once for the cell.
         const double farthest =
-          longest_bond * invert(cells[p].from_edges).norm();
-        const auto around = tree_of_patches.within(cells[p].x, farthest + wide);
-        for (const unsigned int q : tree.within(cells[p].x, farthest))
-          {
-            const Tensor<1, dim> distance = cells[q].x - cells[p].x;
-            if (q == p || cells[q].body != cells[p].body ||
-                !is_near(cells[p], distance) ||
-                (q < p && is_near(cells[q], distance)) || is_across(p, q) ||
-                is_cut(cells[p].x, cells[q].x, around))
-              continue;
-            bonds[p].push_back(q);
-            bonds[q].push_back(p);
-          }
+          longest_bond * largest_stretch_bound(invert(cells[p].from_edges));
+        around.clear();
+        bins_of_patches.visit_within(
+          positions[p],
+          farthest + farthest_patch<dim> * widest,
+          [&](const unsigned int i) {
+            around.push_back({i, (positions[p] - patches[i].x) * patches[i].n});
+          });
+        bins.visit_within(positions[p], farthest, [&](const unsigned int q) {
+          const Tensor<1, dim> distance = cells[q].x - cells[p].x;
+          if (q == p || cells[q].body != cells[p].body ||
+              !is_near(cells[p], distance) ||
+              (q < p && is_near(cells[q], distance)) || is_across(p, q) ||
+              crosses(cells[p].x, cells[q].x, around, patches))
+            return;
+          bonds[p].push_back(q);
+          bonds[q].push_back(p);
+        });
       }
     for (std::vector<unsigned int> &list : bonds)
       std::sort(list.begin(), list.end());
@@ -175,14 +191,15 @@ namespace Morula
 
   template <int dim>
   void
-  Parting<dim>::find_owners(const std::vector<PartedCell<dim>>  &cells,
+  Parting<dim>::find_owners(const GridBox<dim>                  &box,
+                            const std::vector<PartedCell<dim>>  &cells,
                             const std::vector<PartedPatch<dim>> &patches)
   {
     // The nearest cell alone would often be one across the gap. The search
     // grows until it finds a cell of the patch's body behind it.
     if (cells.empty())
       return;
-    const NearTree<dim> tree(positions);
+    const PointBins<dim> bins(box, positions);
     for (const PartedPatch<dim> &patch : patches)
       {
         unsigned int owner   = cells.size();
@@ -190,16 +207,18 @@ namespace Morula
         for (double reach = 2. * patch.spacing;
              owner == cells.size() && reach < 100. * patch.spacing;
              reach *= 2.)
-          for (const unsigned int p : tree.within(patch.x, reach))
-            {
-              const Tensor<1, dim> distance = cells[p].x - patch.x;
-              if (cells[p].body == patch.body && distance * patch.n < 0. &&
-                  (owner == cells.size() || distance.norm() < nearest))
-                {
-                  owner   = p;
-                  nearest = distance.norm();
-                }
-            }
+          bins.visit_within(patch.x, reach, [&](const unsigned int p) {
+            const Tensor<1, dim> distance = cells[p].x - patch.x;
+            if (cells[p].body != patch.body || distance * patch.n >= 0.)
+              return;
+            const double length = distance.norm();
+            if (owner == cells.size() || length < nearest ||
+                (length == nearest && p < owner))
+              {
+                owner   = p;
+                nearest = length;
+              }
+          });
         if (owner < cells.size())
           owners.emplace(patch.id, owner);
       }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/grid/point_bins.h>
 #include <morula/particles/even_spread.h>
-#include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_around.h>
 #include <morula/particles/uneven_growth.h>

@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/send_records.h>
+#include <morula/grid/point_bins.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/neighbours.h>
-#include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_around.h>
 #include <morula/particles/voronoi_facets.h>

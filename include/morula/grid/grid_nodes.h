@@ -87,7 +87,7 @@ namespace Morula
                  const types::particle_index id) const
     {
       return node(index,
-                  is_trivial() ?
+                  is_trivial() || !near_contest[boxes.number(index)] ?
                     0 :
                     parting_.part_of_cell(id, whole.number(index)));
     }

@@ -129,10 +129,12 @@ namespace Morula
     using Parts = std::vector<GridCellPart>;
 
     void
-    bond(const std::vector<PartedCell<dim>>  &cells,
+    bond(const GridBox<dim>                  &box,
+         const std::vector<PartedCell<dim>>  &cells,
          const std::vector<PartedPatch<dim>> &patches);
     void
-    find_owners(const std::vector<PartedCell<dim>>  &cells,
+    find_owners(const GridBox<dim>                  &box,
+                const std::vector<PartedCell<dim>>  &cells,
                 const std::vector<PartedPatch<dim>> &patches);
     void
     find_parts(const GridBox<dim>                  &box,

@@ -27,9 +27,10 @@ namespace Morula
      *  fold may topple, which says nothing of where the surface is. */
     constexpr double largest_turn = 0.5;
 
-    /** So much of an overlap that no pressure has made is let go in a step, in
-     *  units of h: as much as facetted surfaces make gaps scatter. */
-    constexpr double let_go = 0.005;
+    /** Of an overlap that no pressure has made a half is let go in a step, but
+     *  not less and not more than this, in units of h: facetted surfaces make
+     *  gaps scatter as much, and more would be a blow. */
+    constexpr double least_let_go = 0.005, most_let_go = 0.02;
 
     /** The kernel ω, whose integral along the surface is 1: doc/theory.md
      *  (4.8k). */
@@ -70,9 +71,13 @@ namespace Morula
         const double expected =
           0.5 * (points.points()[b].pressure + points.points()[c].pressure) /
           law.kappa;
-        slacks.push_back(std::max(0.,
-                                  -first_gaps.back() - expected -
-                                    std::max(let_go * law.h, 0.5 * expected)));
+        const double overlap = -first_gaps.back();
+        slacks.push_back(
+          std::max(0.,
+                   overlap - expected -
+                     std::max({least_let_go * law.h,
+                               0.5 * expected,
+                               std::min(0.5 * overlap, most_let_go * law.h)})));
       }
     pairs  = pairs_at(at_rest, true);
     links_ = link(pairs);

@@ -3,8 +3,8 @@
 
 #include <morula/base/send_records.h>
 #include <morula/effects/contact/contact_points.h>
+#include <morula/grid/point_bins.h>
 #include <morula/particles/nearest.h>
-#include <morula/particles/point_bins.h>
 
 #include <deal.II/base/mpi.h>
 

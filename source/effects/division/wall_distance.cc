@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/wall_distance.h>
-#include <morula/particles/point_bins.h>
+#include <morula/grid/point_bins.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/point_bins.h>
+#include <morula/grid/point_bins.h>
 
 #include <gtest/gtest.h>
 

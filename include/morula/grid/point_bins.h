@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_particles_point_bins_h
-#define morula_particles_point_bins_h
+#ifndef morula_grid_point_bins_h
+#define morula_grid_point_bins_h
 
 #include <morula/grid/grid_box.h>
 

@@ -115,8 +115,7 @@ namespace Morula
       for (const AnyKey *any : scene.list())
         if (const auto *const key = dynamic_cast<const ExpressionKey *>(any);
             key != nullptr && !key->empty() &&
-            key->evaluated() != Evaluated::founder &&
-            (!key->is_default() || key->differs_by_type()))
+            key->evaluated() != Evaluated::founder && key->is_changed())
           try
             {
               const Expression  &expression = key->expression(scene.dimension);

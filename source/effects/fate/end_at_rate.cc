@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/end_at_rate.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 
@@ -57,6 +58,7 @@ namespace Morula
                                                  AtDivision::reset,
                                                  words.in_tables}))
     , random_seed(setting.random_seed)
+    , nobody(words.nobody)
   {}
 
 
@@ -155,6 +157,14 @@ namespace Morula
     tables.add_count("deaths", CellEvent::death);
     tables.add_count("removed", CellEvent::removal);
     tables.add_number("pieces");
+  }
+
+
+  template <int dim>
+  void
+  EndAtRate<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    review_rate(hazard.rate(), nobody, scene, review);
   }
 
 

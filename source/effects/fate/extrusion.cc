@@ -60,7 +60,10 @@ namespace Morula
                             const EffectSetting<dim> &setting)
     : EndAtRate<dim>(parameters.rate,
                      setting,
-                     {"extrusion", "when the cell leaves; -1: not yet", false})
+                     {"extrusion",
+                      "when the cell leaves; -1: not yet",
+                      "no cell leaves by it.",
+                      false})
   {}
 
 

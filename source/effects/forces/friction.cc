@@ -29,7 +29,7 @@ namespace Morula
   {
     // A type of cells may set the key in its own section and leave the scene's
     // at its default.
-    return !coefficient.is_default() || coefficient.differs_by_type();
+    return coefficient.is_changed();
   }
 
 

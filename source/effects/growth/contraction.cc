@@ -3,6 +3,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/contraction.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/mpi.h>
@@ -144,6 +145,15 @@ namespace Morula
           }
       }
     largest = Utilities::MPI::max(largest, scene.comm);
+    if (never_acts<dim>(
+          stretch,
+          [](const double gamma) { return gamma != 1.; },
+          AskedAt::all_moments,
+          scene))
+      review.warn(stretch.key(),
+                  stretch.text(),
+                  "it is 1 at all founders in all steps: no cell contracts.",
+                  "Correct it, or remove it.");
     // A change by 0.1 deforms like growth by the factor 1.1, the step that is
     // enough beside a clamp. The slack admits rounding in the differences.
     if (largest > 0.1 + 1e-9)

@@ -33,6 +33,9 @@ namespace Morula
     void
     check_with(const MaterialParameters &material) const override;
 
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
+
     std::string
     details() const override;
 
@@ -101,6 +104,9 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     double

@@ -54,10 +54,6 @@ namespace Morula
   public:
     using Parameters = DivisionBySizeParameters;
 
-    /** Name of the column: which part of a whole cell a founder is. Only where
-     *  the surface cuts founders. */
-    static constexpr const char *share_of_cell = "share_of_cell";
-
     /** Declares the columns. @throws InputError */
     DivisionBySize(const Parameters         &parameters,
                    const EffectSetting<dim> &setting);
@@ -108,6 +104,14 @@ namespace Morula
     bool
     stays_inside() const override;
 
+    /** A founder that the surface has cut counts as a whole cell here. */
+    double
+    expected_cells(const Point<dim> &X, const double V) const override;
+
+    double
+    expected_cells(const PresentCell<dim> &founder,
+                   const double            ratio) const override;
+
     void
     inherit(const CellView<dim, double> &daughter,
             const StateColumns<dim>     &columns,
@@ -118,6 +122,9 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     /** The grown volume at which a cell divides, µm^dim; infinity: it does not
@@ -143,7 +150,8 @@ namespace Morula
     Column<double>                           growth_rate;  // 1/day
     Column<double>                           time;         // day
     Column<Tensor<1, dim>>                   axis;
-    Column<double>                           share; // where founders are cut
+    /** Which part of a whole cell a founder is, where the surface cuts some. */
+    Column<double> share;
   };
 } // namespace Morula
 

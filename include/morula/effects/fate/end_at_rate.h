@@ -53,6 +53,9 @@ namespace Morula
     void
     declare(Tables<dim> &tables) const override;
 
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
   protected:
     /** The names and the meanings of the columns. */
     struct Words
@@ -61,6 +64,8 @@ namespace Morula
       std::string name;
       /** Of NAME_time. */
       std::string meaning;
+      /** What no cell does by a rate that is 0 everywhere, a sentence. */
+      std::string nobody;
       /** Whether NAME_time is written to the tables of cells. */
       bool in_tables;
     };
@@ -93,6 +98,7 @@ namespace Morula
     const CellHazard<dim> hazard;
     const Column<double>  time; // day
     const std::uint64_t   random_seed;
+    const std::string     nobody;
   };
 } // namespace Morula
 

@@ -153,6 +153,24 @@ namespace Morula
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const;
 
+    /** How many cells a founder at @p X (µm) becomes on average, if growth
+     *  takes the volume of all of them to @p V, µm^dim; 1 where place alone
+     *  does not tell. For estimates before there are cells. */
+    virtual double
+    expected_cells(const Point<dim> & /*X*/, const double /*V*/) const
+    {
+      return 1.;
+    }
+
+    /** The same of a founder in its state at t = 0, whose volume grows by the
+     *  factor `ratio`. */
+    virtual double
+    expected_cells(const PresentCell<dim> & /*founder*/,
+                   const double /*ratio*/) const
+    {
+      return 1.;
+    }
+
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */
     virtual bool

@@ -19,7 +19,7 @@ namespace Morula
     bool
     is_on() const override
     {
-      return !force_density.is_default() || force_density.differs_by_type();
+      return force_density.is_changed();
     }
     std::string
     details() const override
@@ -64,6 +64,10 @@ namespace Morula
     review(const Preview<dim> &scene, Review &review) const override;
 
   private:
+    /** Warns of a force that is far stronger than the tissue. Collective. */
+    void
+    review_strength(const Preview<dim> &scene, Review &review) const;
+
     const Expression density;
   };
 } // namespace Morula

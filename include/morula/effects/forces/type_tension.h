@@ -27,8 +27,14 @@ namespace Morula
     std::vector<std::vector<double>>
     matrix() const;
 
+    /** Whether some interface has a tension. */
+    bool
+    any() const;
+
     bool
     is_on() const override;
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
     std::string
     topic() const override
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/idle_rate.h>
 
 #include <deal.II/base/mpi.h>
@@ -119,20 +120,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                               \
-  template bool never_acts(const Expression &,                         \
-                           const std::function<bool(const double)> &,  \
-                           const AskedAt,                              \
-                           const Preview<dim> &);                      \
-  template void review_rate(const Expression &,                        \
-                            const std::string &,                       \
-                            const Preview<dim> &,                      \
-                            Review &);                                 \
-  template void review_growth(const std::vector<const Expression *> &, \
-                              const double,                            \
-                              const Preview<dim> &,                    \
-                              Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(never_acts);
+  MORULA_INSTANTIATE(review_rate);
+  MORULA_INSTANTIATE(review_growth);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/usual_numbers.h>
 
 #include <deal.II/base/mpi.h>
@@ -83,13 +84,6 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template ValueRange range_of(const ExpressionKey &,                 \
-                               const std::vector<Point<dim>> &,       \
-                               const MPI_Comm);                       \
-  template double     longest_extent(const std::vector<Point<dim>> &, \
-                                     const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(range_of);
+  MORULA_INSTANTIATE(longest_extent);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_bins.h>
 #include <morula/particles/point_exchange.h>
@@ -371,8 +372,5 @@ namespace Morula
     tissue.move(places, points.positions());
   }
 
-  template void
-  spread_cells(Tissue<2> &, const double);
-  template void
-  spread_cells(Tissue<3> &, const double);
+  MORULA_INSTANTIATE(spread_cells);
 } // namespace Morula

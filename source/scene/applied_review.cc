@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/review.h>
 #include <morula/effects/usual_numbers.h>
 #include <morula/scene/applied.h>
@@ -156,16 +157,5 @@ namespace Morula
   }
 
 
-  template void
-  review_applied(const Scene &,
-                 const std::vector<AppliedCondition> &,
-                 const std::vector<Point<2>> &,
-                 const MPI_Comm,
-                 std::vector<std::string> &);
-  template void
-  review_applied(const Scene &,
-                 const std::vector<AppliedCondition> &,
-                 const std::vector<Point<3>> &,
-                 const MPI_Comm,
-                 std::vector<std::string> &);
+  MORULA_INSTANTIATE(review_applied);
 } // namespace Morula

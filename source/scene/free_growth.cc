@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 #include <morula/scene/free_growth.h>
 
@@ -84,12 +85,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template std::optional<FreeGrowth> free_growth(const Scene &,               \
-                                                 const Founders<dim> &,       \
-                                                 const SurfacePatches<dim> &, \
-                                                 const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(free_growth);
 } // namespace Morula

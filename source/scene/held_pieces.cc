@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/review.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
@@ -453,12 +454,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                   \
-  template std::vector<HeldPiece> held_pieces(const Scene &,               \
-                                              const Founders<dim> &,       \
-                                              const SurfacePatches<dim> &, \
-                                              const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(held_pieces);
 } // namespace Morula

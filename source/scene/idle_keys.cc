@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/idle_keys.h>
 #include <morula/scene/seeded_tissue.h>
@@ -244,12 +245,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                \
-  template void review_idle_keys(const Scene &,         \
-                                 const Founders<dim> &, \
-                                 const MPI_Comm,        \
-                                 Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(review_idle_keys);
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/expected_cells.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
@@ -156,10 +157,7 @@ namespace Morula
   }
 
 
-  template SceneSize
-  expected_size(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
-  template SceneSize
-  expected_size(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
+  MORULA_INSTANTIATE(expected_size);
   template SeedingLimits<2>
   seeding_limits(const Scene &, const MPI_Comm);
   template SeedingLimits<3>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fields/field_review.h>
 #include <morula/effects/idle_rate.h>
 #include <morula/effects/rearrangement/rearrangement.h>
@@ -156,16 +157,5 @@ namespace Morula
   }
 
 
-  template std::vector<std::string>
-  scene_warnings(const Scene &,
-                 const Founders<2> &,
-                 const SurfacePatches<2> &,
-                 const ConditionCounts &,
-                 const MPI_Comm);
-  template std::vector<std::string>
-  scene_warnings(const Scene &,
-                 const Founders<3> &,
-                 const SurfacePatches<3> &,
-                 const ConditionCounts &,
-                 const MPI_Comm);
+  MORULA_INSTANTIATE(scene_warnings);
 } // namespace Morula

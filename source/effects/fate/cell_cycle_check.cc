@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/idle_rate.h>
@@ -230,6 +231,7 @@ namespace Morula
   }
 
 
+  MORULA_INSTANTIATE(review_cell_cycle);
 #define INSTANTIATE(dim)                                                      \
   template CellCycle<dim>::CellCycle(const CellCycleParameters &,             \
                                      const std::uint64_t,                     \
@@ -241,10 +243,7 @@ namespace Morula
   template void CellCycle<dim>::check(const std::vector<Point<dim>> &,        \
                                       const double) const;                    \
   template void CellCycle<dim>::check_cell(const CellAt<dim> &, const double) \
-    const;                                                                    \
-  template void review_cell_cycle(const CellCycleParameters &,                \
-                                  const Preview<dim> &,                       \
-                                  Review &);
+    const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

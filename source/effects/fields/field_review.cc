@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fields/field_review.h>
 
 #include <deal.II/base/mpi.h>
@@ -177,8 +178,5 @@ namespace Morula
   }
 
 
-  template void
-  review_fields(const FieldsParameters &, const Preview<2> &, Review &);
-  template void
-  review_fields(const FieldsParameters &, const Preview<3> &, Review &);
+  MORULA_INSTANTIATE(review_fields);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/contraction.h>
 #include <morula/effects/idle_rate.h>
@@ -167,10 +168,7 @@ namespace Morula
   }
 
 
-  template Tensor<2, 2>
-  active_strain(const Tensor<1, 2> &, const double, const bool);
-  template Tensor<2, 3>
-  active_strain(const Tensor<1, 3> &, const double, const bool);
+  MORULA_INSTANTIATE(active_strain);
   template class Contraction<2>;
   template class Contraction<3>;
 } // namespace Morula

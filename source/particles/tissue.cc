@@ -361,13 +361,6 @@ namespace Morula
   }
 
   template <int dim>
-  const BackgroundGrid<dim> &
-  Tissue<dim>::grid() const
-  {
-    return grid_;
-  }
-
-  template <int dim>
   const Cells<dim> &
   Tissue<dim>::cells() const
   {
@@ -388,13 +381,6 @@ namespace Morula
     return parameters.points_per_cell > 1 ?
              cell_domain<dim>(cells_.position(p), cells_[p]) :
              ParticleDomain<dim>(cells_.position(p), cells_.volume(p));
-  }
-
-  template <int dim>
-  MPI_Comm
-  Tissue<dim>::communicator() const
-  {
-    return grid_.communicator();
   }
 
   template <int dim>

@@ -89,9 +89,7 @@ namespace Morula
     virtual std::string
     how_to_switch_on() const
     {
-      return switch_key() == nullptr ?
-               "" :
-               "Say where it acts by " + switch_key()->path();
+      return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
     }
 
     /** Keys that nothing reads, as the values of others in @p dim dimensions

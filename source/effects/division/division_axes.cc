@@ -48,14 +48,6 @@ namespace Morula
 
 
   template <int dim>
-  const DivisionRules<dim> &
-  DivisionAxes<dim>::rules() const
-  {
-    return all;
-  }
-
-
-  template <int dim>
   Tensor<1, dim>
   DivisionAxes<dim>::choose(const PresentCell<dim> &cell, const double t) const
   {
@@ -92,14 +84,6 @@ namespace Morula
     else if (follows_rotation)
       now = cell.elastic_deformation() * axis;
     return now / now.norm();
-  }
-
-
-  template <int dim>
-  bool
-  DivisionAxes<dim>::stay_inside() const
-  {
-    return stay_inside_;
   }
 
 

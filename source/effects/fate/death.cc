@@ -51,22 +51,6 @@ namespace Morula
 
   template <int dim>
   bool
-  Death<dim>::is_dead(const CellView<dim, const double> &cell) const
-  {
-    return this->has_ended(cell);
-  }
-
-
-  template <int dim>
-  double
-  Death<dim>::threshold(const std::uint64_t seed, const std::uint64_t key) const
-  {
-    return Random::death_threshold(seed, key);
-  }
-
-
-  template <int dim>
-  bool
   Death<dim>::strikes(const PresentCell<dim> &cell, const double t) const
   {
     // The last member marks the event as a death by a condition, not by a rate.
@@ -158,23 +142,6 @@ namespace Morula
     // somewhere.
     return has_condition && !(shrinking_time.is_constant() &&
                               shrinking_time.number().value_or(0.) > 0.);
-  }
-
-
-  template <int dim>
-  bool
-  Death<dim>::shrinks(const CellView<dim, const double> &cell) const
-  {
-    return is_dead(cell) && cell.get(duration) > 0.;
-  }
-
-
-  template <int dim>
-  bool
-  Death<dim>::is_due_for_removal(const CellView<dim, const double> &cell,
-                                 const double                       t) const
-  {
-    return removal_time(cell) <= t + slack;
   }
 
 

@@ -66,49 +66,6 @@ namespace Morula
   }
 
 
-  bool
-  DivisionBySizeParameters::is_on() const
-  {
-    return !volume.expression(3).is_always(0.);
-  }
-
-
-  const AnyKey *
-  DivisionBySizeParameters::switch_key() const
-  {
-    return &volume;
-  }
-
-
-  std::string
-  DivisionBySizeParameters::how_to_switch_on() const
-  {
-    return "Set " + volume.path();
-  }
-
-
-  bool
-  DivisionBySizeParameters::divides_cells() const
-  {
-    return true;
-  }
-
-
-  std::string
-  DivisionBySizeParameters::details() const
-  {
-    return "volume = " + volume.text() +
-           " um^3 (2-D: um^2), noise = " + noise.text();
-  }
-
-
-  KeyList
-  DivisionBySizeParameters::list()
-  {
-    return {&volume, &noise};
-  }
-
-
   template <int dim>
   DivisionBySize<dim>::DivisionBySize(const Parameters         &parameters,
                                       const EffectSetting<dim> &setting)
@@ -165,14 +122,6 @@ namespace Morula
   DivisionBySize<dim>::division_rules() const
   {
     return axes ? &axes->rules() : nullptr;
-  }
-
-
-  template <int dim>
-  bool
-  DivisionBySize<dim>::follows_growth() const
-  {
-    return true;
   }
 
 
@@ -301,23 +250,6 @@ namespace Morula
   {
     const double t = cell.get(time);
     return t == undivided ? std::numeric_limits<double>::infinity() : t;
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  DivisionBySize<dim>::placement_axis(const CellView<dim, const double> &cell,
-                                      const unsigned int type) const
-  {
-    return axes ? axes->placement(cell, cell.get(axis), type) : cell.get(axis);
-  }
-
-
-  template <int dim>
-  bool
-  DivisionBySize<dim>::stays_inside() const
-  {
-    return axes && axes->stay_inside();
   }
 
 

@@ -118,23 +118,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  EndAtRate<dim>::is_deadly() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  double
-  EndAtRate<dim>::time_of_death(const CellView<dim, const double> &cell) const
-  {
-    return has_ended(cell) ? cell.get(time) :
-                             std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   std::vector<const Expression *>
   EndAtRate<dim>::rates(const unsigned int) const
   {

@@ -85,13 +85,6 @@ namespace Morula
   }
 
 
-  bool
-  TypeTensionParameters::is_on() const
-  {
-    return force && any();
-  }
-
-
   std::string
   TypeTensionParameters::details() const
   {

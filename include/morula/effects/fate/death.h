@@ -6,6 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/fate/end_at_rate.h>
+#include <morula/effects/fate/random.h>
 
 namespace Morula
 {
@@ -62,7 +63,10 @@ namespace Morula
 
     /** Whether the cell is dead, but still there. */
     bool
-    is_dead(const CellView<dim, const double> &cell) const;
+    is_dead(const CellView<dim, const double> &cell) const
+    {
+      return this->has_ended(cell);
+    }
 
     /** Whether the condition kills a living cell, at time @p t (day).
      *  @throws InputError */
@@ -93,10 +97,16 @@ namespace Morula
 
     bool
     is_due_for_removal(const CellView<dim, const double> &cell,
-                       const double                       t) const override;
+                       const double                       t) const override
+    {
+      return removal_time(cell) <= t + slack;
+    }
 
     bool
-    shrinks(const CellView<dim, const double> &cell) const override;
+    shrinks(const CellView<dim, const double> &cell) const override
+    {
+      return is_dead(cell) && cell.get(duration) > 0.;
+    }
 
     void
     declare(Tables<dim> &tables) const override;
@@ -110,7 +120,10 @@ namespace Morula
 
   private:
     double
-    threshold(const std::uint64_t seed, const std::uint64_t key) const override;
+    threshold(const std::uint64_t seed, const std::uint64_t key) const override
+    {
+      return Random::death_threshold(seed, key);
+    }
 
     /** Lets the cell die at @p t (day). Shrinking time, final volume and
      * whether debris stays are evaluated now. @throws InputError */

@@ -22,23 +22,36 @@ namespace Morula
     ExpressionKey noise;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !volume.expression(3).is_always(0.);
+    }
 
     const AnyKey *
-    switch_key() const override;
-
-    std::string
-    how_to_switch_on() const override;
+    switch_key() const override
+    {
+      return &volume;
+    }
 
     bool
-    divides_cells() const override;
+    divides_cells() const override
+    {
+      return true;
+    }
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "volume = " + volume.text() +
+             " um^3 (2-D: um^2), noise = " + noise.text();
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&volume, &noise};
+    }
   };
 
   /**
@@ -66,7 +79,10 @@ namespace Morula
     division_rules() const override;
 
     bool
-    follows_growth() const override;
+    follows_growth() const override
+    {
+      return true;
+    }
 
     void
     grow(const PresentCell<dim>      &before,
@@ -99,10 +115,17 @@ namespace Morula
 
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
-                   const unsigned int                 type) const override;
+                   const unsigned int                 type) const override
+    {
+      return axes ? axes->placement(cell, cell.get(axis), type) :
+                    cell.get(axis);
+    }
 
     bool
-    stays_inside() const override;
+    stays_inside() const override
+    {
+      return axes && axes->stay_inside();
+    }
 
     /** A founder that the surface has cut counts as a whole cell here. */
     double

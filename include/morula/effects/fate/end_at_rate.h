@@ -41,10 +41,17 @@ namespace Morula
            const bool                   is_whole) const override;
 
     bool
-    is_deadly() const override;
+    is_deadly() const override
+    {
+      return true;
+    }
 
     double
-    time_of_death(const CellView<dim, const double> &cell) const override;
+    time_of_death(const CellView<dim, const double> &cell) const override
+    {
+      return has_ended(cell) ? cell.get(time) :
+                               std::numeric_limits<double>::infinity();
+    }
 
     std::vector<const Expression *>
     rates(const unsigned int type) const override;

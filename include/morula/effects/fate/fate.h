@@ -143,8 +143,10 @@ namespace Morula
     /** When the cell divides by this fate, if at or before @p t; day; infinity:
      *  it does not. */
     virtual double
-    time_of_division(const CellView<dim, const double> &cell,
-                     const double                       t) const;
+    time_of_division(const CellView<dim, const double> &, const double) const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
 
     /** Unit direction along which the daughters of a cell that divides by this
      *  fate are placed, in the present configuration.

@@ -32,7 +32,10 @@ namespace Morula
     any() const;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return force && any();
+    }
     std::vector<IdleKey>
     idle_keys(const unsigned int dim) const override;
     std::string

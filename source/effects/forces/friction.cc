@@ -68,7 +68,7 @@ namespace Morula
     // rigid motion against it is not taken out of the step.
     std::vector<double> list;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      list.push_back(present_cell(tissue, p, reader).value(coefficient, t0));
+      list.push_back(*friction_of(present_cell(tissue, p, reader), t0));
     return list;
   }
 

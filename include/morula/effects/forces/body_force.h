@@ -53,6 +53,12 @@ namespace Morula
          const double              t0,
          const double              t1) const override;
 
+    std::optional<Tensor<1, dim>>
+    load_of(const PresentCell<dim> &cell, const double t) const override
+    {
+      return cell.vector(density, t);
+    }
+
     void
     check(const Preview<dim> &scene) const override;
 

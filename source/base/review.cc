@@ -14,4 +14,17 @@ namespace Morula
     warnings.push_back("Warning: " + key + " = '" + value + "': " + why + ' ' +
                        remedy);
   }
+
+
+  void
+  Review::warn_of_idle(const AnyKey      &key,
+                       const std::string &why,
+                       const std::string &remedy)
+  {
+    if (is_given(key))
+      warn(key.path(),
+           key.text(),
+           "it does nothing here: " + why + '.',
+           remedy);
+  }
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/unit_vector.h>
 
 #include <boost/algorithm/string.hpp>
@@ -55,8 +56,5 @@ namespace Morula
   }
 
 
-  template Tensor<1, 2>
-  unit_vector<2>(const std::string &, const std::string &);
-  template Tensor<1, 3>
-  unit_vector<3>(const std::string &, const std::string &);
+  MORULA_INSTANTIATE(unit_vector);
 } // namespace Morula

@@ -100,6 +100,16 @@ namespace Morula
   }
 
 
+  std::vector<const EffectKeys *>
+  Catalogue::all_keys() const
+  {
+    std::vector<const EffectKeys *> list;
+    const_cast<Catalogue *>(this)->for_each(
+      [&list](const auto &choice) { list.push_back(&choice.keys()); });
+    return list;
+  }
+
+
   Catalogue
   Catalogue::with_defaults() const
   {

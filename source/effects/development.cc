@@ -11,14 +11,6 @@ namespace Morula
 {
   template <int dim>
   bool
-  DevelopmentEffects<dim>::law_follows_state() const
-  {
-    return law && law->follows_state();
-  }
-
-
-  template <int dim>
-  bool
   DevelopmentEffects<dim>::states_error() const
   {
     return law_follows_state() ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/elastic_volumes.h>
 #include <morula/effects/step_points.h>
 #include <morula/mechanics/vectorized_internal_force.h>
@@ -135,15 +136,5 @@ namespace Morula
     return ratios;
   }
 
-#define INSTANTIATE(dim)                        \
-  template std::vector<double> elastic_volumes( \
-    const Tissue<dim> &,                        \
-    const SplineSpace<dim> &,                   \
-    const DevelopmentOfStep<dim> &,             \
-    const TissueMaterial &,                     \
-    const std::string &,                        \
-    const DisplacementField<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(elastic_volumes);
 } // namespace Morula

@@ -159,14 +159,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::vector<unsigned int> &
-  NeighbourHistories<dim>::to_live_again() const
-  {
-    return again;
-  }
-
-
-  template <int dim>
   TypesAround<dim>
   NeighbourHistories<dim>::around(const unsigned int p) const
   {

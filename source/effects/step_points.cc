@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/step_points.h>
 #include <morula/particles/point_exchange.h>
 
@@ -243,14 +244,6 @@ namespace Morula
     return points;
   }
 
-#define INSTANTIATE(dim)                                                       \
-  template MaterialPoints<dim> material_points(const Tissue<dim> &,            \
-                                               const SplineSpace<dim> &,       \
-                                               const DevelopmentOfStep<dim> &, \
-                                               const TissueMaterial &);        \
-  template GroupedPoints<dim>  cell_positions(const Tissue<dim> &,             \
-                                              const SplineSpace<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(material_points);
+  MORULA_INSTANTIATE(cell_positions);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/bspline.h>
 #include <morula/grid/classification.h>
 
@@ -71,8 +72,5 @@ namespace Morula
     return classes;
   }
 
-  template std::vector<GridCellClass>
-  classify(const Occupancy<2> &, const double);
-  template std::vector<GridCellClass>
-  classify(const Occupancy<3> &, const double);
+  MORULA_INSTANTIATE(classify);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/grid_cell_counts.h>
 
 #include <deal.II/base/mpi.h>
@@ -62,14 +63,5 @@ namespace Morula
     return merged(std::move(own));
   }
 
-  template GridCellCounts
-  sum_at_owners(const GridCellCounts &,
-                const GridBox<2> &,
-                const GridOwners<2> &,
-                const MPI_Comm);
-  template GridCellCounts
-  sum_at_owners(const GridCellCounts &,
-                const GridBox<3> &,
-                const GridOwners<3> &,
-                const MPI_Comm);
+  MORULA_INSTANTIATE(sum_at_owners);
 } // namespace Morula

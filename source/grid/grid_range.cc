@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/grid_range.h>
 
 #include <algorithm>
@@ -135,11 +136,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                          \
-  template struct GridRange<dim>;                 \
-  template std::vector<GridRange<dim>> separated( \
-    const std::vector<GridRange<dim>> &, int);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(separated);
+  template struct GridRange<2>;
+  template struct GridRange<3>;
 } // namespace Morula

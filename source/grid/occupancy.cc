@@ -90,13 +90,6 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  Occupancy<dim>::subdivides() const
-  {
-    return subdivides_;
-  }
-
-  template <int dim>
   void
   Occupancy<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
   {
@@ -156,34 +149,6 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  Occupancy<dim>::fill(const unsigned int number) const
-  {
-    return contents.volume(number) / GridCellContents<dim>::resolution;
-  }
-
-  template <int dim>
-  double
-  Occupancy<dim>::thickness(const unsigned int number) const
-  {
-    return rows.thickness(number, contents) * boxes().spacing();
-  }
-
-  template <int dim>
-  bool
-  Occupancy<dim>::is_thin(const unsigned int number) const
-  {
-    return rows.is_thin(number, contents);
-  }
-
-  template <int dim>
-  bool
-  Occupancy<dim>::is_inner_candidate(const unsigned int number) const
-  {
-    return rows.is_inner_candidate(number);
-  }
-
-  template <int dim>
   std::pair<Point<dim>, Point<dim>>
   Occupancy<dim>::bounds(const unsigned int number) const
   {
@@ -199,20 +164,6 @@ namespace Morula
   }
 
   template <int dim>
-  std::uint64_t
-  Occupancy<dim>::n_particles(const unsigned int number) const
-  {
-    return contents.n_particles(number);
-  }
-
-  template <int dim>
-  unsigned int
-  Occupancy<dim>::n_quadrature_points(const unsigned int number) const
-  {
-    return contents.n_quadrature_points(number);
-  }
-
-  template <int dim>
   bool
   Occupancy<dim>::crowded(const Point<dim> &x) const
   {
@@ -221,13 +172,6 @@ namespace Morula
     return whole.contains(index) && std::binary_search(crowded_.begin(),
                                                        crowded_.end(),
                                                        whole.number(index));
-  }
-
-  template <int dim>
-  bool
-  Occupancy<dim>::active(const unsigned int number) const
-  {
-    return contents.active(number);
   }
 
   template <int dim>
@@ -242,20 +186,6 @@ namespace Morula
   Occupancy<dim>::window() const
   {
     return contents.window();
-  }
-
-  template <int dim>
-  const GridNodes<dim> &
-  Occupancy<dim>::nodes() const
-  {
-    return contents.nodes();
-  }
-
-  template <int dim>
-  const std::vector<unsigned int> &
-  Occupancy<dim>::own() const
-  {
-    return contents.own();
   }
 
   template class Occupancy<2>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/grid/piece_watch.h>
 
@@ -203,8 +204,5 @@ namespace Morula
 
   template class PieceWatch<2>;
   template class PieceWatch<3>;
-  template unsigned int
-  pieces_with_cells(const SplineSpace<2> &, const MPI_Comm);
-  template unsigned int
-  pieces_with_cells(const SplineSpace<3> &, const MPI_Comm);
+  MORULA_INSTANTIATE(pieces_with_cells);
 } // namespace Morula

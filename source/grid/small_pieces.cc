@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/small_pieces.h>
 
 #include <deal.II/base/mpi.h>
@@ -125,14 +126,5 @@ namespace Morula
 
   template struct PiecePolynomial<2>;
   template struct PiecePolynomial<3>;
-  template std::map<unsigned int, PiecePolynomial<2>>
-  find_small_pieces(const Occupancy<2> &,
-                    const std::vector<GridCellClass> &,
-                    const SplineCopies<2> &,
-                    const MPI_Comm);
-  template std::map<unsigned int, PiecePolynomial<3>>
-  find_small_pieces(const Occupancy<3> &,
-                    const std::vector<GridCellClass> &,
-                    const SplineCopies<3> &,
-                    const MPI_Comm);
+  MORULA_INSTANTIATE(find_small_pieces);
 } // namespace Morula

@@ -398,13 +398,6 @@ namespace Morula
 
   template <int dim>
   unsigned int
-  SplineCopies<dim>::place(const unsigned int copy) const
-  {
-    return copy - first[copies[copy].spline];
-  }
-
-  template <int dim>
-  unsigned int
   SplineCopies<dim>::copy_at(const GridIndex<dim> &spline,
                              const unsigned int    place) const
   {
@@ -421,20 +414,6 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  SplineCopies<dim>::is_own(const SplineCopy &copy) const
-  {
-    return own[copy.spline];
-  }
-
-  template <int dim>
-  const std::vector<unsigned int> &
-  SplineCopies<dim>::own_nodes() const
-  {
-    return own_active;
-  }
-
-  template <int dim>
   unsigned int
   SplineCopies<dim>::piece(const unsigned int node) const
   {
@@ -446,13 +425,6 @@ namespace Morula
   SplineCopies<dim>::n_pieces() const
   {
     return lowest.size();
-  }
-
-  template <int dim>
-  unsigned int
-  SplineCopies<dim>::lowest_grid_cell(const unsigned int piece) const
-  {
-    return grid_cell_of(lowest[piece]);
   }
 
   template class SplineCopies<2>;

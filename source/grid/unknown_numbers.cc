@@ -153,27 +153,6 @@ namespace Morula
     return numbers[copy];
   }
 
-  template <int dim>
-  unsigned int
-  UnknownNumbers<dim>::n() const
-  {
-    return owned_.size();
-  }
-
-  template <int dim>
-  const IndexSet &
-  UnknownNumbers<dim>::owned() const
-  {
-    return owned_;
-  }
-
-  template <int dim>
-  const std::vector<unsigned int> &
-  UnknownNumbers<dim>::pieces() const
-  {
-    return pieces_;
-  }
-
   template class UnknownNumbers<2>;
   template class UnknownNumbers<3>;
 } // namespace Morula

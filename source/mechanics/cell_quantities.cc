@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/cell_quantities.h>
 #include <morula/mechanics/elastic_point.h>
 
@@ -80,22 +81,6 @@ namespace Morula
     return q;
   }
 
-  template CellScalars
-  cell_scalars<2>(const CellView<2, const double> &,
-                  const Material &,
-                  const Lame &);
-  template CellScalars
-  cell_scalars<3>(const CellView<3, const double> &,
-                  const Material &,
-                  const Lame &);
-  template CellQuantities
-  cell_quantities<2>(const CellView<2, const double> &,
-                     const Material &,
-                     const Lame &,
-                     const bool);
-  template CellQuantities
-  cell_quantities<3>(const CellView<3, const double> &,
-                     const Material &,
-                     const Lame &,
-                     const bool);
+  MORULA_INSTANTIATE(cell_scalars);
+  MORULA_INSTANTIATE(cell_quantities);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/field_unknowns.h>
 
 #include <algorithm>
@@ -169,14 +170,5 @@ namespace Morula
   template class FieldUnknowns<3, 1>;
   template class FieldUnknowns<3, 2>;
   template class FieldUnknowns<3, 3>;
-  template std::vector<double>
-  affine_displacement(const SplineSpace<2> &,
-                      const unsigned int,
-                      const Tensor<1, 2> &,
-                      const Tensor<2, 2> &);
-  template std::vector<double>
-  affine_displacement(const SplineSpace<3> &,
-                      const unsigned int,
-                      const Tensor<1, 3> &,
-                      const Tensor<2, 3> &);
+  MORULA_INSTANTIATE(affine_displacement);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/held_motion.h>
 
@@ -231,13 +232,5 @@ namespace Morula
     return FieldUnknowns<dim>(space, comm).vector(coefficients);
   }
 
-#define INSTANTIATE(dim)                                   \
-  template std::optional<Equilibrium::Vector> rigid_start( \
-    const SplineSpace<dim> &,                              \
-    const RigidModes<dim> &,                               \
-    const std::vector<HeldPoint<dim>> &,                   \
-    const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(rigid_start);
 } // namespace Morula

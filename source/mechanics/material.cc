@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/material.h>
 
 #include <limits>
@@ -142,8 +143,5 @@ namespace Morula
   }
 
 
-  template void
-  require_elastic(const MaterialParameters &, const Point<2> &);
-  template void
-  require_elastic(const MaterialParameters &, const Point<3> &);
+  MORULA_INSTANTIATE(require_elastic);
 } // namespace Morula

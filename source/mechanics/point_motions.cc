@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/point_motions.h>
 
@@ -78,15 +79,7 @@ namespace Morula
     return motions;
   }
 
-#define INSTANTIATE(dim)                                                         \
-  template void        find_motions_plainly<dim>(const KernelInput &, double *); \
-  template FindMotions motion_kernel<dim>(const Material &,                      \
-                                          const std::string &);                  \
-  template std::vector<PointMotion<dim>> point_motions(                          \
-    const PointStore<dim> &,                                                     \
-    const DisplacementField<dim> &,                                              \
-    const FindMotions);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(find_motions_plainly);
+  MORULA_INSTANTIATE(motion_kernel);
+  MORULA_INSTANTIATE(point_motions);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/relaxation.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -232,20 +233,6 @@ namespace Morula
   }
 
 
-  template double
-  von_mises_stress(const Tensor<2, 2> &, const Lame &, const Material &);
-  template double
-  von_mises_stress(const Tensor<2, 3> &, const Lame &, const Material &);
-  template SymmetricTensor<2, 2>
-  flow_of_step(const Tensor<2, 2> &,
-               const Lame &,
-               const Material &,
-               const FlowLaw &,
-               const double);
-  template SymmetricTensor<2, 3>
-  flow_of_step(const Tensor<2, 3> &,
-               const Lame &,
-               const Material &,
-               const FlowLaw &,
-               const double);
+  MORULA_INSTANTIATE(von_mises_stress);
+  MORULA_INSTANTIATE(flow_of_step);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/spline_moments.h>
 
 #include <algorithm>
@@ -272,16 +273,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template void                add_matrix(const MatrixMoments<dim> &, \
-                                          const double,               \
-                                          const bool,                 \
-                                          std::vector<double> &);     \
-  template std::vector<double> mass_matrix(const MassMoments<dim> &); \
-  template std::array<double, BSpline<dim>::n> spline_sums(           \
-    const LoadMoments<dim> &);                                        \
-  template double value_at(const LocalField<dim, 1> &, const Point<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(add_matrix);
+  MORULA_INSTANTIATE(mass_matrix);
+  MORULA_INSTANTIATE(spline_sums);
+  MORULA_INSTANTIATE(value_at);
 } // namespace Morula

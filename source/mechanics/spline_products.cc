@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/bspline.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/spline_products.h>
@@ -33,18 +34,6 @@ namespace Morula
     return &add_products_plainly<dim>;
   }
 
-  template void
-  add_products_plainly<2>(const SplineProduct<2> *,
-                          const unsigned int,
-                          double *,
-                          const unsigned int);
-  template void
-  add_products_plainly<3>(const SplineProduct<3> *,
-                          const unsigned int,
-                          double *,
-                          const unsigned int);
-  template AddProducts<2>
-  product_kernel(const Material &, const std::string &);
-  template AddProducts<3>
-  product_kernel(const Material &, const std::string &);
+  MORULA_INSTANTIATE(add_products_plainly);
+  MORULA_INSTANTIATE(product_kernel);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 
@@ -129,12 +130,5 @@ namespace Morula
 
   template class VectorizedInternalForce<2>;
   template class VectorizedInternalForce<3>;
-  template std::unique_ptr<InternalForce<2>>
-  internal_force(const MaterialPoints<2> &,
-                 const VolumetricStrain,
-                 const std::string &);
-  template std::unique_ptr<InternalForce<3>>
-  internal_force(const MaterialPoints<3> &,
-                 const VolumetricStrain,
-                 const std::string &);
+  MORULA_INSTANTIATE(internal_force);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/global_order.h>
+#include <morula/base/instantiate.h>
 #include <morula/output/csv.h>
 #include <morula/output/csv_rows.h>
 #include <morula/output/gather.h>
@@ -133,14 +134,5 @@ namespace Morula
       [=]() { return begin_text(path, std::move(*text), comm, shared_from); }});
   }
 
-  template std::unique_ptr<PendingFile>
-  begin_csv<2>(const std::string &,
-               const PointFields<2> &,
-               const MPI_Comm,
-               const std::uint64_t);
-  template std::unique_ptr<PendingFile>
-  begin_csv<3>(const std::string &,
-               const PointFields<3> &,
-               const MPI_Comm,
-               const std::uint64_t);
+  MORULA_INSTANTIATE(begin_csv);
 } // namespace Morula

@@ -69,12 +69,6 @@ namespace Morula
     ends.push_back(text.size());
   }
 
-  std::size_t
-  CsvRows::n_bytes() const
-  {
-    return text.size();
-  }
-
   std::string_view
   CsvRows::row(const std::size_t i) const
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/output/csv_rows.h>
 #include <morula/output/lineage.h>
 
@@ -47,8 +48,5 @@ namespace Morula
     return rows.share_in_order(global_order(ids, comm), comm);
   }
 
-  template std::string
-  lineage_rows<2>(const std::vector<Birth<2>> &, const bool, const MPI_Comm);
-  template std::string
-  lineage_rows<3>(const std::vector<Birth<3>> &, const bool, const MPI_Comm);
+  MORULA_INSTANTIATE(lineage_rows);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/output/atomic_file.h>
 #include <morula/output/hdf5_writer.h>
 #include <morula/output/sealed_file.h>
@@ -310,22 +311,6 @@ namespace Morula
 
   template struct SnapshotData<2>;
   template struct SnapshotData<3>;
-  template void
-  check_columns<2>(const SnapshotData<2> &,
-                   const Columns &,
-                   const Columns &,
-                   const MPI_Comm);
-  template void
-  check_columns<3>(const SnapshotData<3> &,
-                   const Columns &,
-                   const Columns &,
-                   const MPI_Comm);
-  template void
-  write_snapshot<2>(const std::string &,
-                    const SnapshotData<2> &,
-                    const MPI_Comm);
-  template void
-  write_snapshot<3>(const std::string &,
-                    const SnapshotData<3> &,
-                    const MPI_Comm);
+  MORULA_INSTANTIATE(check_columns);
+  MORULA_INSTANTIATE(write_snapshot);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/output/hdf5_reader.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
@@ -204,8 +205,5 @@ namespace Morula
     return parameters;
   }
 
-  template SnapshotData<2>
-  read_snapshot<2>(const std::string &, const MPI_Comm);
-  template SnapshotData<3>
-  read_snapshot<3>(const std::string &, const MPI_Comm);
+  MORULA_INSTANTIATE(read_snapshot);
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/output/atomic_file.h>
 #include <morula/output/gather.h>
 #include <morula/output/vtu.h>
@@ -139,18 +140,5 @@ namespace Morula
     });
   }
 
-  template std::unique_ptr<PendingFile>
-  begin_vtu<2>(const std::string &,
-               PointFields<2>,
-               const double,
-               const unsigned int,
-               const MPI_Comm,
-               const std::uint64_t);
-  template std::unique_ptr<PendingFile>
-  begin_vtu<3>(const std::string &,
-               PointFields<3>,
-               const double,
-               const unsigned int,
-               const MPI_Comm,
-               const std::uint64_t);
+  MORULA_INSTANTIATE(begin_vtu);
 } // namespace Morula

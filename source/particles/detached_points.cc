@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
@@ -299,20 +300,15 @@ namespace Morula
     return n;
   }
 
-#define INSTANTIATE(dim)                                                         \
-  template std::vector<unsigned int> points_without_cell(                        \
-    const std::vector<Point<dim>> &,                                             \
-    const Tissue<dim> &,                                                         \
-    const double,                                                                \
-    const std::vector<Side<dim>> &);                                             \
-  template double surface_reach(const CellView<dim, const double> &,             \
-                                const double);                                   \
-  template std::vector<double>       attachment(const std::vector<Point<dim>> &, \
-                                                const Tissue<dim> &,             \
-                                                const std::vector<Side<dim>> &); \
-  template std::vector<unsigned int> detached_points(const Tissue<dim> &);       \
-  template std::uint64_t             pull_back_detached_points(Tissue<dim> &);   \
-  template std::uint64_t             pull_to_cells(Tissue<dim> &, const double);
+  MORULA_INSTANTIATE(points_without_cell);
+  MORULA_INSTANTIATE(surface_reach);
+  MORULA_INSTANTIATE(detached_points);
+  MORULA_INSTANTIATE(pull_back_detached_points);
+  MORULA_INSTANTIATE(pull_to_cells);
+#define INSTANTIATE(dim)                                                   \
+  template std::vector<double> attachment(const std::vector<Point<dim>> &, \
+                                          const Tissue<dim> &,             \
+                                          const std::vector<Side<dim>> &);
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/particles/even_fill.h>
 
@@ -111,14 +112,5 @@ namespace Morula
       }
   }
 
-  template void
-  relax_volumes_to_space(Tissue<2> &,
-                         const Occupancy<2> &,
-                         const double,
-                         const unsigned int);
-  template void
-  relax_volumes_to_space(Tissue<3> &,
-                         const Occupancy<3> &,
-                         const double,
-                         const unsigned int);
+  MORULA_INSTANTIATE(relax_volumes_to_space);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/point_bins.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_exchange.h>
@@ -394,12 +395,6 @@ namespace Morula
     spread_cells(tissue, dt, parts);
   }
 
-  template void
-  spread_cells(Tissue<2> &, const double, const std::vector<double> &);
-  template void
-  spread_cells(Tissue<3> &, const double, const std::vector<double> &);
-  template void
-  spread_uneven_growth(Tissue<2> &, const double);
-  template void
-  spread_uneven_growth(Tissue<3> &, const double);
+  MORULA_INSTANTIATE(spread_cells);
+  MORULA_INSTANTIATE(spread_uneven_growth);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/particles/cell_domain.h>
 #include <morula/particles/find_parting.h>
@@ -109,8 +110,5 @@ namespace Morula
   }
 
 
-  template Parting<2>
-  find_parting(const Tissue<2> &);
-  template Parting<3>
-  find_parting(const Tissue<3> &);
+  MORULA_INSTANTIATE(find_parting);
 } // namespace Morula

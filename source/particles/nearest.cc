@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/point_exchange.h>
 
@@ -301,19 +302,6 @@ namespace Morula
       }
   }
 
-#define INSTANTIATE(dim)                                                    \
-  template PointList<dim>      near_points(const std::vector<Point<dim>> &, \
-                                           const PointStore<dim> &,         \
-                                           const NearestQuery &,            \
-                                           const BackgroundGrid<dim> &,     \
-                                           const int);                      \
-  template std::vector<double> nearest_numbers(                             \
-    const std::vector<Point<dim>> &,                                        \
-    const PointStore<dim> &,                                                \
-    const NearestQuery &,                                                   \
-    const BackgroundGrid<dim> &,                                            \
-    const std::vector<Side<dim>> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(near_points);
+  MORULA_INSTANTIATE(nearest_numbers);
 } // namespace Morula

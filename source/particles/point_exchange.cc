@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/particles/point_exchange.h>
 
@@ -251,16 +252,7 @@ namespace Morula
   exchange(const std::map<unsigned int, PointList<3>> &,
            const unsigned int,
            const MPI_Comm);
-  template PointList<2>
-  of_all_ranks(const PointList<2> &, const MPI_Comm);
-  template PointList<3>
-  of_all_ranks(const PointList<3> &, const MPI_Comm);
-  template PointList<2>
-  send_to_owners(PointList<2>, const BackgroundGrid<2> &);
-  template PointList<3>
-  send_to_owners(PointList<3>, const BackgroundGrid<3> &);
-  template PointList<2>
-  halo(const PointList<2> &, const BackgroundGrid<2> &, const double);
-  template PointList<3>
-  halo(const PointList<3> &, const BackgroundGrid<3> &, const double);
+  MORULA_INSTANTIATE(of_all_ranks);
+  MORULA_INSTANTIATE(send_to_owners);
+  MORULA_INSTANTIATE(halo);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/point_store.h>
 
@@ -363,14 +364,6 @@ namespace Morula
 
   template class PointStore<2>;
   template class PointStore<3>;
-  template std::pair<GridIndex<2>, GridIndex<2>>
-  extent(const std::vector<const std::vector<Point<2>> *> &,
-         const BackgroundGrid<2> &);
-  template std::pair<GridIndex<3>, GridIndex<3>>
-  extent(const std::vector<const std::vector<Point<3>> *> &,
-         const BackgroundGrid<3> &);
-  template GridCellCounts
-  count_points(const std::vector<Point<2>> &, const BackgroundGrid<2> &);
-  template GridCellCounts
-  count_points(const std::vector<Point<3>> &, const BackgroundGrid<3> &);
+  MORULA_INSTANTIATE(extent);
+  MORULA_INSTANTIATE(count_points);
 } // namespace Morula

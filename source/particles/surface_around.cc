@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_around.h>
 
@@ -54,11 +55,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                            \
-  template class SurfaceAround<dim>;                                \
-  template GridBox<dim> box_around(const std::vector<Point<dim>> &, \
-                                   const double);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(box_around);
+  template class SurfaceAround<2>;
+  template class SurfaceAround<3>;
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_coarsening.h>
 
@@ -292,15 +293,5 @@ namespace Morula
       }
   }
 
-#define INSTANTIATE(dim)                                    \
-  template bool coarsen_surface(                            \
-    PointList<dim> &,                                       \
-    const BoundaryColumns<dim> &,                           \
-    const double,                                           \
-    const std::function<bool(const BoundaryView<dim> &,     \
-                             const BoundaryView<dim> &)> &, \
-    const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(coarsen_surface);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/surface_fit.h>
@@ -117,8 +118,5 @@ namespace Morula
     return fit;
   }
 
-  template SurfaceFit
-  surface_fit(const Tissue<2> &);
-  template SurfaceFit
-  surface_fit(const Tissue<3> &);
+  MORULA_INSTANTIATE(surface_fit);
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/global_order.h>
+#include <morula/base/instantiate.h>
 #include <morula/particles/surface_refinement.h>
 
 #include <deal.II/base/mpi.h>
@@ -154,15 +155,5 @@ namespace Morula
       }
   }
 
-#define INSTANTIATE(dim)                             \
-  template bool refine_surface(                      \
-    PointList<dim> &,                                \
-    const BoundaryColumns<dim> &,                    \
-    const double,                                    \
-    const std::function<bool(const Point<dim> &)> &, \
-    types::particle_index &,                         \
-    const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(refine_surface);
 } // namespace Morula

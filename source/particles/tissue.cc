@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/cell_domain.h>
 #include <morula/particles/find_parting.h>
 #include <morula/particles/tissue.h>
@@ -360,13 +361,6 @@ namespace Morula
   }
 
   template <int dim>
-  const BackgroundGrid<dim> &
-  Tissue<dim>::grid() const
-  {
-    return grid_;
-  }
-
-  template <int dim>
   const Cells<dim> &
   Tissue<dim>::cells() const
   {
@@ -390,13 +384,6 @@ namespace Morula
   }
 
   template <int dim>
-  MPI_Comm
-  Tissue<dim>::communicator() const
-  {
-    return grid_.communicator();
-  }
-
-  template <int dim>
   unsigned int
   n_bodies(const Tissue<dim> &tissue)
   {
@@ -408,10 +395,7 @@ namespace Morula
     return Utilities::MPI::max(n, tissue.communicator());
   }
 
-  template unsigned int
-  n_bodies(const Tissue<2> &);
-  template unsigned int
-  n_bodies(const Tissue<3> &);
+  MORULA_INSTANTIATE(n_bodies);
   template class Tissue<2>;
   template class Tissue<3>;
 } // namespace Morula

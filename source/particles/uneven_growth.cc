@@ -93,14 +93,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  UnevenGrowth<dim>::exists() const
-  {
-    return exists_;
-  }
-
-
-  template <int dim>
   double
   UnevenGrowth<dim>::variance(const Point<dim> &x) const
   {

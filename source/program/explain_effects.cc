@@ -75,23 +75,8 @@ namespace Morula
     {
       std::ostringstream out; // a line a field
       for (const FieldKeys &field : scene.fields.fields)
-        {
-          out << "    " << std::left << std::setw(22) << field.name
-              << field.time.value() << ", D = " << field.diffusion.text()
-              << " um^2/day, s = " << field.production.text()
-              << ", k = " << field.consumption.text() << " /day";
-          if (!field.fixed_where.empty())
-            out << ", " << field.value.text() << " at boundary points where "
-                << field.fixed_where.text();
-          if (!field.transfer.empty())
-            out << ", transfer " << field.transfer.text() << " um/day to "
-                << field.value.text();
-          if (!field.flux_where.empty())
-            out << ", flux " << field.flux.text()
-                << " um/day in at boundary points where "
-                << field.flux_where.text();
-          out << '\n';
-        }
+        out << "    " << std::left << std::setw(22) << field.name
+            << field.details() << '\n';
       add_effect(
         rows, "fields", scene.fields.present(), scene.fields.names, out.str());
     }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/review.h>
 #include <morula/scene/applied.h>
 #include <morula/scene/loads_at_start.h>
@@ -222,8 +223,5 @@ namespace Morula
   }
 
 
-  template std::vector<AppliedCondition>
-  applied_conditions(const Scene &, const SurfacePatches<2> &, const MPI_Comm);
-  template std::vector<AppliedCondition>
-  applied_conditions(const Scene &, const SurfacePatches<3> &, const MPI_Comm);
+  MORULA_INSTANTIATE(applied_conditions);
 } // namespace Morula

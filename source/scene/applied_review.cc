@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/review.h>
-#include <morula/effects/forces/body_force.h>
-#include <morula/effects/growth/relaxation.h>
+#include <morula/effects/usual_numbers.h>
 #include <morula/scene/applied.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -27,70 +23,11 @@ namespace Morula
      *  some hundreds. */
     constexpr double softest = 0.005, stiffest = 500.;
 
-    /** A load per area above so many E tears or crushes any tissue, and one
-     *  below so many does nothing to it. */
-    constexpr double strongest_load = 10., weakest_load = 1e-6;
-
-    /** Cell cycles and relaxation times are shorter than this, day. */
-    constexpr double longest_cycle = 10., longest_relaxation = 2.;
+    /** A load per area below so many E does nothing to tissue. */
+    constexpr double weakest_load = 1e-6;
 
     /** Lengths of cells, µm. */
     constexpr double shortest_cell = 0.5, longest_cell = 300.;
-
-    /** The smallest and the largest value of a key. */
-    using Range = std::optional<std::pair<double, double>>;
-
-    /** The range of a key at founders of all ranks, as far as it is known
-     * before the run; of numbers by type the largest alone. Collective. */
-    template <int dim>
-    Range
-    range_of(const ExpressionKey           &key,
-             const std::vector<Point<dim>> &founders,
-             const MPI_Comm                 comm)
-    {
-      if (key.empty() || key.expression(dim).depends_on_state() ||
-          key.differs_by_type())
-        {
-          const std::optional<double> number = key.largest_number(dim);
-          return number ? Range({*number, *number}) : Range();
-        }
-      double smallest = std::numeric_limits<double>::max(), largest = -smallest;
-      try
-        {
-          for (const Point<dim> &X : founders)
-            {
-              const double value = key.expression(dim).value(X, 0.);
-              smallest           = std::min(smallest, value);
-              largest            = std::max(largest, value);
-            }
-        }
-      catch (const std::exception &)
-        {} // refused elsewhere
-      smallest = Utilities::MPI::min(smallest, comm);
-      largest  = Utilities::MPI::max(largest, comm);
-      return Range({smallest, largest});
-    }
-
-    void
-    review_number(const AnyKey      &key,
-                  const Range       &range,
-                  const double       lower,
-                  const double       upper,
-                  const std::string &unit,
-                  const std::string &usual,
-                  const std::string &question,
-                  Review            &review)
-    {
-      // A key may have many values; a part of the tissue may be unusual, but
-      // not all of it. A zero switches something off and is no number of
-      // another unit.
-      if (range && range->second > 0. &&
-          (range->second < lower || range->first > upper))
-        review.warn(key.path(),
-                    as_text(range->second) + ' ' + unit,
-                    usual + ". " + question,
-                    "If it is meant so, all is well.");
-    }
 
     /** What a condition's keys are but for its place. */
     std::string
@@ -155,58 +92,6 @@ namespace Morula
           }
     }
 
-    /** A body force that is far stronger than the tissue. Collective. */
-    template <int dim>
-    void
-    review_body_force(const Scene                   &scene,
-                      const std::vector<Point<dim>> &founders,
-                      const std::optional<double>   &stiffness,
-                      const MPI_Comm                 comm,
-                      Review                        &review)
-    {
-      // Over its length the tissue carries the mean force times that length.
-      const ExpressionKey &key =
-        scene.keys<BodyForceParameters>().force_density;
-      if (!scene.keys<BodyForceParameters>().is_on() || !stiffness ||
-          key.expression(dim).depends_on_state())
-        return;
-      Tensor<1, dim> sum;
-      Point<dim>     lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = std::numeric_limits<double>::max();
-          upper[d] = -lower[d];
-        }
-      for (const Point<dim> &X : founders)
-        {
-          try
-            {
-              sum += key.expression(dim).vector(X, scene.time.end_time);
-            }
-          catch (const std::exception &)
-            {} // refused elsewhere
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              lower[d] = std::min(lower[d], X[d]);
-              upper[d] = std::max(upper[d], X[d]);
-            }
-        }
-      double length = 0.;
-      for (unsigned int d = 0; d < dim; ++d)
-        length = std::max(length,
-                          Utilities::MPI::max(upper[d], comm) -
-                            Utilities::MPI::min(lower[d], comm));
-      const double n    = Utilities::MPI::sum(double(founders.size()), comm);
-      const double load = (Utilities::MPI::sum(sum, comm) / n).norm() * length;
-      if (load > strongest_load * *stiffness)
-        review.warn(key.path(),
-                    key.text(),
-                    "over the length of the tissue it adds up to " +
-                      as_text(load) + " kPa, " + as_text(load / *stiffness) +
-                      " times the stiffest cell's E. Is it in Pa?",
-                    "1 Pa/um is 0.001 kPa/um, 1 kN/m^3 is 1e-6 kPa/um.");
-    }
-
     void
     review_points(const Scene                         &scene,
                   const std::vector<AppliedCondition> &applied,
@@ -241,18 +126,16 @@ namespace Morula
                  const MPI_Comm                       comm,
                  std::vector<std::string>            &warnings)
   {
-    // Conditions come first, then the numbers of material, time and length. The
+    // Conditions come first, then the numbers of material and length. The
     // limits are wide: they are meant to catch a factor of 24 or 1000, not
     // unusual tissue.
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     const ExpressionKey        &E           = scene.material.youngs_modulus;
-    const Range                 stiffnesses = range_of<dim>(E, founders, comm);
+    const ValueRange            stiffnesses = range_of<dim>(E, founders, comm);
     const std::optional<double> stiffness =
       stiffnesses ? stiffnesses->second : std::optional<double>();
     review_points(scene, applied, review);
     review_loads(scene, applied, stiffness, review);
-    review_body_force<dim>(scene, founders, stiffness, comm, review);
-    const std::string in_hours = "Is it in hours?";
     review_number(E,
                   stiffnesses,
                   softest,
@@ -261,24 +144,6 @@ namespace Morula
                   "soft tissue has 0.1 to 100 kPa",
                   "Is it in Pa or MPa?",
                   review);
-    const ExpressionKey &relaxation = scene.keys<RelaxationParameters>().time;
-    review_number(relaxation,
-                  range_of<dim>(relaxation, founders, comm),
-                  0.,
-                  longest_relaxation,
-                  "day",
-                  "tissue relaxes within minutes to hours",
-                  in_hours,
-                  review);
-    if (scene.has_proliferation())
-      review_number(scene.cell_cycle.duration,
-                    range_of<dim>(scene.cell_cycle.duration, founders, comm),
-                    0.,
-                    longest_cycle,
-                    "day",
-                    "cell cycles take 0.3 to 3 days",
-                    in_hours,
-                    review);
     const double length = scene.tissue.cell_spacing;
     if (!scene.tissue.is_points() &&
         (length < shortest_cell || length > longest_cell))
@@ -292,16 +157,5 @@ namespace Morula
   }
 
 
-  template void
-  review_applied(const Scene &,
-                 const std::vector<AppliedCondition> &,
-                 const std::vector<Point<2>> &,
-                 const MPI_Comm,
-                 std::vector<std::string> &);
-  template void
-  review_applied(const Scene &,
-                 const std::vector<AppliedCondition> &,
-                 const std::vector<Point<3>> &,
-                 const MPI_Comm,
-                 std::vector<std::string> &);
+  MORULA_INSTANTIATE(review_applied);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/size.h>
 
@@ -249,24 +250,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template std::vector<types::particle_index> founders_of_types(              \
-    const Scene &,                                                            \
-    const std::vector<Point<dim>> &,                                          \
-    const MPI_Comm,                                                           \
-    const std::vector<unsigned int> &);                                       \
-                                                                              \
-  template Preview<dim>          preview(const Scene &,                       \
-                                         const std::vector<Point<dim>> &,     \
-                                         const std::vector<Point<dim>> &,     \
-                                         const std::vector<Tensor<1, dim>> &, \
-                                         const MPI_Comm);                     \
-  template types::particle_index check_at_cells(                              \
-    const Scene &, const std::vector<Point<dim>> &, const MPI_Comm);          \
-  template ConditionCounts check_at_surface(const Scene &,                    \
-                                            const SurfacePatches<dim> &,      \
-                                            const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(founders_of_types);
+  MORULA_INSTANTIATE(preview);
+  MORULA_INSTANTIATE(check_at_cells);
+  MORULA_INSTANTIATE(check_at_surface);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 
 #include <utility>
@@ -118,21 +119,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                  \
-  template std::vector<NearSurface<dim>> near_surface_of( \
-    const StateColumns<dim> &,                            \
-    const Founders<dim> &,                                \
-    const SurfacePatches<dim> &,                          \
-    const MPI_Comm);                                      \
-  template std::vector<double> founder_row(               \
-    const CellDevelopment<dim> &,                         \
-    const Fields<dim> &,                                  \
-    const Founders<dim> &,                                \
-    const std::vector<NearSurface<dim>> &,                \
-    const std::size_t,                                    \
-    const double);                                        \
-  template class FirstCells<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(near_surface_of);
+  MORULA_INSTANTIATE(founder_row);
+  template class FirstCells<2>;
+  template class FirstCells<3>;
 } // namespace Morula

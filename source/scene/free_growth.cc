@@ -2,8 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/expected_cells.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 #include <morula/scene/free_growth.h>
 
@@ -23,33 +22,6 @@ namespace Morula
     /** Rates are taken at the beginning of a step. With 64 steps that is an
      * error of some percent, which is enough for an estimate. */
     constexpr double most_steps = 64.;
-
-    /** Number of cells that founder number @p i of this rank has become when it
-     *  has grown by this ratio: one, unless cells divide by size. */
-    template <int dim>
-    double
-    descendants(const Scene           &scene,
-                const FirstCells<dim> &cells,
-                const std::size_t      i,
-                const double           ratio)
-    {
-      if (!scene.divides_by_fate())
-        return 1.;
-      const auto            &keys    = scene.keys<DivisionBySizeParameters>();
-      std::vector<double>    row     = cells.row(i);
-      const PresentCell<dim> founder = cells.cell(row, i);
-      // A founder that the surface has cut divides as the whole cell would.
-      const auto share = cells.development().columns().template find<double>(
-        DivisionBySize<dim>::share_of_cell);
-      const double V0 = founder.cell().initial_volume() /
-                        (share.exists() ? founder.cell().get(share) : 1.);
-      const double mean = founder.value(keys.volume.expression(dim), 0.);
-      return mean > 0. ?
-               expected_cells_by_size(V0 * ratio / mean,
-                                      founder.value(keys.noise.expression(dim),
-                                                    0.)) :
-               1.;
-    }
   } // namespace
 
 
@@ -92,7 +64,15 @@ namespace Morula
           {}
         ++n;
         sum += ratio;
-        n_cells += descendants(scene, cells, i, ratio);
+        double n_of_founder = 1.;
+        if (scene.divides_by_fate())
+          {
+            std::vector<double>    row     = cells.row(i);
+            const PresentCell<dim> founder = cells.cell(row, i);
+            for (const auto &fate : cells.development().fates())
+              n_of_founder *= fate->expected_cells(founder, ratio);
+          }
+        n_cells += n_of_founder;
         growth.least = std::min(growth.least, ratio);
         growth.most  = std::max(growth.most, ratio);
       }
@@ -105,12 +85,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template std::optional<FreeGrowth> free_growth(const Scene &,               \
-                                                 const Founders<dim> &,       \
-                                                 const SurfacePatches<dim> &, \
-                                                 const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(free_growth);
 } // namespace Morula

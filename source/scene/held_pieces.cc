@@ -2,9 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/review.h>
-#include <morula/effects/forces/body_force.h>
-#include <morula/effects/forces/friction.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/scene/first_cells.h>
@@ -270,36 +269,28 @@ namespace Morula
       // either: its value at t = 0 counts. Friction counts where it does in a
       // step, doc/theory.md, section 4.4.
       const double         h = scene.grid.spacing;
-      const ExpressionKey &density =
-        scene.keys<BodyForceParameters>().force_density;
-      const ExpressionKey &friction =
-        scene.keys<FrictionParameters>().coefficient;
-      const bool has_force = scene.keys<BodyForceParameters>().is_on(),
-                 rubs      = scene.keys<FrictionParameters>().is_on();
       const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {
           std::vector<double>    row  = cells.row(i);
           const PresentCell<dim> cell = cells.cell(row, i);
           const double           V    = founders.volumes[i];
-          if (has_force)
-            pieces.add_load(
-              {piece[i],
-               founders.positions[i],
-               V * cell.vector(density.expression(dim), scene.time.end_time),
-               0.});
-          if (!rubs)
-            continue;
-          const double strength =
-            cell.value(friction.expression(dim), 0.) * h * h /
-            (scene.time.step * youngs_modulus(cell.lame()));
-          if (strength < Drag<dim>::least)
-            continue;
-          pieces.add_support(piece[i],
-                             founders.positions[i],
-                             all,
-                             strength * V / h);
-          pieces.count_support(piece[i], true);
+          for (const auto &[name, force] : cells.forces())
+            {
+              if (const auto load = force->load_of(cell, scene.time.end_time))
+                pieces.add_load(
+                  {piece[i], founders.positions[i], V * *load, 0.});
+              const double strength =
+                force->friction_of(cell, 0.).value_or(0.) * h * h /
+                (scene.time.step * youngs_modulus(cell.lame()));
+              if (strength < Drag<dim>::least)
+                continue;
+              pieces.add_support(piece[i],
+                                 founders.positions[i],
+                                 all,
+                                 strength * V / h);
+              pieces.count_support(piece[i], true);
+            }
         }
     }
 
@@ -363,8 +354,7 @@ namespace Morula
     pieces.find_centers();
     everywhere(comm,
                [&]() { add_surface(scene, surface, at.of_patches, pieces); });
-    if (scene.keys<BodyForceParameters>().is_on() ||
-        scene.keys<FrictionParameters>().is_on())
+    if (Scene::has_any(scene.catalogue.forces))
       {
         const FirstCells<dim> cells(scene, founders, surface, comm);
         everywhere(comm, [&]() {
@@ -453,12 +443,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                   \
-  template std::vector<HeldPiece> held_pieces(const Scene &,               \
-                                              const Founders<dim> &,       \
-                                              const SurfacePatches<dim> &, \
-                                              const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(held_pieces);
 } // namespace Morula

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/division_by_size.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/checks.h>
-#include <morula/scene/idle_founders.h>
 #include <morula/scene/idle_keys.h>
-#include <morula/scene/idle_rates.h>
+#include <morula/scene/seeded_tissue.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,75 +17,6 @@ namespace Morula
 {
   namespace
   {
-    /** Whether a key has another value than its default, for any type. */
-    bool
-    differs(const AnyKey &key)
-    {
-      const auto *const expression = dynamic_cast<const ExpressionKey *>(&key);
-      return !key.is_default() ||
-             (expression != nullptr && expression->differs_by_type());
-    }
-
-    /** Keys of which the first does nothing without any of the others. */
-    const std::vector<std::vector<std::string>> needs = {
-      {"Material/Yield stress", "Material/Relaxation time"},
-      {"Material/Relaxation passes", "Material/Yield stress"},
-      {"Growth/Rate/Homeostatic stress", "Growth/Rate/Homeostasis"},
-      {"Growth/Rate/Share along", "Growth/Rate/Direction"},
-      {"Growth/Rate/Direction", "Growth/Rate/Share along"},
-      {"Boundary conditions/Surface tension where",
-       "Boundary conditions/Surface tension"},
-      {"Boundary conditions/Nitsche penalty",
-       "Boundary conditions/Fixed where",
-       "Boundary conditions/Slip where"},
-      {"Boundary conditions/Nitsche form",
-       "Boundary conditions/Fixed where",
-       "Boundary conditions/Slip where"},
-      {"Contact/Bodies", "Contact/Between"},
-      {"Contact/Stiffness", "Contact/Between"},
-      {"Contact/Friction", "Contact/Between"},
-      {"Contact/Fusion time", "Contact/Between"},
-      {"Contact/Fields pass", "Contact/Between"}};
-
-    void
-    review_needs(const Scene &scene, Review &review)
-    {
-      const auto list = scene.list();
-      const auto find = [&](const std::string &path) -> const AnyKey * {
-        for (const AnyKey *key : list)
-          if (key->path() == path)
-            return key;
-        return nullptr;
-      };
-      for (const auto &paths : needs)
-        {
-          const AnyKey *const key = find(paths[0]);
-          if (key == nullptr || !differs(*key))
-            continue;
-          // Where all have the default, a type has a value of its own.
-          const AnyKey *said = key;
-          for (const CellTypeKeys &type : scene.cell_types.types)
-            for (const ExpressionKey &own : type.overrides)
-              if (key->is_default() && !own.empty() &&
-                  own.path() == type.path_of(*key))
-                said = &own;
-          if (said == key && !review.has_set(*key))
-            continue;
-          std::string missing;
-          for (std::size_t i = 1; i < paths.size(); ++i)
-            if (const AnyKey *const other = find(paths[i]);
-                other == nullptr || differs(*other))
-              missing = "none";
-            else if (missing != "none")
-              missing += (missing.empty() ? "" : " and ") + paths[i];
-          if (missing != "none")
-            review.warn(said->path(),
-                        said->text(),
-                        "it does nothing without " + missing + '.',
-                        "Set this key as well, or remove the other.");
-        }
-    }
-
     /** Numbers of Time that leave nothing to do. */
     void
     review_time(const Scene                &scene,
@@ -143,7 +71,7 @@ namespace Morula
           reached.insert(i);
           std::set<std::string> names;
           for (const ExpressionKey &to : types[i].transitions)
-            if (differs(to))
+            if (to.is_changed())
               names.insert(to.path().substr(to.path().rfind(" ") + 1));
           if (scene.has_proliferation() || scene.divides_by_fate())
             {
@@ -170,31 +98,6 @@ namespace Morula
                         "Set " + scene.proliferation_law.path() +
                           ", or remove this key.");
         }
-    }
-
-    /** By what part too much of a field may come in at fixed values, at the
-     *  worst offset of the grid, if it falls off within @p reach grid spacings:
-     *  measured on slabs, and held to by tests/programs/field_layers.py. */
-    double
-    excess_at_fixed_values(const double reach)
-    {
-      constexpr std::array<std::array<double, 2>, 7> excess = {{{{0.1, 0.28}},
-                                                                {{0.15, 0.28}},
-                                                                {{0.2, 0.225}},
-                                                                {{0.25, 0.17}},
-                                                                {{0.3, 0.125}},
-                                                                {{0.4, 0.07}},
-                                                                {{0.5, 0.04}}}};
-      if (reach >= excess.back()[0])
-        return 0.;
-      if (reach <= excess.front()[0])
-        return excess.front()[1];
-      unsigned int i = 1;
-      while (excess[i][0] < reach)
-        ++i;
-      const auto &[x0, y0] = excess[i - 1];
-      const auto &[x1, y1] = excess[i];
-      return y0 + (y1 - y0) * (reach - x0) / (x1 - x0);
     }
 
     /** Founders of the first type at which its own Where does not hold: those
@@ -227,118 +130,109 @@ namespace Morula
                     "Name the type of the others first in " +
                       scene.cell_types.names.path() + ", or remove this key.");
     }
+    /** Whether the column of a state is in the file: a rank may have no cell.
+     *  Collective. */
+    bool
+    has_column(const std::vector<unsigned int> &states, const MPI_Comm comm)
+    {
+      return Utilities::MPI::max(states.empty() ? 0 : 1, comm) > 0;
+    }
 
-    /** Fields that stay zero, conditions that others leave nothing to, and
-     *  fields that hardly reach into the tissue. */
+    /** Whether some founder has another volume than the spacing gives it.
+     *  Collective. */
+    template <int dim>
+    bool
+    has_own_volumes(const Scene         &scene,
+                    const Founders<dim> &founders,
+                    const MPI_Comm       comm)
+    {
+      const double V   = std::pow(scene.tissue.cell_spacing.value(), dim);
+      const bool   own = std::any_of(founders.volumes.begin(),
+                                   founders.volumes.end(),
+                                   [V](const double volume) {
+                                     return std::abs(volume - V) > 1e-9 * V;
+                                   });
+      return Utilities::MPI::max(own ? 1 : 0, comm) > 0;
+    }
+
+    /** Keys that make, move or change a surface of points. */
     template <int dim>
     void
-    review_field(const FieldKeys           &field,
-                 const std::vector<double> &points,
-                 const double               cell,
-                 const double               h,
-                 Review                    &review)
+    review_surface(const Scene &scene, Review &review)
     {
-      const double n = points[0], n_fixed = points[1], n_flux = points[2];
-      const bool   steady  = field.time == "steady";
-      const auto   is_zero = [](const ExpressionKey &key) {
-        return key.empty() ||
-               (!key.differs_by_type() && key.expression(dim).is_always(0.));
-      };
-      const bool reads_value = n_fixed > 0. || !field.transfer.empty();
-      if (is_zero(field.production) &&
-          (!reads_value || is_zero(field.value) ||
-           (n_fixed == 0. && is_zero(field.transfer))) &&
-          (n_flux == 0. || is_zero(field.flux)) &&
-          (steady || is_zero(field.initial)))
-        review.warn("Fields/" + field.name,
-                    steady ? "steady" : "transient",
-                    "it is 0 everywhere: no cell makes it, and nothing comes "
-                    "in through the surface" +
-                      std::string(steady && !is_zero(field.initial) ?
-                                    "; Initial is only where the steady "
-                                    "state is sought first." :
-                                    "."),
-                    "Set its Production, or its Value at the surface, or its "
-                    "Flux.");
-      if (n > 0. && n_fixed == n && !field.transfer.empty())
-        review.warn(field.transfer.path(),
-                    field.transfer.text(),
-                    "it does nothing, as Fixed where holds at all boundary "
-                    "points.",
-                    "Remove one of them.");
-      // Few points carry a value or a flux: what they cover jumps by patches.
-      for (const auto &[key, number] :
-           {std::make_pair(&field.fixed_where, n_fixed),
-            std::make_pair(&field.flux_where, n_flux)})
-        if (number > 0. && number < 10.)
-          review.warn(key->path(),
-                      key->text(),
-                      "it acts on " + as_text(number) +
-                        " boundary points: with so few, what it covers jumps "
-                        "by a whole patch.",
-                      "Choose a larger place, or a smaller Tissue/Cell "
-                      "spacing.");
-      const auto D = field.diffusion.largest_number(dim);
-      auto       k = field.consumption.largest_number(dim);
-      // Uptake that depends on the field is taken for its value at the surface.
-      if (!k && !field.value.empty())
-        try
-          {
-            VariableValues values;
-            values.fill(field.value.largest_number(dim).value_or(1.));
-            k = field.consumption.expression(dim).value(values);
-          }
-        catch (const std::exception &)
-          {}
-      if (!reads_value || !D || !k || !(*k > 0.))
+      const TissueParameters &tissue   = scene.tissue;
+      const bool              renewed  = tissue.renew_surface > 0.;
+      const std::string       no_one   = "there is no surface around the cells";
+      const std::string       make_one = "Set " + tissue.points_surface.path() +
+                                   " = always, or remove this key.";
+      if (!has_surface<dim>(scene))
+        for (const AnyKey *key :
+             std::vector<const AnyKey *>{&tissue.closed_gap,
+                                         &tissue.boundary_points,
+                                         &tissue.refine_surface})
+          review.warn_of_idle(*key, no_one, make_one);
+      else if (tissue.has_surface_file() && !renewed)
+        review.warn_of_idle(tissue.closed_gap,
+                            "the surface is that of " +
+                              tissue.points_surface.path(),
+                            "Remove this key.");
+    }
+
+    /** Warns of columns of a points file that nothing reads in the scene, and
+     * of keys that its columns stand for. Collective. */
+    template <int dim>
+    void
+    review_idle_founders(const Scene         &scene,
+                         const Founders<dim> &founders,
+                         const MPI_Comm       comm,
+                         Review              &review)
+    {
+      // Cells of a lattice have what the keys say. Those of a file may have
+      // states of their own: a state that nothing reads is as good as lost, and
+      // the key that it stands for is not asked.
+      if (!scene.tissue.is_points())
         return;
-      const double      reach = std::sqrt(*D / *k);
-      const std::string what =
-        "the field reaches only " + as_text(reach) +
-        " um into the tissue, the root of Diffusion over Consumption";
-      if (reach < 0.2 * cell)
-        review.warn(field.diffusion.path(),
-                    field.diffusion.text(),
-                    what + ", and a cell is " + as_text(cell) +
-                      " um long. Is Diffusion in um^2/day (1 um^2/s is 86400 "
-                      "of it), Consumption in 1/day?",
-                    "If it is meant so, all is well.");
-      else if (const double wrong = excess_at_fixed_values(reach / h);
-               n_fixed > 0. && wrong > 0.)
-        review.warn(field.diffusion.path(),
-                    field.diffusion.text(),
-                    what +
-                      ", less than half a grid spacing: what comes in at "
-                      "fixed values may be too much by " +
-                      as_text(std::round(100. * wrong)) +
-                      " %, as the grid lines lie.",
-                    "Choose Grid/Spacing below " + as_text(2. * reach) +
-                      " um, or one that the accuracy allows.");
-      else if (n_fixed == 0. && reach < 0.2 * h)
-        review.warn(field.diffusion.path(),
-                    field.diffusion.text(),
-                    what + ": less than a fifth of a grid spacing, what comes "
-                           "in is wrong by a tenth and more.",
-                    "Choose Grid/Spacing below " + as_text(5. * reach) +
-                      " um.");
+      const bool has_phases = has_column(founders.phases, comm),
+                 has_types  = has_column(founders.types, comm);
+      if (has_phases && !scene.has_proliferation())
+        review.warn(scene.tissue.points_file.path(),
+                    scene.tissue.points_file,
+                    "nothing reads its column 'phase', as the cells have no "
+                    "cycle.",
+                    "Set " + scene.proliferation_law.path() +
+                      " = cell cycle, or drop the column.");
+      if (has_phases && scene.has_proliferation())
+        review.warn_of_idle(scene.cell_cycle.start,
+                            "the points file says the phase of each cell",
+                            "Remove this key, or drop the column 'phase'.");
+      if (has_types)
+        for (const CellTypeKeys &type : scene.cell_types.types)
+          if (!type.where.empty())
+            review.warn_of_idle(type.where,
+                                "the points file says the type of each cell",
+                                "Remove this key, or drop the column 'type'.");
+      if (has_own_volumes(scene, founders, comm))
+        review.warn_of_idle(
+          scene.tissue.cell_spacing,
+          "the points file says the volume of each cell, and only "
+          "estimates ask for this",
+          "Set it to the mean length of the cells, or remove it.");
+      review_surface<dim>(scene, review);
     }
   } // namespace
 
 
   template <int dim>
   void
-  review_idle_keys(const Scene               &scene,
-                   const Founders<dim>       &founders,
-                   const SurfacePatches<dim> &surface,
-                   const MPI_Comm             comm,
-                   Review                    &review)
+  review_idle_keys(const Scene         &scene,
+                   const Founders<dim> &founders,
+                   const MPI_Comm       comm,
+                   Review              &review)
   {
     // What keys alone tell comes first, then what founders and the surface of
     // all ranks tell. The sums are collective, and all ranks go through the
     // same lists.
-    review_needs(scene, review);
     review_time(scene, founders.n_global, review);
-    review_idle_rates(scene, founders, comm, review);
     review_idle_founders(scene, founders, comm, review);
     if (scene.cell_types.present())
       {
@@ -348,60 +242,8 @@ namespace Morula
                      review);
         review_first_type(scene, founders, comm, review);
       }
-    double volume = 0., largest = 0.;
-    for (const double V : founders.volumes)
-      {
-        volume += V;
-        largest = std::max(largest, V);
-      }
-    volume  = Utilities::MPI::sum(volume, comm) / founders.n_global;
-    largest = Utilities::MPI::max(largest, comm);
-
-    for (std::size_t k = 0; k < scene.fields.fields.size(); ++k)
-      {
-        const FieldKeys    &field = scene.fields.fields[k];
-        std::vector<double> points(3, 0.);
-        const auto          holds = [&](const ExpressionKey &where,
-                               const Point<dim>    &X) {
-          return !where.empty() && where.expression(dim).value(X, 0.) > 0.;
-        };
-        for (const Point<dim> &X : surface.positions)
-          {
-            const bool fixed = holds(field.fixed_where, X);
-            points[0] += 1.;
-            points[1] += fixed;
-            points[2] += !fixed && holds(field.flux_where, X);
-          }
-        Utilities::MPI::sum(points, comm, points);
-        review_field<dim>(field,
-                          points,
-                          std::pow(volume, 1. / dim),
-                          scene.grid.spacing,
-                          review);
-      }
-
-    if (!scene.divides_by_fate())
-      return;
-    const auto &size = scene.keys<DivisionBySizeParameters>().volume;
-    if (const auto at = size.largest_number(dim);
-        at && *at > 0. && *at <= (1. + 1e-9) * largest)
-      review.warn(size.path(),
-                  size.text(),
-                  "founders have up to " + as_text(largest) +
-                    (dim == 3 ? " um^3" : " um^2") +
-                    " and divide at once, until they are smaller.",
-                  "Choose a volume above that of the founders, such as twice "
-                  "as much.");
   }
 
 
-#define INSTANTIATE(dim)                                      \
-  template void review_idle_keys(const Scene &,               \
-                                 const Founders<dim> &,       \
-                                 const SurfacePatches<dim> &, \
-                                 const MPI_Comm,              \
-                                 Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(review_idle_keys);
 } // namespace Morula

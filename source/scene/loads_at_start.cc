@@ -43,14 +43,6 @@ namespace Morula
 
 
   template <int dim>
-  std::size_t
-  LoadsAtStart<dim>::patch(const std::size_t point) const
-  {
-    return numbers[point];
-  }
-
-
-  template <int dim>
   std::optional<std::vector<Tensor<1, dim>>>
   LoadsAtStart<dim>::forces(const BoundaryCondition<dim> &condition,
                             const double                  t) const

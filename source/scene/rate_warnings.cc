@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 #include <morula/scene/rate_warnings.h>
 
@@ -143,13 +144,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                  \
-  template void review_rates(const Scene &,               \
-                             const Founders<dim> &,       \
-                             const SurfacePatches<dim> &, \
-                             const MPI_Comm,              \
-                             Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(review_rates);
 } // namespace Morula

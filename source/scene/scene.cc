@@ -122,6 +122,11 @@ namespace Morula
     // The words that name effects are those of the catalogue, which a program
     // may have extended. So they are added here, and not where the keys are
     // declared.
+    solver.largest_gap.needs(NitscheParameters::held_by());
+    for (AnyKey *const key : contact.list())
+      if (key != &contact.between)
+        key->needs({contact.between.path()});
+    contact.fields_pass.needs({fields.names.path()});
     add_words(growth_law, catalogue.growth_laws);
     add_words(cell_cycle.division_axis, catalogue.division_rules);
     if (std::any_of(catalogue.division_rules.begin(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/types_around.h>
@@ -251,11 +252,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                      \
-  template struct SceneEffects<dim>;                          \
-  template SceneEffects<dim>       effects_of(const Scene &); \
-  template BoundaryConditions<dim> boundary_conditions_of(const Scene &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(effects_of);
+  MORULA_INSTANTIATE(boundary_conditions_of);
+  template struct SceneEffects<2>;
+  template struct SceneEffects<3>;
 } // namespace Morula

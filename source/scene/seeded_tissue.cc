@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/scene/mesh_surfaces.h>
 #include <morula/scene/seeded_tissue.h>
@@ -193,16 +194,7 @@ namespace Morula
   }
 
 
-  template std::string
-  bodies_text(const Scene &, const SeededTissue<2> &, const MPI_Comm);
-  template std::string
-  bodies_text(const Scene &, const SeededTissue<3> &, const MPI_Comm);
-  template bool
-  has_surface<2>(const Scene &);
-  template bool
-  has_surface<3>(const Scene &);
-  template SeededTissue<2>
-  seed_tissue(const Scene &, const MPI_Comm);
-  template SeededTissue<3>
-  seed_tissue(const Scene &, const MPI_Comm);
+  MORULA_INSTANTIATE(bodies_text);
+  MORULA_INSTANTIATE(has_surface);
+  MORULA_INSTANTIATE(seed_tissue);
 } // namespace Morula

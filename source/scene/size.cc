@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/fate/division_by_size.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/expected_cells.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
@@ -66,23 +66,16 @@ namespace Morula
     // not counted either.
     if (scene.has_proliferation() && !Scene::has_any(scene.catalogue.fates))
       descendants.emplace(scene.cell_cycle, t);
-    // Cells that divide by size share the volume that the law gives them. A
-    // size that depends on the state leaves them undivided here.
-    std::optional<Expression> divides_at;
-    if (scene.divides_by_fate())
-      divides_at =
-        scene.keys<DivisionBySizeParameters>().volume.expression(dim);
-    if (divides_at && (depends_on_more_than_place(*divides_at) ||
-                       !divides_at->types().empty()))
-      divides_at.reset();
     SceneSize size;
     for (const Point<dim> &X : founders)
       {
         const double n     = descendants ? descendants->expected(X) : 1.;
         const double ratio = law ? law->expected_volume_ratio(X, t) : 1.;
-        const double whole = divides_at ? divides_at->value(X, 0.) : 0.;
-        size.cells +=
-          whole > 0. ? expected_cells_by_size(V * ratio / whole, 0.) : n;
+        // Cells that divide by size share the volume that the law gives them.
+        double n_of_volume = 1.;
+        for (const auto &fate : effects.development.fates)
+          n_of_volume *= fate->expected_cells(X, V * ratio);
+        size.cells += n * n_of_volume;
         size.volume += n * V * ratio;
       }
     size.cells  = Utilities::MPI::sum(size.cells, comm);
@@ -164,10 +157,7 @@ namespace Morula
   }
 
 
-  template SceneSize
-  expected_size(const Scene &, const std::vector<Point<2>> &, const MPI_Comm);
-  template SceneSize
-  expected_size(const Scene &, const std::vector<Point<3>> &, const MPI_Comm);
+  MORULA_INSTANTIATE(expected_size);
   template SeedingLimits<2>
   seeding_limits(const Scene &, const MPI_Comm);
   template SeedingLimits<3>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/scene/steps_review.h>
 
 #include <deal.II/base/mpi.h>
@@ -115,8 +116,7 @@ namespace Morula
       for (const AnyKey *any : scene.list())
         if (const auto *const key = dynamic_cast<const ExpressionKey *>(any);
             key != nullptr && !key->empty() &&
-            key->evaluated() != Evaluated::founder &&
-            (!key->is_default() || key->differs_by_type()))
+            key->evaluated() != Evaluated::founder && key->is_changed())
           try
             {
               const Expression  &expression = key->expression(scene.dimension);
@@ -198,13 +198,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                  \
-  template void review_steps(const Scene &,               \
-                             const Founders<dim> &,       \
-                             const SurfacePatches<dim> &, \
-                             const MPI_Comm,              \
-                             Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(review_steps);
 } // namespace Morula

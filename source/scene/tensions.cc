@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/forces/type_fractions.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/rearrangement/rearrangement.h>
@@ -107,13 +108,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                     \
-  template void review_tensions(const Scene &,               \
-                                const Founders<dim> &,       \
-                                const SurfacePatches<dim> &, \
-                                const MPI_Comm,              \
-                                Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(review_tensions);
 } // namespace Morula

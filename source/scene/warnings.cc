@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
+#include <morula/effects/fields/field_review.h>
+#include <morula/effects/idle_rate.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/usual_numbers.h>
 #include <morula/scene/estimates.h>
-#include <morula/scene/far_obstacles.h>
 #include <morula/scene/idle_effects.h>
 #include <morula/scene/idle_keys.h>
 #include <morula/scene/rate_warnings.h>
@@ -14,6 +18,10 @@
 #include <morula/seeding/near_bodies.h>
 #include <morula/seeding/unit_warnings.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace Morula
@@ -91,6 +99,18 @@ namespace Morula
     Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);
     at.is_loaded = has_loads(counts) || !effects.forces.empty();
+    const double V =
+      std::accumulate(founders.volumes.begin(), founders.volumes.end(), 0.);
+    at.mean_volume = Utilities::MPI::sum(V, comm) / founders.n_global;
+    at.largest_volume =
+      Utilities::MPI::max(founders.volumes.empty() ?
+                            0. :
+                            *std::max_element(founders.volumes.begin(),
+                                              founders.volumes.end()),
+                          comm);
+    if (const auto range =
+          range_of(scene.material.youngs_modulus, founders.positions, comm))
+      at.stiffness = range->second;
     const DevelopmentEffects<dim> &development = effects.development;
     if (development.law)
       development.law->review(at, review);
@@ -110,11 +130,17 @@ namespace Morula
     for (const auto &[name, force] : effects.forces)
       force->review(at, review);
     review_rearrangement(scene, review);
+    if (const auto &exchanges = scene.keys<RearrangementParameters>();
+        exchanges.is_on())
+      review_rate(exchanges.diffusion.expression(dim),
+                  "no cell changes its place by it.",
+                  at,
+                  review);
+    review_fields(scene.fields, at, review);
     review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
     review_idle_effects(scene, review);
-    review_idle_keys(scene, founders, surface, comm, review);
-    review_far_obstacles(scene, surface, comm, review);
+    review_idle_keys(scene, founders, comm, review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())
@@ -131,16 +157,5 @@ namespace Morula
   }
 
 
-  template std::vector<std::string>
-  scene_warnings(const Scene &,
-                 const Founders<2> &,
-                 const SurfacePatches<2> &,
-                 const ConditionCounts &,
-                 const MPI_Comm);
-  template std::vector<std::string>
-  scene_warnings(const Scene &,
-                 const Founders<3> &,
-                 const SurfacePatches<3> &,
-                 const ConditionCounts &,
-                 const MPI_Comm);
+  MORULA_INSTANTIATE(scene_warnings);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/seeding/bodies.h>
 
@@ -200,15 +201,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                 \
-  template void                      part_bodies(SurfacePatches<dim> &); \
-  template std::vector<BodyMeasures> measures_of_bodies(                 \
-    const Founders<dim> &, const SurfacePatches<dim> &, const MPI_Comm); \
-  template std::vector<unsigned int> bodies_apart(const Founders<dim> &, \
-                                                  const MPI_Comm);       \
-  template std::vector<unsigned int> bodies_of_patches(                  \
-    const SurfacePatches<dim> &, const Founders<dim> &, const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(part_bodies);
+  MORULA_INSTANTIATE(measures_of_bodies);
+  MORULA_INSTANTIATE(bodies_apart);
+  MORULA_INSTANTIATE(bodies_of_patches);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/closed_room.h>
 
 #include <deal.II/boost_adaptors/point.h>
@@ -134,8 +135,5 @@ namespace Morula
   }
 
 
-  template double
-  room_without_cells(const AllCells<2> &, const SurfacePatches<2> &);
-  template double
-  room_without_cells(const AllCells<3> &, const SurfacePatches<3> &);
+  MORULA_INSTANTIATE(room_without_cells);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/grid_warnings.h>
 
 #include <deal.II/base/mpi.h>
@@ -151,20 +152,5 @@ namespace Morula
   }
 
 
-  template void
-  review_grid(const GridParameters &,
-              const TissueParameters &,
-              const Founders<2> &,
-              const SurfacePatches<2> &,
-              const bool,
-              const MPI_Comm,
-              Review &);
-  template void
-  review_grid(const GridParameters &,
-              const TissueParameters &,
-              const Founders<3> &,
-              const SurfacePatches<3> &,
-              const bool,
-              const MPI_Comm,
-              Review &);
+  MORULA_INSTANTIATE(review_grid);
 } // namespace Morula

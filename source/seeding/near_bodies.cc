@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/near_bodies.h>
 
 #include <deal.II/base/mpi.h>
@@ -225,18 +226,6 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                         \
-  template BodyCounts count_bodies(const GridParameters &,       \
-                                   const Founders<dim> &,        \
-                                   const SurfacePatches<dim> &,  \
-                                   const MPI_Comm);              \
-  template void       review_bodies(const GridParameters &,      \
-                                    const TissueParameters &,    \
-                                    const Founders<dim> &,       \
-                                    const SurfacePatches<dim> &, \
-                                    const MPI_Comm,              \
-                                    Review &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(count_bodies);
+  MORULA_INSTANTIATE(review_bodies);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/outliers.h>
 
 #include <deal.II/base/mpi.h>
@@ -144,16 +145,7 @@ namespace Morula
     return {};
   }
 
-#define INSTANTIATE(dim)                                                        \
-  template BoundingBox<dim> bounding_box(const PointsFileRows<dim> &,           \
-                                         const MPI_Comm);                       \
-  template LineProblem      find_row_beyond_limits(const PointsFileRows<dim> &, \
-                                                   const SeedingLimits<dim> &); \
-  template LineProblem      find_outlier(const PointsFileRows<dim> &,           \
-                                         const double,                          \
-                                         const std::uint64_t,                   \
-                                         const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(bounding_box);
+  MORULA_INSTANTIATE(find_row_beyond_limits);
+  MORULA_INSTANTIATE(find_outlier);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/share.h>
 #include <morula/seeding/patch_lists.h>
 
@@ -85,15 +86,7 @@ namespace Morula
     return mine;
   }
 
-#define INSTANTIATE(dim)                                                           \
-  template std::vector<AllCells<dim>> cells_of_bodies(const Founders<dim> &,       \
-                                                      const MPI_Comm);             \
-  template void                append_patches(const SurfacePatches<dim> &,         \
-                                              const std::optional<unsigned int> &, \
-                                              SurfacePatches<dim> &);              \
-  template SurfacePatches<dim> shares_of(const SurfacePatches<dim> &,              \
-                                         const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(cells_of_bodies);
+  MORULA_INSTANTIATE(append_patches);
+  MORULA_INSTANTIATE(shares_of);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/pieces_at_start.h>
 
 #include <deal.II/base/mpi.h>
@@ -121,12 +122,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template PiecesAtStart pieces_at_start(const GridParameters &,      \
-                                         const Founders<dim> &,       \
-                                         const SurfacePatches<dim> &, \
-                                         const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(pieces_at_start);
 } // namespace Morula

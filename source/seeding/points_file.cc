@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/seeding/outliers.h>
 #include <morula/seeding/points_file.h>
 #include <morula/seeding/points_file_rows.h>
@@ -464,18 +465,6 @@ namespace Morula
                   "If it is a cell, correct its coordinates.");
   }
 
-  template void
-  review_points_file<2>(const std::string &, Review &);
-  template void
-  review_points_file<3>(const std::string &, Review &);
-  template Founders<2>
-  read_points<2>(const std::string &,
-                 const double,
-                 const MPI_Comm,
-                 const SeedingLimits<2> &);
-  template Founders<3>
-  read_points<3>(const std::string &,
-                 const double,
-                 const MPI_Comm,
-                 const SeedingLimits<3> &);
+  MORULA_INSTANTIATE(review_points_file);
+  MORULA_INSTANTIATE(read_points);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/points_file_rows.h>
 #include <morula/seeding/points_file_words.h>
 
@@ -412,20 +413,6 @@ namespace Morula
   }
 
 
-  template PointsFormat
-  read_columns<2>(const std::string &, LineProblem &);
-  template PointsFormat
-  read_columns<3>(const std::string &, LineProblem &);
-  template void
-  read_row<2>(const std::string &,
-              const PointsFormat &,
-              const double,
-              const std::vector<std::string> &,
-              PointsFileRows<2> &);
-  template void
-  read_row<3>(const std::string &,
-              const PointsFormat &,
-              const double,
-              const std::vector<std::string> &,
-              PointsFileRows<3> &);
+  MORULA_INSTANTIATE(read_columns);
+  MORULA_INSTANTIATE(read_row);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/share.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_room.h>
@@ -460,20 +461,6 @@ namespace Morula
     return patches;
   }
 
-  template SurfacePatches<2>
-  seed_points_surface(const TissueParameters &,
-                      const Founders<2> &,
-                      const MPI_Comm);
-  template SurfacePatches<3>
-  seed_points_surface(const TissueParameters &,
-                      const Founders<3> &,
-                      const MPI_Comm);
-  template std::optional<SurfacePatches<2>>
-  surface_around(const std::vector<Point<2>> &,
-                 const std::vector<double> &,
-                 const SurfaceWish &);
-  template std::optional<SurfacePatches<3>>
-  surface_around(const std::vector<Point<3>> &,
-                 const std::vector<double> &,
-                 const SurfaceWish &);
+  MORULA_INSTANTIATE(seed_points_surface);
+  MORULA_INSTANTIATE(surface_around);
 } // namespace Morula

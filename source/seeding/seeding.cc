@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/share.h>
 #include <morula/seeding/lattice.h>
 #include <morula/seeding/points_file.h>
@@ -248,16 +249,6 @@ namespace Morula
     return patches;
   }
 
-  template Founders<2>
-  seed_founders<2>(const TissueParameters &,
-                   const MPI_Comm,
-                   const SeedingLimits<2> &);
-  template Founders<3>
-  seed_founders<3>(const TissueParameters &,
-                   const MPI_Comm,
-                   const SeedingLimits<3> &);
-  template SurfacePatches<2>
-  seed_surface<2>(const TissueParameters &, const MPI_Comm);
-  template SurfacePatches<3>
-  seed_surface<3>(const TissueParameters &, const MPI_Comm);
+  MORULA_INSTANTIATE(seed_founders);
+  MORULA_INSTANTIATE(seed_surface);
 } // namespace Morula

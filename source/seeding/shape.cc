@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/seeding/shape.h>
 #include <morula/seeding/shapes/box.h>
 #include <morula/seeding/shapes/cylinder.h>
@@ -82,12 +83,6 @@ namespace Morula
 
   template class Shape<2>;
   template class Shape<3>;
-  template Point<2>
-  leading_components<2>(const std::vector<double> &);
-  template Point<3>
-  leading_components<3>(const std::vector<double> &);
-  template std::unique_ptr<Shape<2>>
-  make_shape<2>(const TissueParameters &);
-  template std::unique_ptr<Shape<3>>
-  make_shape<3>(const TissueParameters &);
+  MORULA_INSTANTIATE(leading_components);
+  MORULA_INSTANTIATE(make_shape);
 } // namespace Morula

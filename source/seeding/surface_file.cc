@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/surface_file.h>
 
@@ -63,8 +64,5 @@ namespace Morula
   }
 
 
-  template void
-  refuse_outside(const Key<std::string> &,
-                 const std::vector<Point<2>> &,
-                 const std::function<bool(const Point<2> &)> &);
+  MORULA_INSTANTIATE(refuse_outside);
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/grid/parting.h>
 #include <morula/particles/point_exchange.h>
@@ -474,27 +475,6 @@ namespace Morula
     return list;
   }
 
-#define INSTANTIATE(dim)                                             \
-  template std::optional<PointList<dim>> renewed_surface(            \
-    const Cells<dim> &,                                              \
-    const PointList<dim> &,                                          \
-    const PointList<dim> &,                                          \
-    const BoundaryColumns<dim> &,                                    \
-    const SurfaceWish &,                                             \
-    const double,                                                    \
-    types::particle_index &,                                         \
-    const MPI_Comm,                                                  \
-    const std::optional<unsigned int> &,                             \
-    const bool);                                                     \
-  template std::optional<PointList<dim>> carved_surface(             \
-    const Cells<dim> &,                                              \
-    const PointList<dim> &,                                          \
-    const BoundaryColumns<dim> &,                                    \
-    const std::function<SurfaceCondition(const Point<dim> &,         \
-                                         const Tensor<1, dim> &)> &, \
-    types::particle_index &,                                         \
-    const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(renewed_surface);
+  MORULA_INSTANTIATE(carved_surface);
 } // namespace Morula

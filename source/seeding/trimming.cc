@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/seeding/trimming.h>
 
 #include <deal.II/base/utilities.h>
@@ -245,14 +246,5 @@ namespace Morula
     return true;
   }
 
-  template bool
-  trim(const Lattice<2> &,
-       const Shape<2> &,
-       const std::vector<std::uint64_t> &,
-       Founders<2> &);
-  template bool
-  trim(const Lattice<3> &,
-       const Shape<3> &,
-       const std::vector<std::uint64_t> &,
-       Founders<3> &);
+  MORULA_INSTANTIATE(trim);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/points_file.h>
 #include <morula/seeding/unit_warnings.h>
@@ -312,16 +313,5 @@ namespace Morula
   }
 
 
-  template void
-  review_units(const TissueParameters &,
-               const Founders<2> &,
-               const SurfacePatches<2> &,
-               const MPI_Comm,
-               Review &);
-  template void
-  review_units(const TissueParameters &,
-               const Founders<3> &,
-               const SurfacePatches<3> &,
-               const MPI_Comm,
-               Review &);
+  MORULA_INSTANTIATE(review_units);
 } // namespace Morula

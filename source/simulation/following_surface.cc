@@ -110,14 +110,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  FollowingSurface<dim>::exists() const
-  {
-    return exists_;
-  }
-
-
-  template <int dim>
   std::optional<double>
   FollowingSurface<dim>::begin(Tissue<dim> &tissue)
   {
@@ -289,14 +281,6 @@ namespace Morula
               {0., length, follow_surface ? fit.enclosed : share * fit.cells});
       }
     pull_to_cells(tissue, length);
-  }
-
-
-  template <int dim>
-  bool
-  FollowingSurface<dim>::restores(const std::optional<double> &share) const
-  {
-    return flows && share && !renews();
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/simulation/former_columns.h>
 
 #include <deal.II/base/mpi.h>
@@ -80,8 +81,5 @@ namespace Morula
   }
 
 
-  template std::string
-  add_former_columns(const Columns &, const MPI_Comm, SnapshotData<2> &);
-  template std::string
-  add_former_columns(const Columns &, const MPI_Comm, SnapshotData<3> &);
+  MORULA_INSTANTIATE(add_former_columns);
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 #include <morula/simulation/founding.h>
 
@@ -100,8 +101,5 @@ namespace Morula
   }
 
 
-  template FirstPoints<2>
-  found(const TissueModel<2> &, const SeededTissue<2> &, const MPI_Comm);
-  template FirstPoints<3>
-  found(const TissueModel<3> &, const SeededTissue<3> &, const MPI_Comm);
+  MORULA_INSTANTIATE(found);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/gap_watch.h>
 
@@ -248,11 +249,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                    \
-  template std::optional<Gap<dim>> narrowest_gap(const Tissue<dim> &,       \
-                                                 const SplineSpace<dim> &); \
-  template class GapWatch<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(narrowest_gap);
+  template class GapWatch<2>;
+  template class GapWatch<3>;
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/version.h>
 #include <morula/simulation/run_state.h>
 
@@ -145,17 +146,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                         \
-  template SnapshotData<dim> snapshot_of(const Tissue<dim> &,                    \
-                                         const TimeSteps::State &,               \
-                                         const RunState &,                       \
-                                         const bool);                            \
-  template void              restore_tissue(SnapshotData<dim> &, Tissue<dim> &); \
-  template TimeSteps::State  saved_time_steps(const SnapshotData<dim> &);        \
-  template RunState          saved_run_state(const SnapshotData<dim> &,          \
-                                             const bool,                         \
-                                             const NamedNumbers &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(snapshot_of);
+  MORULA_INSTANTIATE(restore_tissue);
+  MORULA_INSTANTIATE(saved_time_steps);
+  MORULA_INSTANTIATE(saved_run_state);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/output/events.h>
 #include <morula/output/forces.h>
 #include <morula/output/lineage.h>
@@ -70,8 +71,5 @@ namespace Morula
   }
 
 
-  template std::vector<Table>
-  tables_of(const Scene &, const Tables<2> &);
-  template std::vector<Table>
-  tables_of(const Scene &, const Tables<3> &);
+  MORULA_INSTANTIATE(tables_of);
 } // namespace Morula

@@ -10,6 +10,7 @@
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/tissue_tables.h>
+#include <morula/solver/linear_solver.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -35,7 +36,10 @@ namespace Morula
     , gaps([this](const std::string &text) { files->message(text); })
     , lost_conditions(model,
                       [this](const std::string &text) { files->message(text); })
-    , fields(model,
+    , fields(model.fields,
+             model.scene.fields,
+             model.development,
+             make_linear_solvers(model.scene.solver),
              timer,
              [this](const std::string &text) { files->message(text); })
     , surface(model, run_state.next_boundary_id, timer, comm)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/slow_steps.h>
@@ -121,13 +122,6 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                               \
-  template void let_go(const Tissue<dim> &,            \
-                       const DisplacementField<dim> &, \
-                       double &);                      \
-  template bool turns_too_far(const Tissue<dim> &,     \
-                              const DisplacementField<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(let_go);
+  MORULA_INSTANTIATE(turns_too_far);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/simulation/step_checks.h>
 
 #include <deal.II/base/mpi.h>
@@ -96,16 +97,7 @@ namespace Morula
     return text.str();
   }
 
-#define INSTANTIATE(dim)                                                      \
-  template bool inverts(const DisplacementField<dim> &,                       \
-                        const PointStore<dim> &,                              \
-                        const MPI_Comm);                                      \
-  template void check_gap(const Extremes<dim> &, const double, const double); \
-  template std::string torn_tissue_message(const std::vector<Point<dim>> &,   \
-                                           const std::vector<Point<dim>> &,   \
-                                           const GridBox<dim> &,              \
-                                           const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(inverts);
+  MORULA_INSTANTIATE(check_gap);
+  MORULA_INSTANTIATE(torn_tissue_message);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/simulation/step_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -46,12 +47,5 @@ namespace Morula
   }
 
 
-  template double
-  mean_over_tissue(const Tissue<2> &,
-                   const std::function<double(const unsigned int)> &,
-                   const double);
-  template double
-  mean_over_tissue(const Tissue<3> &,
-                   const std::function<double(const unsigned int)> &,
-                   const double);
+  MORULA_INSTANTIATE(mean_over_tissue);
 } // namespace Morula

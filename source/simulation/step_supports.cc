@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/mechanics/drag.h>
 #include <morula/simulation/step_supports.h>
@@ -49,16 +50,5 @@ namespace Morula
   }
 
 
-  template std::vector<typename RigidModes<2>::Support>
-  step_supports(const TissueModel<2> &,
-                const Tissue<2> &,
-                const SplineSpace<2> &,
-                const double,
-                const double);
-  template std::vector<typename RigidModes<3>::Support>
-  step_supports(const TissueModel<3> &,
-                const Tissue<3> &,
-                const SplineSpace<3> &,
-                const double,
-                const double);
+  MORULA_INSTANTIATE(step_supports);
 } // namespace Morula

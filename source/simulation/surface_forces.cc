@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/simulation/surface_forces.h>
 
@@ -341,10 +342,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                               \
-  template void set_forces(const SurfaceForces<dim> &, Tissue<dim> &); \
-  template class ForceSums<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(set_forces);
+  template class ForceSums<2>;
+  template class ForceSums<3>;
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/cell_domain.h>
 #include <morula/simulation/tissue_tables.h>
 
@@ -149,20 +150,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                     \
-  template void               set_state(const TissueModel<dim> &,            \
-                                        const Tissue<dim> &,                 \
-                                        const double,                        \
-                                        StatisticsRow &);                    \
-  template CellFields<dim>    cell_table(const TissueModel<dim> &,           \
-                                         const Tissue<dim> &,                \
-                                         const double);                      \
-  template SurfaceFields<dim> surface_table(const Tissue<dim> &,             \
-                                            const double);                   \
-  template std::string        long_cells_warning<dim>(const StatisticsRow &, \
-                                               const double,          \
-                                               const bool);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(set_state);
+  MORULA_INSTANTIATE(cell_table);
+  MORULA_INSTANTIATE(surface_table);
+  MORULA_INSTANTIATE(long_cells_warning);
 } // namespace Morula

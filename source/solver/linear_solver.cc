@@ -9,6 +9,8 @@
 #include <deal.II/lac/solver_gmres.h>
 
 #include <algorithm>
+#include <iostream>
+#include <memory>
 #include <string>
 
 namespace Morula
@@ -225,5 +227,36 @@ namespace Morula
         throw StepFailed("GMRES did not converge");
       }
     iterations += control.last_step();
+  }
+
+
+  MakeLinearSolver
+  make_linear_solvers(const SolverParameters &parameters)
+  {
+    struct SilentSolver
+    {
+      SilentSolver(const SolverParameters &parameters,
+                   const LinearProblem    &problem)
+        : timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
+        , solver(parameters, problem, timer)
+      {}
+
+      TimerOutput  timer;
+      LinearSolver solver;
+    };
+    return [&parameters](const LinearProblem &problem) -> SolveLinear {
+      // The function that is returned may be copied, while the solver with its
+      // preconditioner may not. So copies share one solver.
+      const auto own = std::make_shared<SilentSolver>(parameters, problem);
+      return [own](const Equilibrium::Matrix &A,
+                   Equilibrium::Vector       &x,
+                   const Equilibrium::Vector &b,
+                   const double               tolerance) {
+        unsigned int iterations = 0;
+        own->solver.solve(A, x, b, tolerance, iterations);
+        // A solver that had to shift the matrix has solved another problem.
+        return !own->solver.has_shifted();
+      };
+    };
   }
 } // namespace Morula

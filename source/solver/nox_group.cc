@@ -32,12 +32,6 @@ namespace Morula
     , direction(u)
   {}
 
-  const Equilibrium::Evaluation &
-  NoxGroup::evaluation() const
-  {
-    return evaluation_;
-  }
-
   void
   NoxGroup::invalidate()
   {
@@ -160,84 +154,6 @@ namespace Morula
     return Ok;
   }
 
-  bool
-  NoxGroup::isF() const
-  {
-    return has_residual;
-  }
-
-  bool
-  NoxGroup::isJacobian() const
-  {
-    return K != nullptr;
-  }
-
-  bool
-  NoxGroup::isGradient() const
-  {
-    return has_residual;
-  }
-
-  bool
-  NoxGroup::isNewton() const
-  {
-    return has_direction;
-  }
-
-  const NOX::Abstract::Vector &
-  NoxGroup::getX() const
-  {
-    return u;
-  }
-
-  const NOX::Abstract::Vector &
-  NoxGroup::getF() const
-  {
-    return R;
-  }
-
-  double
-  NoxGroup::getNormF() const
-  {
-    return R.values.l2_norm();
-  }
-
-  const NOX::Abstract::Vector &
-  NoxGroup::getGradient() const
-  {
-    return R;
-  }
-
-  const NOX::Abstract::Vector &
-  NoxGroup::getNewton() const
-  {
-    return direction;
-  }
-
-  Teuchos::RCP<const NOX::Abstract::Vector>
-  NoxGroup::getXPtr() const
-  {
-    return Teuchos::rcpFromRef(u);
-  }
-
-  Teuchos::RCP<const NOX::Abstract::Vector>
-  NoxGroup::getFPtr() const
-  {
-    return Teuchos::rcpFromRef(R);
-  }
-
-  Teuchos::RCP<const NOX::Abstract::Vector>
-  NoxGroup::getGradientPtr() const
-  {
-    return Teuchos::rcpFromRef(R);
-  }
-
-  Teuchos::RCP<const NOX::Abstract::Vector>
-  NoxGroup::getNewtonPtr() const
-  {
-    return Teuchos::rcpFromRef(direction);
-  }
-
   Teuchos::RCP<NOX::Abstract::Group>
   NoxGroup::clone(const NOX::CopyType type) const
   {
@@ -248,21 +164,4 @@ namespace Morula
     return copy;
   }
 
-  bool
-  NoxGroup::has_kept_tangent() const
-  {
-    return tangents.kept();
-  }
-
-  double
-  NoxGroup::part_taken() const
-  {
-    return part;
-  }
-
-  double
-  NoxGroup::curvature() const
-  {
-    return linear_solver.curvature();
-  }
 } // namespace Morula

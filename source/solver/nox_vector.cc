@@ -124,10 +124,4 @@ namespace Morula
   {
     return values * values_of(y);
   }
-
-  NOX::size_type
-  NoxVector::length() const
-  {
-    return values.size();
-  }
 } // namespace Morula

@@ -308,7 +308,7 @@ class Applied(ProgramTest):
             ("jump", {**BOX, "Growth/Law": "isotropic",
                       "Growth/Isotropic/Stretch": 1.5},
              "by a factor of up to 1.5"),
-            ("still", {**BOX, "Growth/Law": "rate"}, "no cell grows: its"),
+            ("still", {**BOX, "Growth/Law": "rate"}, "no cell grows: it"),
             ("nobody", {**BOX, "Death/When": "X > 500", "Death/Shrinking time":
                         0}, "no cell dies by it"),
             ("never", {**BOX, "Death/When": "t > 5", "Death/Shrinking time":

@@ -188,6 +188,12 @@ namespace Morula
       return !of_types.empty();
     }
 
+    bool
+    is_changed() const override
+    {
+      return !is_default() || differs_by_type();
+    }
+
     /** Compares the text. */
     friend bool
     operator==(const ExpressionKey &key, const std::string &text)

@@ -113,6 +113,22 @@ namespace Morula
       return false;
     }
 
+    /** Says that the key does nothing unless one of the keys with these full
+     *  paths has another value than its default. Several calls: each must be
+     *  fulfilled. */
+    void
+    needs(const std::vector<std::string> &paths)
+    {
+      needed_.push_back(paths);
+    }
+
+    /** What needs() was told. */
+    const std::vector<std::vector<std::string>> &
+    needed() const
+    {
+      return needed_;
+    }
+
     /** Whether the value names a file, or may do so. */
     bool
     names_file() const
@@ -131,6 +147,13 @@ namespace Morula
     /** Whether the value is the default, in whatever way it is written. */
     bool
     is_default() const;
+
+    /** Whether cells of some type have another value than the default. */
+    virtual bool
+    is_changed() const
+    {
+      return !is_default();
+    }
 
     /** Declares the key in deal.II's handler, bound to this object. */
     void
@@ -161,9 +184,10 @@ namespace Morula
     bool                               names_file_ = false;
 
   private:
-    std::string path_;
-    std::string default_text_;
-    std::string documentation_;
+    std::string                           path_;
+    std::string                           default_text_;
+    std::string                           documentation_;
+    std::vector<std::vector<std::string>> needed_;
   };
 
   /** What deal.II's pattern of a key admits; one for each type of value. */

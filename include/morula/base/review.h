@@ -34,6 +34,21 @@ namespace Morula
          const std::string &value,
          const std::string &why,
          const std::string &remedy);
+
+    /** Whether the scene itself gives the key a value that is not the default.
+     */
+    bool
+    is_given(const AnyKey &key) const
+    {
+      return has_set(key) && !key.is_default();
+    }
+
+    /** Warns of a key that does nothing, if is_given().
+     *  @param why half a sentence */
+    void
+    warn_of_idle(const AnyKey      &key,
+                 const std::string &why,
+                 const std::string &remedy);
   };
 } // namespace Morula
 

@@ -162,6 +162,10 @@ namespace Morula
                     const std::vector<std::string>     &types,
                     const std::vector<std::string>     &fields);
 
+    /** The keys of each effect, kind by kind. */
+    std::vector<const EffectKeys *>
+    all_keys() const;
+
     /** A copy whose keys have their defaults. */
     Catalogue
     with_defaults() const;

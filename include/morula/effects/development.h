@@ -98,7 +98,10 @@ namespace Morula
     /** Whether the law follows the cells' state, so that a step can miss some
      *  growth. */
     bool
-    law_follows_state() const;
+    law_follows_state() const
+    {
+      return law && law->follows_state();
+    }
 
     /** Whether a step's error is known: growth follows the state, or tissue
      *  flows. */

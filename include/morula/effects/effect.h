@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ namespace Morula
 
   class ExpressionKey;
   struct MaterialParameters;
+
+  /** A key that nothing reads in a scene, and what to do. */
+  struct IdleKey
+  {
+    const AnyKey &key;
+    std::string   why; // half a sentence
+    std::string   remedy;
+  };
 
   /**
    * The keys of an effect. Unless a scene chooses the effect by its name, they
@@ -80,9 +89,15 @@ namespace Morula
     virtual std::string
     how_to_switch_on() const
     {
-      return switch_key() == nullptr ?
-               "" :
-               "Say where it acts by " + switch_key()->path();
+      return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
+    }
+
+    /** Keys that nothing reads, as the values of others in @p dim dimensions
+     *  tell: said of those that the scene sets. See AnyKey::needs(), too. */
+    virtual std::vector<IdleKey>
+    idle_keys(const unsigned int /*dim*/) const
+    {
+      return {};
     }
 
     /** Whether cells divide by the effect, so that the scene's division axes
@@ -171,6 +186,10 @@ namespace Morula
     MPI_Comm comm;
     /** Whether forces act on cells or on the surface. */
     bool is_loaded = false;
+    /** Initial volumes of the founders of all ranks, µm^dim. */
+    double mean_volume = 0., largest_volume = 0.;
+    /** E of the stiffest cell, kPa, if it is known before the run. */
+    std::optional<double> stiffness = {};
   };
 
   /** What all effects have in common. An effect keeps nothing between calls: a

@@ -37,7 +37,10 @@ namespace Morula
 
     /** The cells of this rank that have to, since the last exchange(). */
     const std::vector<unsigned int> &
-    to_live_again() const;
+    to_live_again() const
+    {
+      return again;
+    }
 
     /** The types beside cell @p p of this rank. */
     TypesAround<dim>

@@ -16,17 +16,6 @@ namespace Morula
     std::vector<std::vector<double>> between;
     std::vector<double>              with_surface;
 
-    /** Whether some interface between types has one. */
-    bool
-    any_between() const
-    {
-      for (const std::vector<double> &row : between)
-        for (const double gamma : row)
-          if (gamma != 0.)
-            return true;
-      return false;
-    }
-
     /** Whether the free surface of some type has one. */
     bool
     any_with_surface() const

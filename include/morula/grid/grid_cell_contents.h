@@ -176,9 +176,6 @@ namespace Morula
     void
     clear();
 
-    unsigned int
-    node_of(const Record &record) const;
-
     /** Replaces what this rank has counted by what all have, from @p records of
      *  its grid cells. Collective. */
     void

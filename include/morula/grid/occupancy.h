@@ -75,7 +75,10 @@ namespace Morula
     /** Whether a particle of this rank has more than one quadrature point, or
      *  one that several grid cells share; after the second round. */
     bool
-    subdivides() const;
+    subdivides() const
+    {
+      return subdivides_;
+    }
 
     /** Sums the second round over all ranks. Collective. */
     void
@@ -119,7 +122,10 @@ namespace Morula
     /** Volume of particles in the grid cell divided by h^dim: doc/theory.md
      *  (3.1). */
     double
-    fill(const unsigned int number) const;
+    fill(const unsigned int number) const
+    {
+      return contents.volume(number) / GridCellContents<dim>::resolution;
+    }
 
     /**
      * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
@@ -128,14 +134,20 @@ namespace Morula
      * so that the tip of a large body is not thin.
      */
     double
-    thickness(const unsigned int number) const;
+    thickness(const unsigned int number) const
+    {
+      return rows.thickness(number, contents) * boxes().spacing();
+    }
 
     /**
      * Whether the tissue around a grid cell is thin: the grid cell and each
      * of its neighbours with tissue has a row that is shorter than 1.5 h.
      */
     bool
-    is_thin(const unsigned int number) const;
+    is_thin(const unsigned int number) const
+    {
+      return rows.is_thin(number, contents);
+    }
 
     /**
      * Whether the grid cell is the inner candidate of each of its thin rows
@@ -146,7 +158,10 @@ namespace Morula
      * one side.
      */
     bool
-    is_inner_candidate(const unsigned int number) const;
+    is_inner_candidate(const unsigned int number) const
+    {
+      return rows.is_inner_candidate(number);
+    }
 
     /** Corners (µm) of the smallest box around the particles' cubes in the
      *  grid cell. If there are none, the upper corner is below the lower one.
@@ -156,11 +171,17 @@ namespace Morula
 
     /** Particles in a grid cell. */
     std::uint64_t
-    n_particles(const unsigned int number) const;
+    n_particles(const unsigned int number) const
+    {
+      return contents.n_particles(number);
+    }
 
     /** Quadrature points in a grid cell. */
     unsigned int
-    n_quadrature_points(const unsigned int number) const;
+    n_quadrature_points(const unsigned int number) const
+    {
+      return contents.n_quadrature_points(number);
+    }
 
     /** Whether the grid cell of @p x holds more than 4^dim boundary points,
      *  which is more than a surface needs. @p x may lie outside the box. */
@@ -170,7 +191,10 @@ namespace Morula
     /** Whether the grid cell holds a particle, a quadrature point or a
      *  boundary point. */
     bool
-    active(const unsigned int number) const;
+    active(const unsigned int number) const
+    {
+      return contents.active(number);
+    }
 
     /** The grid cells of this rank's window. */
     const GridBoxes<dim> &
@@ -180,12 +204,18 @@ namespace Morula
     window() const;
 
     const GridNodes<dim> &
-    nodes() const;
+    nodes() const
+    {
+      return contents.nodes();
+    }
 
     /** Nodes with tissue or points that this rank owned when they were summed.
      */
     const std::vector<unsigned int> &
-    own() const;
+    own() const
+    {
+      return contents.own();
+    }
 
   private:
     void

@@ -76,7 +76,10 @@ namespace Morula
 
     /** Copies that stand before this one in list() and have the same spline. */
     unsigned int
-    place(const unsigned int copy) const;
+    place(const unsigned int copy) const
+    {
+      return copy - first[copies[copy].spline];
+    }
 
     /** The copy of a spline that has that place. */
     unsigned int
@@ -88,7 +91,10 @@ namespace Morula
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
     bool
-    is_own(const SplineCopy &copy) const;
+    is_own(const SplineCopy &copy) const
+    {
+      return own[copy.spline];
+    }
 
     /** The piece of an active node that this rank owns: 0, ...,
      *  n_pieces() - 1 in the order of the pieces' lowest nodes. */
@@ -100,11 +106,17 @@ namespace Morula
 
     /** Lowest grid cell of a piece: its number in the grid's box. */
     unsigned int
-    lowest_grid_cell(const unsigned int piece) const;
+    lowest_grid_cell(const unsigned int piece) const
+    {
+      return grid_cell_of(lowest[piece]);
+    }
 
     /** The active nodes that this rank owns, in the order of their names. */
     const std::vector<unsigned int> &
-    own_nodes() const;
+    own_nodes() const
+    {
+      return own_active;
+    }
 
   private:
     void

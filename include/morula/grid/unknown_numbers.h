@@ -56,15 +56,24 @@ namespace Morula
 
     /** The number of unknowns of all ranks. */
     unsigned int
-    n() const;
+    n() const
+    {
+      return owned_.size();
+    }
 
     /** The unknowns of this rank. */
     const IndexSet &
-    owned() const;
+    owned() const
+    {
+      return owned_;
+    }
 
     /** The piece of each of this rank's unknowns, in order. */
     const std::vector<unsigned int> &
-    pieces() const;
+    pieces() const
+    {
+      return pieces_;
+    }
 
   private:
     /** Numbers the small pieces' unknowns behind @p next, which are this

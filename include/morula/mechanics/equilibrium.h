@@ -12,6 +12,7 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
+#include <functional>
 #include <vector>
 
 namespace Morula
@@ -121,6 +122,17 @@ namespace Morula
      *  is the better answer to a system that cannot be solved otherwise. */
     types::global_dof_index most_to_factorise = numbers::invalid_dof_index;
   };
+
+  /** Solves A x = b for a positive A, to a residual of @p tolerance |b|; may
+   *  keep a preconditioner for the next call. Collective. @return whether A
+   *  turned out to be positive; if not, x is of no use. @throws StepFailed */
+  using SolveLinear = std::function<bool(const Equilibrium::Matrix &A,
+                                         Equilibrium::Vector       &x,
+                                         const Equilibrium::Vector &b,
+                                         const double               tolerance)>;
+
+  /** Makes a solver for the matrices of a problem, which outlives it. */
+  using MakeLinearSolver = std::function<SolveLinear(const LinearProblem &)>;
 
   /** The scales with which Newton's method compares. */
   struct NewtonScales

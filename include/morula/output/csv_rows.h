@@ -46,7 +46,10 @@ namespace Morula
 
     /** Bytes of all rows. */
     std::size_t
-    n_bytes() const;
+    n_bytes() const
+    {
+      return text.size();
+    }
 
     /**
      * Puts all ranks' rows in order and returns those that this rank is to

@@ -114,7 +114,10 @@ namespace Morula
     unparted_splines(const bool share_points = false) const;
 
     const BackgroundGrid<dim> &
-    grid() const;
+    grid() const
+    {
+      return grid_;
+    }
 
     const Cells<dim> &
     cells() const;
@@ -128,7 +131,10 @@ namespace Morula
     domain(const unsigned int p) const;
 
     MPI_Comm
-    communicator() const;
+    communicator() const
+    {
+      return grid_.communicator();
+    }
 
   private:
     /** Whether the ranks' loads are about equal with cells at @p positions

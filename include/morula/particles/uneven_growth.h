@@ -24,7 +24,10 @@ namespace Morula
     /** Whether any two cells of all ranks have grown differently. Where none
      *  have, all is even, and sums are not made. */
     bool
-    exists() const;
+    exists() const
+    {
+      return exists_;
+    }
 
     /** The variance of ln det F_g, by volume, of the cells that share splines
      *  with those in the grid cell at @p x, which has some. */

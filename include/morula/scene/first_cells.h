@@ -62,6 +62,13 @@ namespace Morula
     PresentCell<dim>
     cell(std::vector<double> &row, const std::size_t i) const;
 
+    /** What acts on them. */
+    const auto &
+    forces() const
+    {
+      return effects.forces;
+    }
+
     /** The rules by which the founders develop. */
     const CellDevelopment<dim> &
     development() const

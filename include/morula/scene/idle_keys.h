@@ -12,15 +12,14 @@
 
 namespace Morula
 {
-  /** Warns of values that do nothing, as what they belong to is off, never
-   *  begins or is everywhere zero. Collective. */
+  /** Warns of times, types and columns of a points file with which values do
+   *  nothing. Collective. */
   template <int dim>
   void
-  review_idle_keys(const Scene               &scene,
-                   const Founders<dim>       &founders,
-                   const SurfacePatches<dim> &surface,
-                   const MPI_Comm             comm,
-                   Review                    &review);
+  review_idle_keys(const Scene         &scene,
+                   const Founders<dim> &founders,
+                   const MPI_Comm       comm,
+                   Review              &review);
 } // namespace Morula
 
 #endif

@@ -30,7 +30,10 @@ namespace Morula
 
     /** The number of a point in the patches of this rank. */
     std::size_t
-    patch(const std::size_t point) const;
+    patch(const std::size_t point) const
+    {
+      return numbers[point];
+    }
 
     /**
      * The forces of a condition on points() at @p t (day) on the surface of t

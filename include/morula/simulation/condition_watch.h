@@ -4,8 +4,8 @@
 #ifndef morula_simulation_condition_watch_h
 #define morula_simulation_condition_watch_h
 
+#include <morula/base/announce.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/announce.h>
 #include <morula/simulation/tissue_model.h>
 
 #include <cstdint>

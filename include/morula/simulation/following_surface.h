@@ -32,7 +32,10 @@ namespace Morula
 
     /** Whether the scene has boundary points. */
     bool
-    exists() const;
+    exists() const
+    {
+      return exists_;
+    }
 
     /**
      * Splits patches that are too long at the start of a run. Collective.
@@ -56,7 +59,10 @@ namespace Morula
     /** Whether follow() keeps the surface of flowing tissue near its cells.
      *  @param share as of follow() */
     bool
-    restores(const std::optional<double> &share) const;
+    restores(const std::optional<double> &share) const
+    {
+      return flows && share && !renews();
+    }
 
     /** A copy of the points, to be taken before a step loses any; empty if the
      *  scene never renews the surface. */

@@ -4,9 +4,9 @@
 #ifndef morula_simulation_gap_watch_h
 #define morula_simulation_gap_watch_h
 
+#include <morula/base/announce.h>
 #include <morula/grid/spline_space.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/announce.h>
 
 #include <optional>
 

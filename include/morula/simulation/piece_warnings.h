@@ -4,8 +4,8 @@
 #ifndef morula_simulation_piece_warnings_h
 #define morula_simulation_piece_warnings_h
 
+#include <morula/base/announce.h>
 #include <morula/grid/piece_watch.h>
-#include <morula/simulation/announce.h>
 
 namespace Morula
 {

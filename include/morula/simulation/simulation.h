@@ -4,6 +4,7 @@
 #ifndef morula_simulation_simulation_h
 #define morula_simulation_simulation_h
 
+#include <morula/effects/fields/step_fields.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/condition_watch.h>
 #include <morula/simulation/failed_step.h>
@@ -13,7 +14,6 @@
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/run_state.h>
 #include <morula/simulation/step_equilibrium.h>
-#include <morula/simulation/step_fields.h>
 #include <morula/simulation/stop_signals.h>
 #include <morula/simulation/tissue_model.h>
 

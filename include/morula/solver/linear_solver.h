@@ -111,6 +111,13 @@ namespace Morula
     bool                       has_shifted_ = false;
     bool                       prepared     = false; // one was asked for
   };
+
+  /** Makes linear solvers by these keys, which outlive them. Nobody reads their
+   *  time: the linear solver's rows in timings.csv are those of Newton's
+   * method.
+   */
+  MakeLinearSolver
+  make_linear_solvers(const SolverParameters &parameters);
 } // namespace Morula
 
 #endif

@@ -33,7 +33,10 @@ namespace Morula
 
     /** Energy and extremes at u. computeF() must have been called. */
     const Equilibrium::Evaluation &
-    evaluation() const;
+    evaluation() const
+    {
+      return evaluation_;
+    }
 
     NOX::Abstract::Group &
     operator=(const NOX::Abstract::Group &source) override;
@@ -55,31 +58,70 @@ namespace Morula
     applyJacobian(const NOX::Abstract::Vector &input,
                   NOX::Abstract::Vector       &result) const override;
     bool
-    isF() const override;
+    isF() const override
+    {
+      return has_residual;
+    }
     bool
-    isJacobian() const override;
+    isJacobian() const override
+    {
+      return K != nullptr;
+    }
     bool
-    isGradient() const override;
+    isGradient() const override
+    {
+      return has_residual;
+    }
     bool
-    isNewton() const override;
+    isNewton() const override
+    {
+      return has_direction;
+    }
     const NOX::Abstract::Vector &
-    getX() const override;
+    getX() const override
+    {
+      return u;
+    }
     const NOX::Abstract::Vector &
-    getF() const override;
+    getF() const override
+    {
+      return R;
+    }
     double
-    getNormF() const override;
+    getNormF() const override
+    {
+      return R.values.l2_norm();
+    }
     const NOX::Abstract::Vector &
-    getGradient() const override;
+    getGradient() const override
+    {
+      return R;
+    }
     const NOX::Abstract::Vector &
-    getNewton() const override;
+    getNewton() const override
+    {
+      return direction;
+    }
     Teuchos::RCP<const NOX::Abstract::Vector>
-    getXPtr() const override;
+    getXPtr() const override
+    {
+      return Teuchos::rcpFromRef(u);
+    }
     Teuchos::RCP<const NOX::Abstract::Vector>
-    getFPtr() const override;
+    getFPtr() const override
+    {
+      return Teuchos::rcpFromRef(R);
+    }
     Teuchos::RCP<const NOX::Abstract::Vector>
-    getGradientPtr() const override;
+    getGradientPtr() const override
+    {
+      return Teuchos::rcpFromRef(R);
+    }
     Teuchos::RCP<const NOX::Abstract::Vector>
-    getNewtonPtr() const override;
+    getNewtonPtr() const override
+    {
+      return Teuchos::rcpFromRef(direction);
+    }
     Teuchos::RCP<NOX::Abstract::Group>
     clone(NOX::CopyType type) const override;
 
@@ -89,16 +131,25 @@ namespace Morula
 
     /** Whether the direction is that of a kept tangent. */
     bool
-    has_kept_tangent() const;
+    has_kept_tangent() const
+    {
+      return tangents.kept();
+    }
 
     /** The part of the last direction that has led here. */
     double
-    part_taken() const;
+    part_taken() const
+    {
+      return part;
+    }
 
     /** The most negative curvature that the linear solver has met, as in
      *  NewtonIteration. */
     double
-    curvature() const;
+    curvature() const
+    {
+      return linear_solver.curvature();
+    }
 
   private:
     void

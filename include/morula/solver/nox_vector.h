@@ -52,7 +52,10 @@ namespace Morula
     double
     innerProduct(const NOX::Abstract::Vector &y) const override;
     NOX::size_type
-    length() const override;
+    length() const override
+    {
+      return values.size();
+    }
   };
 
   /** The vector behind NOX's base class. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/directions.h>
 
 #include <cmath>
@@ -95,19 +96,8 @@ namespace Morula::Directions
   }
 
 
-#define INSTANTIATE(dim)                                                 \
-  template Tensor<1, dim>                across(const Tensor<1, dim> &,  \
-                                                const Tensor<1, dim> &); \
-  template std::optional<Tensor<1, dim>> of_largest_stretch(             \
-    const Tensor<2, dim> &, const double, const Tensor<1, dim> &);       \
-  template std::optional<Tensor<1, dim>> of_largest_stress(              \
-    const SymmetricTensor<2, 3> &,                                       \
-    const double,                                                        \
-    const double,                                                        \
-    const Tensor<1, dim> &);                                             \
-  template Tensor<1, dim> carried_normal(const Tensor<2, dim> &,         \
-                                         const Tensor<1, dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(across);
+  MORULA_INSTANTIATE(of_largest_stretch);
+  MORULA_INSTANTIATE(of_largest_stress);
+  MORULA_INSTANTIATE(carried_normal);
 } // namespace Morula::Directions

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/division/numbering.h>
 #include <morula/effects/division/wall_distance.h>
@@ -184,16 +185,6 @@ namespace Morula
     return result;
   }
 
-#define INSTANTIATE(dim)                                                     \
-  template std::vector<unsigned int> cells_due(const Tissue<dim> &,          \
-                                               const CellDevelopment<dim> &, \
-                                               const double);                \
-  template Divisions<dim>            divide(Tissue<dim> &,                   \
-                                            const CellDevelopment<dim> &,    \
-                                            const std::vector<unsigned> &,   \
-                                            const double,                    \
-                                            types::particle_index &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(cells_due);
+  MORULA_INSTANTIATE(divide);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
@@ -47,14 +48,6 @@ namespace Morula
 
 
   template <int dim>
-  const DivisionRules<dim> &
-  DivisionAxes<dim>::rules() const
-  {
-    return all;
-  }
-
-
-  template <int dim>
   Tensor<1, dim>
   DivisionAxes<dim>::choose(const PresentCell<dim> &cell, const double t) const
   {
@@ -94,22 +87,7 @@ namespace Morula
   }
 
 
-  template <int dim>
-  bool
-  DivisionAxes<dim>::stay_inside() const
-  {
-    return stay_inside_;
-  }
-
-
-#define INSTANTIATE(dim)                                          \
-  template class DivisionAxes<dim>;                               \
-  template Tensor<1, dim> axis_by_rule(const DivisionRule<dim> &, \
-                                       const PresentCell<dim> &,  \
-                                       const double,              \
-                                       const Tensor<1, dim> &,    \
-                                       const AxisDraw &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(axis_by_rule);
+  template class DivisionAxes<2>;
+  template class DivisionAxes<3>;
 } // namespace Morula

@@ -9,14 +9,6 @@
 namespace Morula
 {
   template <int dim>
-  AxisFrame
-  DivisionRule<dim>::frame() const
-  {
-    return AxisFrame::reference;
-  }
-
-
-  template <int dim>
   void
   DivisionRule<dim>::check(const Preview<dim> &scene) const
   {

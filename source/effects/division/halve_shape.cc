@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/halve_shape.h>
 
 #include <cmath>
@@ -23,8 +24,5 @@ namespace Morula
   }
 
 
-  template void
-  halve_shape(const CellView<2, double> &, const Tensor<1, 2> &);
-  template void
-  halve_shape(const CellView<3, double> &, const Tensor<1, 3> &);
+  MORULA_INSTANTIATE(halve_shape);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/wall_distance.h>
 #include <morula/grid/point_bins.h>
 
@@ -169,16 +170,5 @@ namespace Morula
   }
 
 
-  template std::vector<std::array<double, 2>>
-  daughter_distances<2>(const std::vector<DividingCell<2>> &,
-                        const std::vector<types::particle_index> &,
-                        const std::vector<Point<2>> &,
-                        const std::vector<WallPoint<2>> &,
-                        const GridBox<2> &);
-  template std::vector<std::array<double, 2>>
-  daughter_distances<3>(const std::vector<DividingCell<3>> &,
-                        const std::vector<types::particle_index> &,
-                        const std::vector<Point<3>> &,
-                        const std::vector<WallPoint<3>> &,
-                        const GridBox<3> &);
+  MORULA_INSTANTIATE(daughter_distances);
 } // namespace Morula

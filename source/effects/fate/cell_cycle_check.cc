@@ -2,9 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/effects/usual_numbers.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -35,10 +38,41 @@ namespace Morula
                     const Preview<dim>        &scene,
                     Review                    &review)
   {
-    // The shortest cycle of all founders that proliferate is compared with the
-    // step. A duration that depends on the state or the time is left to the
-    // run. All ranks return there together, as the expression is the same on
-    // all, so the minimum is reached by all or none.
+    // Cells that never enter S come first. Then the shortest cycle of all
+    // founders that proliferate is compared with the step. A duration that
+    // depends on the state or the time is left to the run. All ranks return
+    // there together, as the expression is the same on all, so the minimum is
+    // reached by all or none.
+    const Expression &exit_rate = parameters.exit_rate.expression(dim);
+    if (parameters.start == "waiting" &&
+        never_acts<dim>(
+          exit_rate,
+          [](const double rate) { return rate > 0.; },
+          AskedAt::all_moments,
+          scene))
+      review.warn(exit_rate.key(),
+                  exit_rate.text(),
+                  "all cells wait in G0 at t = 0, and none ever leaves it: "
+                  "no cell divides.",
+                  "Set a rate > 0, or " + parameters.start.path() +
+                    " = together.");
+    const Expression &checkpoint = parameters.size_checkpoint.expression(dim);
+    if (checkpoint.is_constant() && *checkpoint.number() >= 1.)
+      review.warn(checkpoint.key(),
+                  checkpoint.text(),
+                  "cells at rest have J_e = 1, which is not above it: only "
+                  "stretched cells enter S.",
+                  "Choose a number below 1.");
+
+    constexpr double longest = 10.; // day
+    review_number(parameters.duration,
+                  range_of(parameters.duration, scene.founders, scene.comm),
+                  0.,
+                  longest,
+                  "day",
+                  "cell cycles take 0.3 to 3 days",
+                  "Is it in hours?",
+                  review);
     const Expression &duration = parameters.duration.expression(dim);
     const Expression &where    = parameters.where.expression(dim);
     if (depends_on_more_than_place(duration))
@@ -197,6 +231,7 @@ namespace Morula
   }
 
 
+  MORULA_INSTANTIATE(review_cell_cycle);
 #define INSTANTIATE(dim)                                                      \
   template CellCycle<dim>::CellCycle(const CellCycleParameters &,             \
                                      const std::uint64_t,                     \
@@ -208,10 +243,7 @@ namespace Morula
   template void CellCycle<dim>::check(const std::vector<Point<dim>> &,        \
                                       const double) const;                    \
   template void CellCycle<dim>::check_cell(const CellAt<dim> &, const double) \
-    const;                                                                    \
-  template void review_cell_cycle(const CellCycleParameters &,                \
-                                  const Preview<dim> &,                       \
-                                  Review &);
+    const;
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE

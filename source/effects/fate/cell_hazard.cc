@@ -16,22 +16,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  CellHazard<dim>::exists() const
-  {
-    return integral.exists();
-  }
-
-
-  template <int dim>
-  const Expression &
-  CellHazard<dim>::rate() const
-  {
-    return rate_;
-  }
-
-
-  template <int dim>
   Hazard
   CellHazard<dim>::in(const Stretch                     &stretch,
                       const PresentCell<dim>            &cell,

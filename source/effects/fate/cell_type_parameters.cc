@@ -104,13 +104,6 @@ namespace Morula
   {}
 
 
-  bool
-  CellTypesParameters::present() const
-  {
-    return !types.empty();
-  }
-
-
   std::vector<std::string>
   CellTypesParameters::name_list() const
   {

@@ -3,6 +3,7 @@
 
 #include <morula/effects/fate/cell_types.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 
@@ -269,6 +270,16 @@ namespace Morula
     for (const Transition &way : transitions[type])
       list.push_back(&way.hazard.rate());
     return list;
+  }
+
+
+  template <int dim>
+  void
+  CellTypes<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    for (unsigned int type = 0; type < size(); ++type)
+      for (const Expression *const rate : rates(type))
+        review_rate(*rate, "no cell changes its type by it.", scene, review);
   }
 
 

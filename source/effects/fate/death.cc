@@ -3,6 +3,7 @@
 
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 
@@ -17,7 +18,10 @@ namespace Morula
                     const EffectSetting<dim> &setting)
     : EndAtRate<dim>(parameters.rate,
                      setting,
-                     {"death", "when the cell died; -1: it lives", true})
+                     {"death",
+                      "when the cell died; -1: it lives",
+                      "no cell dies by it.",
+                      true})
     , when(setting.state.use(parameters.when))
     , shrinking_time(setting.state.use(parameters.shrinking_time))
     , final_volume(setting.state.use(parameters.final_volume))
@@ -42,22 +46,6 @@ namespace Morula
       {"final_volume", "", "remaining volume at the end"});
     stays = columns.template add<unsigned int>(
       {"is_debris", "", "whether the dead cell stays"});
-  }
-
-
-  template <int dim>
-  bool
-  Death<dim>::is_dead(const CellView<dim, const double> &cell) const
-  {
-    return this->has_ended(cell);
-  }
-
-
-  template <int dim>
-  double
-  Death<dim>::threshold(const std::uint64_t seed, const std::uint64_t key) const
-  {
-    return Random::death_threshold(seed, key);
   }
 
 
@@ -158,23 +146,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Death<dim>::shrinks(const CellView<dim, const double> &cell) const
-  {
-    return is_dead(cell) && cell.get(duration) > 0.;
-  }
-
-
-  template <int dim>
-  bool
-  Death<dim>::is_due_for_removal(const CellView<dim, const double> &cell,
-                                 const double                       t) const
-  {
-    return removal_time(cell) <= t + slack;
-  }
-
-
-  template <int dim>
   void
   Death<dim>::declare(Tables<dim> &tables) const
   {
@@ -195,6 +166,24 @@ namespace Morula
                                          &final_volume,
                                          &keep_debris})
       founder.value(*expression, 0.);
+  }
+
+
+  template <int dim>
+  void
+  Death<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    EndAtRate<dim>::review(scene, review);
+    if (has_condition && never_acts<dim>(
+                           when,
+                           [](const double value) { return value > 0.; },
+                           AskedAt::ends_of_steps,
+                           scene))
+      review.warn(when.key(),
+                  when.text(),
+                  "it holds for no founder at the beginning or end of any "
+                  "step: no cell dies by it.",
+                  "Correct it, or remove it.");
   }
 
 

@@ -79,9 +79,8 @@ namespace Morula
     // Cells that go at once are never part of the balance of momentum as dead
     // ones, so they may have any weight. A cell that shrinks needs a weight
     // that shrinks with it.
-    const bool shrink = !shrinking_time.expression(3).is_always(0.) ||
-                        !keep_debris.is_default() ||
-                        keep_debris.differs_by_type();
+    const bool shrink =
+      !shrinking_time.expression(3).is_always(0.) || keep_debris.is_changed();
     if (shrink && !material.per_grown_volume())
       material.energy_per.refuse(
         "grown volume, as cells die (" + rate.path() + " or " + when.path() +
@@ -89,6 +88,18 @@ namespace Morula
         "A shrunken cell would pull with the stiffness of a whole one. Cells "
         "may also go at once: " +
           shrinking_time.path() + " = 0.");
+  }
+
+
+  std::vector<IdleKey>
+  DeathParameters::idle_keys(const unsigned int dim) const
+  {
+    if (!shrinking_time.expression(dim).is_always(0.))
+      return {};
+    return {
+      {final_volume,
+       "dead cells are removed at once, as " + shrinking_time.path() + " = 0",
+       "Set a Shrinking time > 0, or remove this key."}};
   }
 
 

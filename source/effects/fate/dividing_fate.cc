@@ -19,14 +19,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  DividingFate<dim>::divides() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
   const DivisionRule<dim> *
   DividingFate<dim>::rule(const unsigned int type) const
   {

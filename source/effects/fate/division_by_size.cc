@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -65,49 +66,6 @@ namespace Morula
   }
 
 
-  bool
-  DivisionBySizeParameters::is_on() const
-  {
-    return !volume.expression(3).is_always(0.);
-  }
-
-
-  const AnyKey *
-  DivisionBySizeParameters::switch_key() const
-  {
-    return &volume;
-  }
-
-
-  std::string
-  DivisionBySizeParameters::how_to_switch_on() const
-  {
-    return "Set " + volume.path();
-  }
-
-
-  bool
-  DivisionBySizeParameters::divides_cells() const
-  {
-    return true;
-  }
-
-
-  std::string
-  DivisionBySizeParameters::details() const
-  {
-    return "volume = " + volume.text() +
-           " um^3 (2-D: um^2), noise = " + noise.text();
-  }
-
-
-  KeyList
-  DivisionBySizeParameters::list()
-  {
-    return {&volume, &noise};
-  }
-
-
   template <int dim>
   DivisionBySize<dim>::DivisionBySize(const Parameters         &parameters,
                                       const EffectSetting<dim> &setting)
@@ -143,7 +101,7 @@ namespace Morula
       {"division_axis", "", "axis along which the cell divides"});
     if (whole_volume > 0.)
       share = columns.template add<double>(
-        {share_of_cell,
+        {"share_of_cell",
          "",
          "part of a whole cell that the surface left of the founder",
          1.});
@@ -164,14 +122,6 @@ namespace Morula
   DivisionBySize<dim>::division_rules() const
   {
     return axes ? &axes->rules() : nullptr;
-  }
-
-
-  template <int dim>
-  bool
-  DivisionBySize<dim>::follows_growth() const
-  {
-    return true;
   }
 
 
@@ -304,19 +254,28 @@ namespace Morula
 
 
   template <int dim>
-  Tensor<1, dim>
-  DivisionBySize<dim>::placement_axis(const CellView<dim, const double> &cell,
-                                      const unsigned int type) const
+  double
+  DivisionBySize<dim>::expected_cells(const Point<dim> &X, const double V) const
   {
-    return axes ? axes->placement(cell, cell.get(axis), type) : cell.get(axis);
+    if (depends_on_more_than_place(volume) || !volume.types().empty())
+      return 1.;
+    const double mean = volume.value(X, 0.);
+    return mean > 0. ? expected_cells_by_size(V / mean, 0.) : 1.;
   }
 
 
   template <int dim>
-  bool
-  DivisionBySize<dim>::stays_inside() const
+  double
+  DivisionBySize<dim>::expected_cells(const PresentCell<dim> &founder,
+                                      const double            ratio) const
   {
-    return axes && axes->stay_inside();
+    // A founder that the surface has cut divides as the whole cell would.
+    const double part = share.exists() ? founder.cell().get(share) : 1.;
+    const double V    = founder.cell().initial_volume() / part * ratio;
+    const double mean = founder.value(volume, 0.);
+    return mean > 0. ?
+             expected_cells_by_size(V / mean, founder.value(noise, 0.)) :
+             1.;
   }
 
 
@@ -363,6 +322,27 @@ namespace Morula
       }
     if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
       rule->check_cell(founder, step);
+  }
+
+
+  template <int dim>
+  void
+  DivisionBySize<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    // Where types have numbers of their own the largest counts: some founders
+    // may then be too large, but not all of them.
+    DividingFate<dim>::review(scene, review);
+    double mean = volume.number().value_or(0.);
+    for (const auto &[type, own] : volume.types())
+      mean = std::max(mean, own.number().value_or(0.));
+    if (mean > 0. && mean <= (1. + 1e-9) * scene.largest_volume)
+      review.warn(volume.key(),
+                  volume.text(),
+                  "founders have up to " + as_text(scene.largest_volume) +
+                    (dim == 3 ? " um^3" : " um^2") +
+                    " and divide at once, until they are smaller.",
+                  "Choose a volume above that of the founders, such as twice "
+                  "as much.");
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/end_at_rate.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 
@@ -57,6 +58,7 @@ namespace Morula
                                                  AtDivision::reset,
                                                  words.in_tables}))
     , random_seed(setting.random_seed)
+    , nobody(words.nobody)
   {}
 
 
@@ -116,23 +118,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  EndAtRate<dim>::is_deadly() const
-  {
-    return true;
-  }
-
-
-  template <int dim>
-  double
-  EndAtRate<dim>::time_of_death(const CellView<dim, const double> &cell) const
-  {
-    return has_ended(cell) ? cell.get(time) :
-                             std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   std::vector<const Expression *>
   EndAtRate<dim>::rates(const unsigned int) const
   {
@@ -155,6 +140,14 @@ namespace Morula
     tables.add_count("deaths", CellEvent::death);
     tables.add_count("removed", CellEvent::removal);
     tables.add_number("pieces");
+  }
+
+
+  template <int dim>
+  void
+  EndAtRate<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    review_rate(hazard.rate(), nobody, scene, review);
   }
 
 

@@ -20,57 +20,16 @@ namespace Morula
   }
 
 
-  bool
-  ExtrusionParameters::is_on() const
-  {
-    return !rate.expression(3).is_always(0.);
-  }
-
-
-  const AnyKey *
-  ExtrusionParameters::switch_key() const
-  {
-    return &rate;
-  }
-
-
-  std::string
-  ExtrusionParameters::how_to_switch_on() const
-  {
-    return "Set " + rate.path();
-  }
-
-
-  std::string
-  ExtrusionParameters::details() const
-  {
-    return "rate = " + rate.text() + " /day";
-  }
-
-
-  KeyList
-  ExtrusionParameters::list()
-  {
-    return {&rate};
-  }
-
-
   template <int dim>
   Extrusion<dim>::Extrusion(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)
     : EndAtRate<dim>(parameters.rate,
                      setting,
-                     {"extrusion", "when the cell leaves; -1: not yet", false})
+                     {"extrusion",
+                      "when the cell leaves; -1: not yet",
+                      "no cell leaves by it.",
+                      false})
   {}
-
-
-  template <int dim>
-  double
-  Extrusion<dim>::threshold(const std::uint64_t seed,
-                            const std::uint64_t key) const
-  {
-    return Random::threshold_of("extrusion", seed, key);
-  }
 
 
   template <int dim>

@@ -19,15 +19,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  Fate<dim>::time_of_division(const CellView<dim, const double> &,
-                              const double) const
-  {
-    return std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   Tensor<1, dim>
   Fate<dim>::placement_axis(const CellView<dim, const double> &,
                             const unsigned int) const

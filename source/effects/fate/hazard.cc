@@ -24,13 +24,6 @@ namespace Morula
 
 
   double
-  Hazard::integral_at(const double t0, const double t) const
-  {
-    return integral + rate * (t - t0);
-  }
-
-
-  double
   with_missed(const double integral,
               const double rate,
               const double expected,

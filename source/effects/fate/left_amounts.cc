@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/left_amounts.h>
 
 #include <deal.II/base/mpi.h>
@@ -94,14 +95,5 @@ namespace Morula
   }
 
 
-  template void
-  give_to_nearest(Tissue<2> &,
-                  const std::vector<unsigned int> &,
-                  const std::vector<Column<double>> &,
-                  const std::vector<LeftAmounts<2>> &);
-  template void
-  give_to_nearest(Tissue<3> &,
-                  const std::vector<unsigned int> &,
-                  const std::vector<Column<double>> &,
-                  const std::vector<LeftAmounts<3>> &);
+  MORULA_INSTANTIATE(give_to_nearest);
 } // namespace Morula

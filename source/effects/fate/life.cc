@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/fate/life.h>
 
@@ -188,24 +189,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template void   live(const Fates<dim> &,                            \
-                       const PresentCell<dim> &,                      \
-                       const CellView<dim, double> &,                 \
-                       const double,                                  \
-                       const double,                                  \
-                       std::vector<CellEvent> &,                      \
-                       const TypesAround<dim> *);                     \
-  template bool   is_dead_at(const Fates<dim> &,                      \
-                             const PresentCell<dim> &,                \
-                             const CellView<dim, double> &,           \
-                             const double,                            \
-                             std::vector<CellEvent> &);               \
-  template double time_of_death(const Fates<dim> &,                   \
-                                const CellView<dim, const double> &); \
-  template bool   is_dead(const Fates<dim> &,                         \
-                          const CellView<dim, const double> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(live);
+  MORULA_INSTANTIATE(is_dead_at);
+  MORULA_INSTANTIATE(time_of_death);
+  MORULA_INSTANTIATE(is_dead);
 } // namespace Morula

@@ -33,34 +33,10 @@ namespace Morula
 
 
   template <int dim>
-  const CellCycle<dim> &
-  Proliferation<dim>::cycle() const
-  {
-    return cycle_;
-  }
-
-
-  template <int dim>
-  const CycleColumns<dim> &
-  Proliferation<dim>::columns() const
-  {
-    return columns_;
-  }
-
-
-  template <int dim>
   const DivisionRules<dim> *
   Proliferation<dim>::division_rules() const
   {
     return &rules;
-  }
-
-
-  template <int dim>
-  CycleState<dim>
-  Proliferation<dim>::clock(const CellView<dim, const double> &cell) const
-  {
-    return columns_.load(cell);
   }
 
 
@@ -119,15 +95,6 @@ namespace Morula
 
 
   template <int dim>
-  Tensor<2, dim>
-  Proliferation<dim>::growth(const CellView<dim, const double> &cell,
-                             const double                       t) const
-  {
-    return cycle_.growth(clock(cell), cell.founder_position(), t);
-  }
-
-
-  template <int dim>
   void
   Proliferation<dim>::absorb(const Tensor<2, dim>        &D,
                              const Tensor<2, dim>        &F_g,
@@ -173,14 +140,6 @@ namespace Morula
     return cycle_.divides(state, at, t) ?
              cycle_.division_time(state, at) :
              std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
-  bool
-  Proliferation<dim>::stays_inside() const
-  {
-    return cycle_.stays_inside();
   }
 
 
@@ -253,18 +212,6 @@ namespace Morula
     // The clock of the round's beginning is in `cell`; it is run again, only to
     // the time of the other fate's event.
     set_clock(row, next_clock(cell, clock(cell.cell()), stretch.begin, s));
-  }
-
-
-  template <int dim>
-  LifeAfter
-  Proliferation<dim>::happen(const PresentCell<dim> &,
-                             const CellView<dim, double> &,
-                             const Stretch &,
-                             const double,
-                             std::vector<CellEvent> &) const
-  {
-    return LifeAfter::divides;
   }
 
 

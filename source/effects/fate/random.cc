@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/directions.h>
 #include <morula/effects/fate/random.h>
 
@@ -281,18 +282,6 @@ namespace Morula::Random
   }
 
 
-  template Tensor<1, 2>
-  direction<2>(const std::uint64_t, const std::uint64_t);
-  template Tensor<1, 3>
-  direction<3>(const std::uint64_t, const std::uint64_t);
-  template Tensor<1, 2>
-  direction_around(const Tensor<1, 2> &,
-                   const double,
-                   const std::uint64_t,
-                   const std::uint64_t);
-  template Tensor<1, 3>
-  direction_around(const Tensor<1, 3> &,
-                   const double,
-                   const std::uint64_t,
-                   const std::uint64_t);
+  MORULA_INSTANTIATE(direction);
+  MORULA_INSTANTIATE(direction_around);
 } // namespace Morula::Random

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/left_amounts.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
@@ -328,18 +329,6 @@ namespace Morula
     return events;
   }
 
-  template std::vector<CellEvent>
-  carve(Tissue<2> &, const CellDevelopment<2> &);
-  template std::vector<CellEvent>
-  carve(Tissue<3> &, const CellDevelopment<3> &);
-  template std::vector<CellEvent>
-  remove_dead_cells(Tissue<2> &,
-                    const CellDevelopment<2> &,
-                    const double,
-                    const std::vector<Column<double>> &);
-  template std::vector<CellEvent>
-  remove_dead_cells(Tissue<3> &,
-                    const CellDevelopment<3> &,
-                    const double,
-                    const std::vector<Column<double>> &);
+  MORULA_INSTANTIATE(carve);
+  MORULA_INSTANTIATE(remove_dead_cells);
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/types_around.h>
 
 #include <algorithm>
@@ -127,14 +128,8 @@ namespace Morula
   }
 
 
-  template bool
-  is_type_around(const Variable, const StateColumns<2> &);
-  template bool
-  is_type_around(const Variable, const StateColumns<3> &);
-  template bool
-  reads_types_around(const Expression &, const StateColumns<2> &);
-  template bool
-  reads_types_around(const Expression &, const StateColumns<3> &);
+  MORULA_INSTANTIATE(is_type_around);
+  MORULA_INSTANTIATE(reads_types_around);
   template class TypesAround<2>;
   template class TypesAround<3>;
 } // namespace Morula

@@ -51,14 +51,6 @@ namespace Morula
 
   template <int dim>
   bool
-  Field<dim>::is_nonlinear() const
-  {
-    return has_nonlinear_source() || consumption.uses(field_variable(number));
-  }
-
-
-  template <int dim>
-  bool
   Field<dim>::has_nonlinear_source() const
   {
     // Whether the field reads itself decides how it is solved, so it is asked
@@ -76,15 +68,6 @@ namespace Morula
     return other != number &&
            (diffusion_.uses(variable) || production_.uses(variable) ||
             consumption.uses(variable));
-  }
-
-
-  template <int dim>
-  std::optional<double>
-  Field<dim>::uniform_diffusion() const
-  {
-    return diffusion_.is_constant() ? diffusion_.number() :
-                                      std::optional<double>();
   }
 
 

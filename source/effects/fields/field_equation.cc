@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fields/field_equation.h>
 #include <morula/mechanics/spline_moments.h>
 
@@ -249,11 +250,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                           \
-  template struct FieldEquation<dim>;              \
-  template void mark_lumped(FieldEquation<dim> &); \
-  template void find_steepness(FieldEquation<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(mark_lumped);
+  MORULA_INSTANTIATE(find_steepness);
+  template struct FieldEquation<2>;
+  template struct FieldEquation<3>;
 } // namespace Morula

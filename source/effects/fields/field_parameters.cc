@@ -153,6 +153,24 @@ namespace Morula
   }
 
 
+  std::string
+  FieldKeys::details() const
+  {
+    std::string text = time + ", D = " + diffusion.text() +
+                       " um^2/day, s = " + production.text() +
+                       ", k = " + consumption.text() + " /day";
+    if (!fixed_where.empty())
+      text +=
+        ", " + value.text() + " at boundary points where " + fixed_where.text();
+    if (!transfer.empty())
+      text += ", transfer " + transfer.text() + " um/day to " + value.text();
+    if (!flux_where.empty())
+      text += ", flux " + flux.text() + " um/day in at boundary points where " +
+              flux_where.text();
+    return text;
+  }
+
+
   KeyList
   FieldKeys::list()
   {

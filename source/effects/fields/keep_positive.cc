@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fields/keep_positive.h>
 #include <morula/mechanics/field_unknowns.h>
 
@@ -175,13 +176,5 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                            \
-  template std::uint64_t keep_positive(std::vector<double> &,       \
-                                       const std::vector<double> &, \
-                                       const GroupedPoints<dim> &,  \
-                                       const SplineSpace<dim> &,    \
-                                       const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(keep_positive);
 } // namespace Morula

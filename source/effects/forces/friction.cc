@@ -29,7 +29,7 @@ namespace Morula
   {
     // A type of cells may set the key in its own section and leave the scene's
     // at its default.
-    return !coefficient.is_default() || coefficient.differs_by_type();
+    return coefficient.is_changed();
   }
 
 
@@ -68,7 +68,7 @@ namespace Morula
     // rigid motion against it is not taken out of the step.
     std::vector<double> list;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      list.push_back(present_cell(tissue, p, reader).value(coefficient, t0));
+      list.push_back(*friction_of(present_cell(tissue, p, reader), t0));
     return list;
   }
 

@@ -22,7 +22,29 @@ namespace Morula
         "Whether the tensions between types pull at the tissue. false: only "
         "Rearrangement knows them, as where the grid is too coarse for "
         "them.")
-  {}
+  {
+    force.needs({"Rearrangement/Diffusion"});
+  }
+
+
+  bool
+  TypeTensionParameters::any() const
+  {
+    return std::any_of(between.begin(), between.end(), [](const auto &key) {
+      return key != 0.;
+    });
+  }
+
+
+  std::vector<IdleKey>
+  TypeTensionParameters::idle_keys(const unsigned int) const
+  {
+    if (any())
+      return {};
+    return {{force,
+             "no cells have tensions",
+             "Set Cell types/NAME/Tension, or remove this key."}};
+  }
 
 
   void
@@ -60,15 +82,6 @@ namespace Morula
             one.is_default() ? other.value() : one.value();
         }
     return gamma;
-  }
-
-
-  bool
-  TypeTensionParameters::is_on() const
-  {
-    return force && std::any_of(between.begin(),
-                                between.end(),
-                                [](const auto &key) { return key != 0.; });
   }
 
 

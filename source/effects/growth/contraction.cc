@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/contraction.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/mpi.h>
@@ -144,6 +146,15 @@ namespace Morula
           }
       }
     largest = Utilities::MPI::max(largest, scene.comm);
+    if (never_acts<dim>(
+          stretch,
+          [](const double gamma) { return gamma != 1.; },
+          AskedAt::all_moments,
+          scene))
+      review.warn(stretch.key(),
+                  stretch.text(),
+                  "it is 1 at all founders in all steps: no cell contracts.",
+                  "Correct it, or remove it.");
     // A change by 0.1 deforms like growth by the factor 1.1, the step that is
     // enough beside a clamp. The slack admits rounding in the differences.
     if (largest > 0.1 + 1e-9)
@@ -157,10 +168,7 @@ namespace Morula
   }
 
 
-  template Tensor<2, 2>
-  active_strain(const Tensor<1, 2> &, const double, const bool);
-  template Tensor<2, 3>
-  active_strain(const Tensor<1, 3> &, const double, const bool);
+  MORULA_INSTANTIATE(active_strain);
   template class Contraction<2>;
   template class Contraction<3>;
 } // namespace Morula

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/growth/growth_rates.h>
 
 #include <algorithm>
@@ -117,12 +118,6 @@ namespace Morula
   }
 
 
-  template SymmetricTensor<2, 2>
-  rate_along_and_across(const Tensor<1, 2> &, const double, const double);
-  template SymmetricTensor<2, 3>
-  rate_along_and_across(const Tensor<1, 3> &, const double, const double);
-  template Tensor<2, 2>
-  grown(const Tensor<2, 2> &, const SymmetricTensor<2, 2> &, const double);
-  template Tensor<2, 3>
-  grown(const Tensor<2, 3> &, const SymmetricTensor<2, 3> &, const double);
+  MORULA_INSTANTIATE(rate_along_and_across);
+  MORULA_INSTANTIATE(grown);
 } // namespace Morula

@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/growth/isotropic.h>
+#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -88,6 +89,15 @@ namespace Morula
     // A volume has dim lengths that grow alike. A stretch that is not known
     // before the run counts as no growth, a lower bound as a rule.
     return is_known_before() ? std::pow(stretch(X, t), dim) : 1.;
+  }
+
+
+  template <int dim>
+  void
+  IsotropicGrowth<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    GrowthLaw<dim>::review(scene, review);
+    review_growth({&theta}, 1., scene, review);
   }
 
 

@@ -52,6 +52,22 @@ namespace Morula
     // and is refused. Expressions are evaluated once in each step.
     rate.symbol("k");
     homeostasis.not_negative("1/(day kPa)", "0 is no growth by stress.");
+    homeostatic_stress.needs({homeostasis.path()});
+    share_along.needs({direction.path()});
+    direction.needs({share_along.path()});
+  }
+
+
+  std::vector<IdleKey>
+  RateGrowthParameters::idle_keys(const unsigned int dim) const
+  {
+    // The predictor is for rates that can fall while a step lasts.
+    if (rate.differs_by_type() || rate.expression(dim).depends_on_state() ||
+        homeostasis.is_changed())
+      return {};
+    return {{predictor,
+             "no rate of growth depends on the cell's state",
+             "Remove this key."}};
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/body.h>
 
@@ -248,8 +249,5 @@ namespace Morula
   }
 
 
-  template std::unique_ptr<const Body<2>>
-  make_body(const ObstacleKeys &);
-  template std::unique_ptr<const Body<3>>
-  make_body(const ObstacleKeys &);
+  MORULA_INSTANTIATE(make_body);
 } // namespace Morula

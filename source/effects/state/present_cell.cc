@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -306,8 +307,5 @@ namespace Morula
   template struct CellReader<3>;
   template class PresentCell<2>;
   template class PresentCell<3>;
-  template PresentCell<2>
-  present_cell(const Tissue<2> &, const unsigned int, const CellReader<2> &);
-  template PresentCell<3>
-  present_cell(const Tissue<3> &, const unsigned int, const CellReader<3> &);
+  MORULA_INSTANTIATE(present_cell);
 } // namespace Morula

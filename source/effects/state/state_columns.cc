@@ -155,14 +155,6 @@ namespace Morula
 
   template <int dim>
   bool
-  StateColumns<dim>::uses(const Variable variable) const
-  {
-    return std::binary_search(used.begin(), used.end(), variable);
-  }
-
-
-  template <int dim>
-  bool
   StateColumns<dim>::any_in_use() const
   {
     // X, Y, Z and t come first in the order of variables and need no row of the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/state/surface_distance.h>
 
 #include <deal.II/base/mpi.h>
@@ -70,13 +71,5 @@ namespace Morula
     return result;
   }
 
-#define INSTANTIATE(dim)                               \
-  template std::vector<NearSurface<dim>> near_surface( \
-    const std::vector<Point<dim>> &,                   \
-    const std::vector<Point<dim>> &,                   \
-    const std::vector<Tensor<1, dim>> &,               \
-    const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(near_surface);
 } // namespace Morula

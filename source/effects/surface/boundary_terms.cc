@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/nitsche_bounded.h>
@@ -320,36 +321,9 @@ namespace Morula
     return list;
   }
 
-#define INSTANTIATE(dim)                                              \
-  template std::unique_ptr<Term<dim>> nitsche_term(                   \
-    const BoundaryConditions<dim> &,                                  \
-    const TissueMaterial &,                                           \
-    const Tissue<dim> &,                                              \
-    const SplineSpace<dim> &,                                         \
-    const DevelopmentOfStep<dim> &,                                   \
-    const double,                                                     \
-    const std::string &);                                             \
-  template std::unique_ptr<Term<dim>> bounded_nitsche_term(           \
-    const BoundaryConditions<dim> &,                                  \
-    const TissueMaterial &,                                           \
-    const Tissue<dim> &,                                              \
-    const SplineSpace<dim> &,                                         \
-    const DevelopmentOfStep<dim> &,                                   \
-    const double,                                                     \
-    const std::vector<double> &,                                      \
-    const std::vector<Tensor<1, dim>> &);                             \
-  template LoadedPoints<dim> loaded_points(const Tissue<dim> &,       \
-                                           const SplineSpace<dim> &); \
-  template std::vector<typename RigidModes<dim>::Support> supports(   \
-    const BoundaryConditions<dim> &,                                  \
-    const Tissue<dim> &,                                              \
-    const SplineSpace<dim> &);                                        \
-  template std::vector<HeldPoint<dim>> held_points(                   \
-    const BoundaryConditions<dim> &,                                  \
-    const Tissue<dim> &,                                              \
-    const double,                                                     \
-    const double);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(nitsche_term);
+  MORULA_INSTANTIATE(bounded_nitsche_term);
+  MORULA_INSTANTIATE(loaded_points);
+  MORULA_INSTANTIATE(supports);
+  MORULA_INSTANTIATE(held_points);
 } // namespace Morula

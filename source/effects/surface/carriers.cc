@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/carriers.h>
 
 #include <deal.II/base/mpi.h>
@@ -120,13 +121,8 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                     \
-  template bool is_mostly_held(const Tissue<dim> &);         \
-  template void add_carriers(BoundaryColumns<dim> &);        \
-  template std::vector<types::particle_index> carriers(      \
-    const std::vector<unsigned int> &, const Tissue<dim> &); \
-  template void renew_carriers(Tissue<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(is_mostly_held);
+  MORULA_INSTANTIATE(add_carriers);
+  MORULA_INSTANTIATE(carriers);
+  MORULA_INSTANTIATE(renew_carriers);
 } // namespace Morula

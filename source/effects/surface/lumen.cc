@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/tables.h>
@@ -306,11 +307,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                \
-  template class Lumen<dim>;                                            \
-  template double enclosed_volume(const std::vector<LumenPatch<dim>> &, \
-                                  const MPI_Comm);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(enclosed_volume);
+  template class Lumen<2>;
+  template class Lumen<3>;
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/lumen_pressure.h>
 
@@ -200,11 +201,7 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                                      \
-  template std::vector<LumenPatch<dim>> lumen_patches(                        \
-    const Lumen<dim> &, const Tissue<dim> &, const DisplacementField<dim> *); \
-  template class LumenPressure<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(lumen_patches);
+  template class LumenPressure<2>;
+  template class LumenPressure<3>;
 } // namespace Morula

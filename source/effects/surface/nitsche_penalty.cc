@@ -25,6 +25,14 @@ namespace Morula
   } // namespace
 
 
+  std::vector<std::string>
+  NitscheParameters::held_by()
+  {
+    return {"Boundary conditions/Fixed where",
+            "Boundary conditions/Slip where"};
+  }
+
+
   NitscheParameters::NitscheParameters()
     : penalty("Boundary conditions/Nitsche penalty",
               20.,
@@ -48,6 +56,8 @@ namespace Morula
                "1e3 is a good choice for the symmetric Nitsche form, 20 "
                "for the others.");
     form.with("paper", "symmetric");
+    for (AnyKey *const key : list())
+      key->needs(held_by());
   }
 
 

@@ -28,6 +28,7 @@ namespace Morula
               Evaluated::place)
   {
     tension.not_negative("kPa um", remedy);
+    where.needs({tension.path()});
   }
 
 

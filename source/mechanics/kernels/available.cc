@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/vector_kernels.h>
 
 namespace Morula
@@ -32,8 +33,5 @@ namespace Morula
     return kernels;
   }
 
-  template std::vector<VectorKernels<2>>
-  available_vector_kernels(const unsigned int);
-  template std::vector<VectorKernels<3>>
-  available_vector_kernels(const unsigned int);
+  MORULA_INSTANTIATE(available_vector_kernels);
 } // namespace Morula

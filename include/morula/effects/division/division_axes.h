@@ -55,7 +55,10 @@ namespace Morula
 
     /** All rules. */
     const DivisionRules<dim> &
-    rules() const;
+    rules() const
+    {
+      return all;
+    }
 
     /** The unit vector in the reference configuration along which a cell in its
      *  state at @p t (day) divides. @throws InputError */
@@ -71,7 +74,10 @@ namespace Morula
 
     /** Whether daughters stay inside the whole surface. */
     bool
-    stay_inside() const;
+    stay_inside() const
+    {
+      return stay_inside_;
+    }
 
   private:
     Expression         spread, least_anisotropy;

@@ -60,7 +60,10 @@ namespace Morula
 
     /** The configuration in which axis() is given. */
     virtual AxisFrame
-    frame() const;
+    frame() const
+    {
+      return AxisFrame::reference;
+    }
 
     /** Evaluates the axes of the founders, so that errors appear before the
      *  run. */

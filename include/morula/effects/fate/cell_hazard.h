@@ -26,10 +26,16 @@ namespace Morula
                const Column<double> &expected);
 
     bool
-    exists() const;
+    exists() const
+    {
+      return integral.exists();
+    }
 
     const Expression &
-    rate() const;
+    rate() const
+    {
+      return rate_;
+    }
 
     /** The chance of the event from the beginning of a stretch on.
      *  @param row of that time. @throws InputError for negative rates */

@@ -64,7 +64,10 @@ namespace Morula
 
     /** Whether the scene has types. */
     bool
-    present() const;
+    present() const
+    {
+      return !types.empty();
+    }
 
     /** The names in the order of the types' numbers. */
     std::vector<std::string>

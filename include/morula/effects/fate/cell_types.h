@@ -76,6 +76,9 @@ namespace Morula
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
     std::vector<const Expression *>
     rates(const unsigned int type) const override;
 

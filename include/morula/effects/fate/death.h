@@ -6,6 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/fate/end_at_rate.h>
+#include <morula/effects/fate/random.h>
 
 namespace Morula
 {
@@ -33,6 +34,9 @@ namespace Morula
     void
     check_with(const MaterialParameters &material) const override;
 
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
+
     std::string
     details() const override;
 
@@ -59,7 +63,10 @@ namespace Morula
 
     /** Whether the cell is dead, but still there. */
     bool
-    is_dead(const CellView<dim, const double> &cell) const;
+    is_dead(const CellView<dim, const double> &cell) const
+    {
+      return this->has_ended(cell);
+    }
 
     /** Whether the condition kills a living cell, at time @p t (day).
      *  @throws InputError */
@@ -90,10 +97,16 @@ namespace Morula
 
     bool
     is_due_for_removal(const CellView<dim, const double> &cell,
-                       const double                       t) const override;
+                       const double                       t) const override
+    {
+      return removal_time(cell) <= t + slack;
+    }
 
     bool
-    shrinks(const CellView<dim, const double> &cell) const override;
+    shrinks(const CellView<dim, const double> &cell) const override
+    {
+      return is_dead(cell) && cell.get(duration) > 0.;
+    }
 
     void
     declare(Tables<dim> &tables) const override;
@@ -102,9 +115,15 @@ namespace Morula
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
 
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
   private:
     double
-    threshold(const std::uint64_t seed, const std::uint64_t key) const override;
+    threshold(const std::uint64_t seed, const std::uint64_t key) const override
+    {
+      return Random::death_threshold(seed, key);
+    }
 
     /** Lets the cell die at @p t (day). Shrinking time, final volume and
      * whether debris stays are evaluated now. @throws InputError */

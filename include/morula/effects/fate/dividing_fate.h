@@ -32,7 +32,10 @@ namespace Morula
   {
   public:
     bool
-    divides() const override;
+    divides() const override
+    {
+      return true;
+    }
 
     /** The rules, or null. */
     virtual const DivisionRules<dim> *

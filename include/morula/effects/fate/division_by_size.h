@@ -22,23 +22,36 @@ namespace Morula
     ExpressionKey noise;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !volume.expression(3).is_always(0.);
+    }
 
     const AnyKey *
-    switch_key() const override;
-
-    std::string
-    how_to_switch_on() const override;
+    switch_key() const override
+    {
+      return &volume;
+    }
 
     bool
-    divides_cells() const override;
+    divides_cells() const override
+    {
+      return true;
+    }
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "volume = " + volume.text() +
+             " um^3 (2-D: um^2), noise = " + noise.text();
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&volume, &noise};
+    }
   };
 
   /**
@@ -54,10 +67,6 @@ namespace Morula
   public:
     using Parameters = DivisionBySizeParameters;
 
-    /** Name of the column: which part of a whole cell a founder is. Only where
-     *  the surface cuts founders. */
-    static constexpr const char *share_of_cell = "share_of_cell";
-
     /** Declares the columns. @throws InputError */
     DivisionBySize(const Parameters         &parameters,
                    const EffectSetting<dim> &setting);
@@ -70,7 +79,10 @@ namespace Morula
     division_rules() const override;
 
     bool
-    follows_growth() const override;
+    follows_growth() const override
+    {
+      return true;
+    }
 
     void
     grow(const PresentCell<dim>      &before,
@@ -103,10 +115,25 @@ namespace Morula
 
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
-                   const unsigned int                 type) const override;
+                   const unsigned int                 type) const override
+    {
+      return axes ? axes->placement(cell, cell.get(axis), type) :
+                    cell.get(axis);
+    }
 
     bool
-    stays_inside() const override;
+    stays_inside() const override
+    {
+      return axes && axes->stay_inside();
+    }
+
+    /** A founder that the surface has cut counts as a whole cell here. */
+    double
+    expected_cells(const Point<dim> &X, const double V) const override;
+
+    double
+    expected_cells(const PresentCell<dim> &founder,
+                   const double            ratio) const override;
 
     void
     inherit(const CellView<dim, double> &daughter,
@@ -118,6 +145,9 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   private:
     /** The grown volume at which a cell divides, µm^dim; infinity: it does not
@@ -143,7 +173,8 @@ namespace Morula
     Column<double>                           growth_rate;  // 1/day
     Column<double>                           time;         // day
     Column<Tensor<1, dim>>                   axis;
-    Column<double>                           share; // where founders are cut
+    /** Which part of a whole cell a founder is, where the surface cuts some. */
+    Column<double> share;
   };
 } // namespace Morula
 

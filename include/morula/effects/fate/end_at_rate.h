@@ -41,10 +41,17 @@ namespace Morula
            const bool                   is_whole) const override;
 
     bool
-    is_deadly() const override;
+    is_deadly() const override
+    {
+      return true;
+    }
 
     double
-    time_of_death(const CellView<dim, const double> &cell) const override;
+    time_of_death(const CellView<dim, const double> &cell) const override
+    {
+      return has_ended(cell) ? cell.get(time) :
+                               std::numeric_limits<double>::infinity();
+    }
 
     std::vector<const Expression *>
     rates(const unsigned int type) const override;
@@ -52,6 +59,9 @@ namespace Morula
     /** The columns of events, which those that end lives share. */
     void
     declare(Tables<dim> &tables) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
 
   protected:
     /** The names and the meanings of the columns. */
@@ -61,6 +71,8 @@ namespace Morula
       std::string name;
       /** Of NAME_time. */
       std::string meaning;
+      /** What no cell does by a rate that is 0 everywhere, a sentence. */
+      std::string nobody;
       /** Whether NAME_time is written to the tables of cells. */
       bool in_tables;
     };
@@ -93,6 +105,7 @@ namespace Morula
     const CellHazard<dim> hazard;
     const Column<double>  time; // day
     const std::uint64_t   random_seed;
+    const std::string     nobody;
   };
 } // namespace Morula
 

@@ -6,6 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/fate/end_at_rate.h>
+#include <morula/effects/fate/random.h>
 
 namespace Morula
 {
@@ -17,20 +18,29 @@ namespace Morula
     ExpressionKey rate; // 1/day
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !rate.expression(3).is_always(0.);
+    }
 
     const AnyKey *
-    switch_key() const override;
+    switch_key() const override
+    {
+      return &rate;
+    }
 
     std::string
-    how_to_switch_on() const override;
-
-    std::string
-    details() const override;
+    details() const override
+    {
+      return "rate = " + rate.text() + " /day";
+    }
 
     using Keys::list;
     KeyList
-    list() override;
+    list() override
+    {
+      return {&rate};
+    }
   };
 
   /**
@@ -68,7 +78,10 @@ namespace Morula
 
   private:
     double
-    threshold(const std::uint64_t seed, const std::uint64_t key) const override;
+    threshold(const std::uint64_t seed, const std::uint64_t key) const override
+    {
+      return Random::threshold_of("extrusion", seed, key);
+    }
   };
 } // namespace Morula
 

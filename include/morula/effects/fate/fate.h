@@ -143,8 +143,10 @@ namespace Morula
     /** When the cell divides by this fate, if at or before @p t; day; infinity:
      *  it does not. */
     virtual double
-    time_of_division(const CellView<dim, const double> &cell,
-                     const double                       t) const;
+    time_of_division(const CellView<dim, const double> &, const double) const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
 
     /** Unit direction along which the daughters of a cell that divides by this
      *  fate are placed, in the present configuration.
@@ -152,6 +154,24 @@ namespace Morula
     virtual Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const;
+
+    /** How many cells a founder at @p X (µm) becomes on average, if growth
+     *  takes the volume of all of them to @p V, µm^dim; 1 where place alone
+     *  does not tell. For estimates before there are cells. */
+    virtual double
+    expected_cells(const Point<dim> & /*X*/, const double /*V*/) const
+    {
+      return 1.;
+    }
+
+    /** The same of a founder in its state at t = 0, whose volume grows by the
+     *  factor `ratio`. */
+    virtual double
+    expected_cells(const PresentCell<dim> & /*founder*/,
+                   const double /*ratio*/) const
+    {
+      return 1.;
+    }
 
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */

@@ -26,7 +26,10 @@ namespace Morula
 
     /** The integral at @p t. */
     double
-    integral_at(const double t0, const double t) const;
+    integral_at(const double t0, const double t) const
+    {
+      return integral + rate * (t - t0);
+    }
   };
 
   /** The rate that a step expects at its end where there is nothing to compare,

@@ -30,17 +30,26 @@ namespace Morula
     set_rules(DivisionRules<dim> rules);
 
     const CellCycle<dim> &
-    cycle() const;
+    cycle() const
+    {
+      return cycle_;
+    }
 
     const CycleColumns<dim> &
-    columns() const;
+    columns() const
+    {
+      return columns_;
+    }
 
     const DivisionRules<dim> *
     division_rules() const override;
 
     /** A cell's clock. */
     CycleState<dim>
-    clock(const CellView<dim, const double> &cell) const;
+    clock(const CellView<dim, const double> &cell) const
+    {
+      return columns_.load(cell);
+    }
 
     /** Sets a cell's clock. */
     void
@@ -77,7 +86,10 @@ namespace Morula
 
     /** The cycle's part of F_g at @p t (day), which is that of the clock. */
     Tensor<2, dim>
-    growth(const CellView<dim, const double> &cell, const double t) const;
+    growth(const CellView<dim, const double> &cell, const double t) const
+    {
+      return cycle_.growth(clock(cell), cell.founder_position(), t);
+    }
 
     /** Makes F_g = K F_c, F_c the cycle's part, into D K F_c, as if D had come
      *  before all growth. */
@@ -97,7 +109,10 @@ namespace Morula
                      const double                       t) const override;
 
     bool
-    stays_inside() const override;
+    stays_inside() const override
+    {
+      return cycle_.stays_inside();
+    }
 
     void
     inherit(const CellView<dim, double> &daughter,
@@ -121,11 +136,14 @@ namespace Morula
          const double                 s) const override;
 
     LifeAfter
-    happen(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const Stretch               &stretch,
-           const double                 s,
-           std::vector<CellEvent>      &events) const override;
+    happen(const PresentCell<dim> &,
+           const CellView<dim, double> &,
+           const Stretch &,
+           const double,
+           std::vector<CellEvent> &) const override
+    {
+      return LifeAfter::divides;
+    }
 
     void
     expect(const PresentCell<dim>      &before,

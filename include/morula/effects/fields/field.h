@@ -72,7 +72,10 @@ namespace Morula
 
     /** Whether what cells do to it depends on the field itself. */
     bool
-    is_nonlinear() const;
+    is_nonlinear() const
+    {
+      return has_nonlinear_source() || consumption.uses(field_variable(number));
+    }
 
     /** Whether its diffusion or production depends on the field itself. */
     bool
@@ -84,7 +87,11 @@ namespace Morula
 
     /** D, if it is a plain number. */
     std::optional<double>
-    uniform_diffusion() const;
+    uniform_diffusion() const
+    {
+      return diffusion_.is_constant() ? diffusion_.number() :
+                                        std::optional<double>();
+    }
 
     /** The value at a founder at @p X, at t = 0. @throws InputError */
     double

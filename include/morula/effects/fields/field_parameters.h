@@ -53,6 +53,10 @@ namespace Morula
       return has_value() || !flux_where.empty();
     }
 
+    /** What --explain says of it. */
+    std::string
+    details() const;
+
     /**
      * Refuses what contradicts itself.
      * @throws InputError

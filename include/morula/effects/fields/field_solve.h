@@ -10,22 +10,10 @@
 #include <morula/particles/tissue.h>
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace Morula
 {
-  /** Solves A x = b for a positive A, to a residual of @p tolerance |b|; may
-   *  keep a preconditioner for the next call. Collective. @return whether A
-   *  turned out to be positive; if not, x is of no use. @throws StepFailed */
-  using SolveLinear = std::function<bool(const Equilibrium::Matrix &A,
-                                         Equilibrium::Vector       &x,
-                                         const Equilibrium::Vector &b,
-                                         const double               tolerance)>;
-
-  /** Makes a solver for the matrices of a problem, which outlives it. */
-  using MakeLinearSolver = std::function<SolveLinear(const LinearProblem &)>;
-
   /** When a solution of linear equations is good enough. */
   struct LinearAccuracy
   {

@@ -19,7 +19,7 @@ namespace Morula
     bool
     is_on() const override
     {
-      return !force_density.is_default() || force_density.differs_by_type();
+      return force_density.is_changed();
     }
     std::string
     details() const override
@@ -53,6 +53,12 @@ namespace Morula
          const double              t0,
          const double              t1) const override;
 
+    std::optional<Tensor<1, dim>>
+    load_of(const PresentCell<dim> &cell, const double t) const override
+    {
+      return cell.vector(density, t);
+    }
+
     void
     check(const Preview<dim> &scene) const override;
 
@@ -64,6 +70,10 @@ namespace Morula
     review(const Preview<dim> &scene, Review &review) const override;
 
   private:
+    /** Warns of a force that is far stronger than the tissue. Collective. */
+    void
+    review_strength(const Preview<dim> &scene, Review &review) const;
+
     const Expression density;
   };
 } // namespace Morula

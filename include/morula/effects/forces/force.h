@@ -11,6 +11,7 @@
 #include <morula/particles/tissue.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -48,6 +49,21 @@ namespace Morula
     friction(const Tissue<dim>     &tissue,
              const CellReader<dim> &reader,
              const double           t0) const;
+
+    /** The load on a cell per V⁰ at time @p t (day), kPa/µm, if its own state
+     *  tells that. For what is said before the run. @throws InputError */
+    virtual std::optional<Tensor<1, dim>>
+    load_of(const PresentCell<dim> & /*cell*/, const double /*t*/) const
+    {
+      return {};
+    }
+
+    /** friction() of a cell, if the force has any. @throws InputError */
+    virtual std::optional<double>
+    friction_of(const PresentCell<dim> & /*cell*/, const double /*t0*/) const
+    {
+      return {};
+    }
   };
 
 

@@ -57,6 +57,12 @@ namespace Morula
              const CellReader<dim> &reader,
              const double           t0) const override;
 
+    std::optional<double>
+    friction_of(const PresentCell<dim> &cell, const double t0) const override
+    {
+      return cell.value(coefficient, t0);
+    }
+
     void
     check(const Preview<dim> &scene) const override;
 

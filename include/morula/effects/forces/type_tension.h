@@ -27,8 +27,17 @@ namespace Morula
     std::vector<std::vector<double>>
     matrix() const;
 
+    /** Whether some interface has a tension. */
     bool
-    is_on() const override;
+    any() const;
+
+    bool
+    is_on() const override
+    {
+      return force && any();
+    }
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
     std::string
     topic() const override
     {

@@ -33,12 +33,6 @@ namespace Morula
     }
 
     std::string
-    how_to_switch_on() const override
-    {
-      return "Set " + stretch.path();
-    }
-
-    std::string
     details() const override
     {
       return "gamma = " + stretch.text() + ", along " + direction.text() +

@@ -65,6 +65,9 @@ namespace Morula
     double
     expected_volume_ratio(const Point<dim> &X, const double t) const override;
 
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
   private:
     /** Refuses a stretch that is not positive. */
     double

@@ -25,6 +25,9 @@ namespace Morula
     ExpressionKey    homeostasis;        // 1/(day kPa)
     ExpressionKey    homeostatic_stress; // kPa
 
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
+
     using Keys::list;
     KeyList
     list() override;

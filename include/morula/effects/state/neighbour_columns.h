@@ -31,6 +31,8 @@ namespace Morula
 
     bool
     is_on() const override;
+    std::vector<IdleKey>
+    idle_keys(const unsigned int dim) const override;
     std::string
     details() const override;
     using Keys::list;

@@ -35,21 +35,6 @@ namespace Morula
     unsigned int number = 0;
     /** Of which it is the mean. */
     Variable variable = Variable::t;
-
-    /** Whether it needs to be known which cells touch. */
-    bool
-    needs_graph() const
-    {
-      return kind != slope && kind != free;
-    }
-
-    /** Whether it needs the areas of the facets between cells. */
-    bool
-    needs_areas() const
-    {
-      return kind == share_of_type || kind == unlike || kind == free ||
-             kind == around;
-    }
   };
 
   /** The variable of this name, if it is one. @param types names of the cells'

@@ -77,7 +77,10 @@ namespace Morula
 
     /** Whether some expression uses the variable. */
     bool
-    uses(const Variable variable) const;
+    uses(const Variable variable) const
+    {
+      return std::binary_search(used.begin(), used.end(), variable);
+    }
 
     /** Whether some expression depends on more than place and time, or there
      * are types. */

@@ -26,6 +26,10 @@ namespace Morula
       return {&penalty, &form};
     }
 
+    /** Full paths of the keys that hold points. */
+    static std::vector<std::string>
+    held_by();
+
     /** Warns of penalties that have no effect, or that are too low if
      *  @p all_is_fixed (all of the surface). For scenes that hold points. */
     void

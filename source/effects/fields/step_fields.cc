@@ -3,11 +3,8 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/key.h>
-#include <morula/simulation/step_fields.h>
-#include <morula/solver/linear_solver.h>
+#include <morula/effects/fields/step_fields.h>
 
-#include <iostream>
-#include <memory>
 #include <sstream>
 
 namespace Morula
@@ -17,47 +14,20 @@ namespace Morula
     /** A field that has grown by more in iterations that did not converge has
      *  no steady state. */
     constexpr double most_growth = 1e4;
-
-    /** A linear solver with a timer of its own, which nobody reads: the rows of
-     *  the linear solver in timings.csv are those of Newton's method. */
-    struct SilentSolver
-    {
-      SilentSolver(const SolverParameters &parameters,
-                   const LinearProblem    &problem)
-        : timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
-        , solver(parameters, problem, timer)
-      {}
-
-      TimerOutput  timer;
-      LinearSolver solver;
-    };
-
-    MakeLinearSolver
-    make_solver_of(const SolverParameters &parameters)
-    {
-      return [&parameters](const LinearProblem &problem) -> SolveLinear {
-        // The function that is returned may be copied, while the solver with
-        // its preconditioner may not. So copies share one solver.
-        const auto own = std::make_shared<SilentSolver>(parameters, problem);
-        return [own](const Equilibrium::Matrix &A,
-                     Equilibrium::Vector       &x,
-                     const Equilibrium::Vector &b,
-                     const double               tolerance) {
-          unsigned int iterations = 0;
-          own->solver.solve(A, x, b, tolerance, iterations);
-          // A solver that had to shift the matrix has solved another problem.
-          return !own->solver.has_shifted();
-        };
-      };
-    }
   } // namespace
 
 
   template <int dim>
-  StepFields<dim>::StepFields(const TissueModel<dim> &model,
-                              TimerOutput            &timer,
-                              const Announce         &announce)
-    : model(model)
+  StepFields<dim>::StepFields(const Fields<dim>          &fields,
+                              const FieldsParameters     &parameters,
+                              const CellDevelopment<dim> &development,
+                              const MakeLinearSolver     &make_solver,
+                              TimerOutput                &timer,
+                              const Announce             &announce)
+    : fields(fields)
+    , parameters(parameters)
+    , development(development)
+    , make_solver(make_solver)
     , timer(timer)
     , announce(announce)
   {}
@@ -84,25 +54,22 @@ namespace Morula
     // at for what the user should know: negative values that were cut off
     // (doc/theory.md, section 11.3), and fields that are inexact. Collective;
     // the solution is equal on all ranks as far as these warnings ask.
-    if (!model.fields.any(kind))
+    if (!fields.any(kind))
       return {};
     const TimerOutput::Scope section(timer, "fields");
     if (!solver)
-      solver.emplace(tissue,
-                     space,
-                     model.development.reader(t),
-                     make_solver_of(model.scene.solver));
+      solver.emplace(tissue, space, development.reader(t), make_solver);
     FieldsOfStep<dim> found;
     try
       {
-        found = model.fields.find(kind, *solver, t, t1);
+        found = fields.find(kind, *solver, t, t1);
       }
     catch (const StepFailed &failure)
       {
         throw StepFailed("the equation of a field could not be solved: " +
                          std::string(failure.what()));
       }
-    clipped.resize(model.scene.fields.fields.size(), 0);
+    clipped.resize(parameters.fields.size(), 0);
     for (const FieldSolution<dim> &field : found)
       {
         clipped[field.number] += field.clipped;
@@ -121,27 +88,26 @@ namespace Morula
   {
     if (field.converged)
       return;
-    const std::string &name = model.scene.fields.fields[field.number].name;
+    const std::string &name = parameters.fields[field.number].name;
     // Iterations that fail to settle stay within bounds; here each makes more
     // of the field than the one before.
     if (field.growth > most_growth)
-      throw InputError(
-        "Fields/" + name + "/Production",
-        model.scene.fields.fields[field.number].production.text(),
-        "less than what cells use up, also where it depends on "
-        "the field itself or on fields that depend on it",
-        "The field grows with every iteration, by " + as_text(field.growth) +
-          " so far, and has no steady state: lower Production, "
-          "raise Consumption, let Production saturate, or set "
-          "Time = transient with a shorter step.");
+      throw InputError("Fields/" + name + "/Production",
+                       parameters.fields[field.number].production.text(),
+                       "less than what cells use up, also where it depends on "
+                       "the field itself or on fields that depend on it",
+                       "The field grows with every iteration, by " +
+                         as_text(field.growth) +
+                         " so far, and has no steady state: lower Production, "
+                         "raise Consumption, let Production saturate, or set "
+                         "Time = transient with a shorter step.");
     if (warned)
       return;
     warned = true;
     std::ostringstream text;
     text << "Warning: at t = " << t << " day the field '"
-         << model.scene.fields.fields[field.number].name
-         << "' still changed by " << field.change
-         << " of its largest value after " << field.iterations
+         << parameters.fields[field.number].name << "' still changed by "
+         << field.change << " of its largest value after " << field.iterations
          << " iterations, as what cells do to it depends on itself. The next "
             "step goes on from there; expressions without jumps converge "
             "better. Later ones are not told of.";
@@ -163,7 +129,7 @@ namespace Morula
                "a separate piece" :
                std::to_string(field.pieces_of_nothing) + " separate pieces")
          << " of the tissue has neither source nor sink of the steady field '"
-         << model.scene.fields.fields[field.number].name
+         << parameters.fields[field.number].name
          << "': its level there is not determined, and is set to 0. Give it a "
             "Consumption, a fixed value or a Transfer there. Later ones are "
             "not told of.";
@@ -181,7 +147,7 @@ namespace Morula
     warned_of_surface = true;
     std::ostringstream text;
     text << "Warning: at t = " << t << " day the fixed value of the field '"
-         << model.scene.fields.fields[field.number].name << "' was enforced "
+         << parameters.fields[field.number].name << "' was enforced "
          << field.raised
          << " times as strongly as usual: the surface is rough, or the tissue "
             "thin, within a grid spacing, and the field is inexact there. Take "
@@ -198,10 +164,10 @@ namespace Morula
                               const SplineSpace<dim> &space,
                               const double            t)
   {
-    model.fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
+    fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
     // The transient fields of this step use the same configuration, and then
     // the same solver. Without any nothing else will ask for it.
-    if (!model.fields.any(FieldKind::transient))
+    if (!fields.any(FieldKind::transient))
       forget_configuration();
   }
 
@@ -236,7 +202,7 @@ namespace Morula
                             NamedNumbers      &columns) const
   {
     // Before the first call of find() nothing was clipped.
-    const std::vector<FieldTotals> totals = model.fields.totals(tissue);
+    const std::vector<FieldTotals> totals = fields.totals(tissue);
     for (std::size_t k = 0; k < totals.size(); ++k)
       {
         const FieldTotals &field      = totals[k];

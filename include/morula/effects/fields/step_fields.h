@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_step_fields_h
-#define morula_simulation_step_fields_h
+#ifndef morula_effects_fields_step_fields_h
+#define morula_effects_fields_step_fields_h
 
-#include <morula/simulation/announce.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/base/announce.h>
+#include <morula/effects/development.h>
+#include <morula/effects/fields/fields.h>
+#include <morula/effects/tables.h>
 
 #include <deal.II/base/timer.h>
 
@@ -18,15 +20,18 @@ namespace Morula
   /**
    * The fields of a scene in the steps of a run. The solver is made for the
    * first field of a configuration, shared by the others, and kept until the
-   * tissue moves. Keeps references to the model and the timer.
+   * tissue moves. Keeps references to what it is made from.
    */
   template <int dim>
   class StepFields
   {
   public:
-    StepFields(const TissueModel<dim> &model,
-               TimerOutput            &timer,
-               const Announce         &announce);
+    StepFields(const Fields<dim>          &fields,
+               const FieldsParameters     &parameters,
+               const CellDevelopment<dim> &development,
+               const MakeLinearSolver     &make_solver,
+               TimerOutput                &timer,
+               const Announce             &announce);
 
     /** Resets the counts of clipped values for the next step. */
     void
@@ -73,7 +78,10 @@ namespace Morula
     void
     warn_of_nothing(const FieldSolution<dim> &field, const double t);
 
-    const TissueModel<dim>         &model;
+    const Fields<dim>              &fields;
+    const FieldsParameters         &parameters;
+    const CellDevelopment<dim>     &development;
+    const MakeLinearSolver          make_solver;
     TimerOutput                    &timer;
     const Announce                  announce;
     std::optional<FieldSolver<dim>> solver;         // of the configuration

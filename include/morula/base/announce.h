@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_announce_h
-#define morula_simulation_announce_h
+#ifndef morula_base_announce_h
+#define morula_base_announce_h
 
 #include <functional>
 #include <string>

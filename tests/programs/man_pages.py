@@ -23,6 +23,13 @@ def plain(page):
     return re.sub(r"\\f[BIR]|\\[,/]", "", page).replace("\\-", "-")
 
 
+def words_of(page):
+    """A page without what depends on Python's version: before 3.13 a value is
+    named behind each form of an option, "-s KEY=VALUE, --set KEY=VALUE"."""
+    return re.sub(r"(\\fB\\-\w\\fR) [A-Z=,]+(, \\fB)", r"\1\2",
+                  re.sub(r"\s+", " ", page))
+
+
 class ManPages(ProgramTest):
     def pages(self):
         return {name: (ROOT / FOLDER / f"{name}.1").read_text(encoding="utf-8")
@@ -49,8 +56,7 @@ class ManPages(ProgramTest):
         """contrib/upkeep/man-pages writes them."""
         for name, page in self.pages().items():
             made = page_of(name, self.options.morula)
-            self.assertEqual(re.sub(r"\s+", " ", made),
-                             re.sub(r"\s+", " ", page), name)
+            self.assertEqual(words_of(made), words_of(page), name)
 
     @unittest.skipUnless(shutil.which("mandoc") and shutil.which("lexgrog"),
                          "mandoc or man-db is missing")

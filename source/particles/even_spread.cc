@@ -42,8 +42,8 @@ namespace Morula
     /** Patches whose normals differ by more than 60° are not one plane. */
     constexpr double alike_cosine = 0.5;
 
-    /** The edge of the boxes in which cells are looked up, in reaches: nearly
-     *  half of those that are found are near, and few boxes are looked at. */
+    /** The edge of the boxes in which cells are looked up, in reaches: smaller
+     *  ones hold fewer cells beyond the reach, but there are more of them. */
     constexpr double bin_part = 0.5;
 
     /** Volume and body of a cell. */

@@ -292,16 +292,19 @@ namespace Morula
                              const MomentOfRun<dim> &moment) const
   {
     // Flow draws places apart one way and together another; cells that find new
-    // places do not hold them there. At a surface the images stand for the
-    // tissue beyond: without one cells would be driven out.
-    if (Utilities::MPI::sum(tissue.boundary_points().size(),
+    // places do not hold them there. Places that keep their shear are those of
+    // a solid, and stay. At a surface the images stand for the tissue beyond:
+    // without one cells would be driven out.
+    if (shear_released == 0. ||
+        Utilities::MPI::sum(tissue.boundary_points().size(),
                             tissue.communicator()) == 0)
       return;
     const double        area = std::pow(mean_cell_volume(tissue), 2. / dim);
     std::vector<double> parts;
     for (const Occupant &cell : cells_of(tissue, moment.reader))
-      parts.push_back(
-        std::min(1., 2. * dim * cell.diffusion * spreading_time / area));
+      parts.push_back(std::min(1.,
+                               shear_released * 2. * dim * cell.diffusion *
+                                 spreading_time / area));
     spread_cells(tissue, moment.dt, parts);
   }
 

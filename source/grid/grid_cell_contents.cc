@@ -16,8 +16,8 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  GridCellContents<dim>::GridCellContents(const GridWindow<dim> &window,
-                                          const Parting<dim>    &parting)
+  GridCellContents<dim>::GridCellContents(const GridWindow<dim>    &window,
+                                          const SharedParting<dim> &parting)
     : window_(window)
     , nodes_(window, parting)
   {
@@ -150,7 +150,7 @@ namespace Morula
       if (grid.owner(record.number) == rank)
         own.push_back(record);
     window_.widen(here);
-    nodes_ = GridNodes<dim>(window_, Parting<dim>(nodes_.parting()));
+    nodes_ = GridNodes<dim>(window_, nodes_.parting());
     spread(own);
   }
 

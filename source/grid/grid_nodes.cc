@@ -6,8 +6,8 @@
 namespace Morula
 {
   template <int dim>
-  GridNodes<dim>::GridNodes(const GridWindow<dim> &window,
-                            const Parting<dim>    &parting)
+  GridNodes<dim>::GridNodes(const GridWindow<dim>    &window,
+                            const SharedParting<dim> &parting)
     : boxes(window.boxes())
     , whole(window.whole())
     , parting_(parting)
@@ -15,11 +15,11 @@ namespace Morula
     // Without a contested grid cell there are no tables at all. Otherwise the
     // further parts of the window's grid cells get nodes in the order in which
     // the parting has them, those of one grid cell behind each other.
-    if (is_trivial())
+    if (parting_ == nullptr || parting_->is_trivial())
       return;
     first_further.assign(boxes.size(), 0);
     near_contest.assign(boxes.size(), 0);
-    for (const auto &[number, part] : parting_.further_parts())
+    for (const auto &[number, part] : parting_->further_parts())
       if (const GridIndex<dim> index = whole.index(number);
           boxes.contains(index))
         {
@@ -29,12 +29,35 @@ namespace Morula
           further.push_back({here, part});
         }
     for (unsigned int number = 0; number < boxes.size(); ++number)
-      if (parting_.is_contested(whole.number(boxes.index(number))))
+      if (parting_->is_contested(whole.number(boxes.index(number))))
         boxes.for_neighbors(boxes.index(number),
                             1,
                             [&](const unsigned int neighbor, const auto &) {
                               near_contest[neighbor] = 1;
                             });
+    find_linked();
+  }
+
+
+  template <int dim>
+  void
+  GridNodes<dim>::find_linked()
+  {
+    // Each spline asks for the links of its support, and supports overlap: so
+    // links are looked up once for each node.
+    first_linked.assign(1, 0);
+    for (unsigned int node = 0; node < size(); ++node)
+      {
+        if (near_contest[grid_cell(node)])
+          boxes.for_neighbors(
+            index(node), 1, [&](const unsigned int number, const auto &) {
+              for_parts(number, [&](const unsigned int other) {
+                if (are_linked(node, other))
+                  linked.push_back(other);
+              });
+            });
+        first_linked.push_back(linked.size());
+      }
   }
 
 

@@ -19,10 +19,10 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  Occupancy<dim>::Occupancy(const GridWindow<dim> &window,
-                            const unsigned int     points_per_cell,
-                            const bool             share_points,
-                            const Parting<dim>    &parting)
+  Occupancy<dim>::Occupancy(const GridWindow<dim>    &window,
+                            const unsigned int        points_per_cell,
+                            const bool                share_points,
+                            const SharedParting<dim> &parting)
     : points_per_cell(points_per_cell)
     , share_points(share_points)
     , contents(window, parting)

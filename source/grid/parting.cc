@@ -6,6 +6,7 @@
 #include <morula/grid/point_bins.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <queue>
 
@@ -33,6 +34,9 @@ namespace Morula
     /** Patches that are at most so many times as far as the nearest one, in
      *  units of their spacings, are as near. */
     constexpr double about_nearest = 1.2;
+
+    /** The cosine above which two patches belong to one face of the tissue. */
+    constexpr double same_face = 0.7;
 
     /** A surface is near a cell if it is at most so many of its lengths away: a
      *  bond reaches from the first layer to the third one beyond. */
@@ -130,34 +134,54 @@ namespace Morula
                             const Tensor<1, dim>  &distance) {
       return (cell.from_edges * distance).norm() <= longest_bond;
     };
-    // The nearest patch in front of each cell, if it is near; of several the
-    // first.
-    constexpr unsigned int    none = numbers::invalid_unsigned_int;
-    std::vector<unsigned int> above(cells.size(), none);
+    // The patches in front of each cell that are nearest and near: one for each
+    // face of an edge or corner, as the surface of another side of the tissue
+    // may be nearer to a cell than the gap. Of several as near the first.
+    constexpr unsigned int none = numbers::invalid_unsigned_int;
+    std::vector<std::array<unsigned int, dim>> above(cells.size());
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        double nearest = 0.;
-        bins_of_patches.visit_within(
-          positions[p], near_surface * lengths[p], [&](const unsigned int i) {
-            const double distance = positions[p].distance_square(patches[i].x);
-            if ((positions[p] - patches[i].x) * patches[i].n < 0. &&
-                (above[p] == none || distance < nearest ||
-                 (distance == nearest && i < above[p])))
-              {
-                above[p] = i;
-                nearest  = distance;
-              }
-          });
+        above[p].fill(none);
+        for (unsigned int k = 0; k < dim && (k == 0 || above[p][k - 1] != none);
+             ++k)
+          {
+            double nearest = 0.;
+            bins_of_patches.visit_within(
+              positions[p],
+              near_surface * lengths[p],
+              [&](const unsigned int i) {
+                const double distance =
+                  positions[p].distance_square(patches[i].x);
+                if ((positions[p] - patches[i].x) * patches[i].n < 0. &&
+                    (above[p][k] == none || distance < nearest ||
+                     (distance == nearest && i < above[p][k])) &&
+                    std::none_of(
+                      &above[p][0],
+                      &above[p][k],
+                      [&](const unsigned int j) {
+                        return patches[i].n * patches[j].n > same_face;
+                      }))
+                  {
+                    above[p][k] = i;
+                    nearest     = distance;
+                  }
+              });
+          }
       }
     const auto is_across = [&](const unsigned int p, const unsigned int q) {
-      if (above[p] == none || above[q] == none)
-        return false;
-      const PartedPatch<dim> &a = patches[above[p]], &b = patches[above[q]];
-      const double            cosine = a.n * b.n;
-      return cosine < facing && (cells[q].x - a.x) * a.n > 0. &&
-             (cells[p].x - b.x) * b.n > 0.;
+      for (const unsigned int i : above[p])
+        for (const unsigned int j : above[q])
+          if (i != none && j != none && patches[i].n * patches[j].n < facing &&
+              (cells[q].x - patches[i].x) * patches[i].n > 0. &&
+              (cells[p].x - patches[j].x) * patches[j].n > 0.)
+            return true;
+      return false;
     };
+    // As many cells of a lattice are within the longest bond.
+    constexpr unsigned int usual = dim == 2 ? 20 : 56;
     bonds.resize(cells.size());
+    for (std::vector<unsigned int> &list : bonds)
+      list.reserve(usual);
     std::vector<NearPatch> around;
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
@@ -265,8 +289,11 @@ namespace Morula
     const auto place = places.find(id);
     if (place == places.end())
       return 0;
-    for (const auto &[there, part] : parts_of_cells[place->second])
-      if (there == number)
+    for (unsigned int i = of_cells.begin[place->second];
+         i < of_cells.begin[place->second + 1];
+         ++i)
+      if (const auto &[there, part] = of_cells.parts[of_cells.number[i]];
+          there == number)
         return part;
     return 0;
   }

@@ -207,8 +207,9 @@ namespace Morula
         if (q > p)
           tokens.unite(p, q, sets);
 
-    std::vector<GridCellPart>            parts;
-    std::vector<unsigned int>            part(tokens.number.size());
+    std::vector<GridCellPart> &parts = of_cells.parts;
+    of_cells.begin                   = tokens.begin;
+    of_cells.number.resize(tokens.number.size());
     std::map<unsigned int, unsigned int> of_root; // in one grid cell
     for (const unsigned int token : tokens.by_grid_cell())
       {
@@ -217,17 +218,13 @@ namespace Morula
           of_root.clear();
         const unsigned int root = is_contested(number) ? sets.find(token) : 0;
         const auto [place, is_new] = of_root.emplace(root, parts.size());
-        part[token]                = place->second;
+        of_cells.number[token]     = place->second;
         if (!is_new)
           continue;
         parts.emplace_back(number, of_root.size() - 1);
         if (parts.back().second > 0)
           further.push_back(parts.back());
       }
-    parts_of_cells.resize(cells.size());
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      for (unsigned int i = tokens.begin[p]; i < tokens.begin[p + 1]; ++i)
-        parts_of_cells[p].push_back(parts[part[i]]);
     link(box);
     for (const PartedPatch<dim> &patch : patches)
       if (const auto owner = owners.find(patch.id); owner != owners.end())
@@ -244,27 +241,44 @@ namespace Morula
   Parting<dim>::link(const GridBox<dim> &box)
   {
     // Two parts of one cell, or of bonded cells, are linked where their grid
-    // cells touch. The cells around a cell have few parts that it has not, so
-    // that these are made unique cell by cell, and links once more in the end.
+    // cells touch. A part has few others around it, but these are met again at
+    // each of its cells: marks and short lists keep one of each.
     const auto can_link = [&](const GridCellPart &a, const GridCellPart &b) {
       return (is_contested(a.first) || is_contested(b.first)) &&
              touch(box.index(a.first), box.index(b.first));
     };
-    Parts around;
+    const unsigned int                     n = of_cells.parts.size();
+    std::vector<std::vector<unsigned int>> known(n);
+    std::vector<unsigned int>              last(n, bonds.size()), around;
     for (unsigned int p = 0; p < bonds.size(); ++p)
       {
-        around = parts_of_cells[p];
+        around.clear();
+        const auto add_parts_of = [&](const unsigned int q) {
+          for (unsigned int i = of_cells.begin[q]; i < of_cells.begin[q + 1];
+               ++i)
+            if (const unsigned int part = of_cells.number[i]; last[part] != p)
+              {
+                last[part] = p;
+                around.push_back(part);
+              }
+        };
+        add_parts_of(p);
+        const std::size_t n_own = around.size();
         for (const unsigned int q : bonds[p])
-          around.insert(around.end(),
-                        parts_of_cells[q].begin(),
-                        parts_of_cells[q].end());
-        make_unique(around);
-        for (const GridCellPart &own : parts_of_cells[p])
-          for (const GridCellPart &other : around)
-            if (can_link(own, other))
-              links.emplace_back(own, other);
+          add_parts_of(q);
+        for (std::size_t i = 0; i < n_own; ++i)
+          for (const unsigned int other : around)
+            {
+              std::vector<unsigned int> &list = known[around[i]];
+              if (std::find(list.begin(), list.end(), other) == list.end())
+                list.push_back(other);
+            }
       }
-    make_unique(links);
+    for (unsigned int part = 0; part < n; ++part)
+      for (const unsigned int other : known[part])
+        if (can_link(of_cells.parts[part], of_cells.parts[other]))
+          links.emplace_back(of_cells.parts[part], of_cells.parts[other]);
+    std::sort(links.begin(), links.end());
   }
 
 

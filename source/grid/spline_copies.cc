@@ -218,27 +218,24 @@ namespace Morula
                       tissue.push_back(node);
                   });
                 });
-    const auto touches = [&](const unsigned int a, const unsigned int b) {
-      bool           touch = true;
-      GridIndex<dim> i = nodes.index(a), j = nodes.index(b);
-      for (unsigned int d = 0; d < dim; ++d)
-        touch = touch && std::abs(i[d] - j[d]) <= 1;
-      return touch && nodes.are_linked(a, b);
-    };
-    while (!tissue.empty())
+    left.resize(nodes.size(), 0);
+    for (const unsigned int node : tissue)
+      left[node] = 1;
+    for (const unsigned int first : tissue)
       {
+        if (!left[first])
+          continue;
         // The part grows while it is read, from the first node that is left.
-        std::vector<unsigned int> part(1, tissue.front());
-        tissue.erase(tissue.begin());
+        std::vector<unsigned int> part(1, first);
+        left[first] = 0;
         for (std::size_t i = 0; i < part.size(); ++i)
-          for (std::size_t k = 0; k < tissue.size();)
-            if (touches(part[i], tissue[k]))
+          nodes.for_linked(part[i], [&](const unsigned int node, const auto &) {
+            if (left[node])
               {
-                part.push_back(tissue[k]);
-                tissue.erase(tissue.begin() + k);
+                part.push_back(node);
+                left[node] = 0;
               }
-            else
-              ++k;
+          });
         bool inner = false;
         for (const unsigned int node : part)
           inner = inner || classes[node] == GridCellClass::inner;

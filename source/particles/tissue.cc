@@ -268,15 +268,15 @@ namespace Morula
   {
     if (!cells_.has_parts())
       return;
-    parting_ = find_parting(*this);
+    parting_ = std::make_shared<const Parting<dim>>(find_parting(*this));
     std::vector<unsigned int> parts;
     for (const auto &grid_cell : cells_.grid_cells())
       for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-        parts.push_back(parting_.part_of_cell(cells_.id(p), grid_cell.number));
+        parts.push_back(parting_->part_of_cell(cells_.id(p), grid_cell.number));
     cells_.set_parts(parts, grid_);
     parts.clear();
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
-      parts.push_back(parting_.part_of_patch(boundary_points_.id(p)));
+      parts.push_back(parting_->part_of_patch(boundary_points_.id(p)));
     boundary_points_.set_parts(parts, grid_);
   }
 
@@ -291,9 +291,9 @@ namespace Morula
   template <int dim>
   template <typename Belongs>
   SplineSpace<dim>
-  Tissue<dim>::splines_around(const Belongs      &belongs,
-                              const bool          share_points,
-                              const Parting<dim> &parting) const
+  Tissue<dim>::splines_around(const Belongs            &belongs,
+                              const bool                share_points,
+                              const SharedParting<dim> &parting) const
   {
     // The first round of the occupancy takes all cells and boundary points, and
     // sums over ranks. It shows where tissue is thin, and so how many
@@ -315,7 +315,7 @@ namespace Morula
                              parting);
     for (std::size_t i = 0; i < domains.size(); ++i)
       occupancy.add_particle(domains[i], ids[i]);
-    const bool has_parts = !parting.is_trivial();
+    const bool has_parts = parting != nullptr && !parting->is_trivial();
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
       if (belongs(boundary_points_.body(p)))
         occupancy.add_boundary_point(boundary_points_.position(p),

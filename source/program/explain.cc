@@ -205,14 +205,17 @@ namespace Morula
                const MPI_Comm           comm)
     {
       if (scene.contact.is_on())
-        return add_contact(rows, scene, tissue, comm);
-      add_effect(rows,
-                 "bodies",
-                 true,
-                 tissue.bodies.empty() ? bodies_text(scene, tissue, comm) :
-                                         tissue.bodies);
+        add_contact(rows, scene, tissue, comm);
+      else
+        add_effect(rows,
+                   "bodies",
+                   true,
+                   tissue.bodies.empty() ? bodies_text(scene, tissue, comm) :
+                                           tissue.bodies);
       if (!tissue.mesh.empty())
         add_effect(rows, "surface mesh", true, tissue.mesh);
+      if (!tissue.cuts.empty())
+        add_effect(rows, "cuts", true, tissue.cuts);
     }
 
     template <int dim>

@@ -376,6 +376,12 @@ namespace Morula
     {
       const ContactParameters &contact = scene.contact;
       contact.check_each(dim);
+      if (scene.tissue.has_cuts() && !contact.is_of_all())
+        scene.tissue.cuts.refuse(
+          "nothing, as " + contact.between.path() + " = " +
+            contact.between.text(),
+          "The faces of a cut are apart only with "
+          "Between = all: set that, or remove the cuts.");
       if (!contact.is_on())
         return;
       if (scene.tissue.has_no_surface())

@@ -9,6 +9,7 @@
 #include <morula/scene/size.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/bodies.h>
+#include <morula/seeding/cuts.h>
 #include <morula/seeding/near_bodies.h>
 #include <morula/seeding/points_surface.h>
 
@@ -165,6 +166,9 @@ namespace Morula
     tissue.surface = surface(scene, tissue.founders, comm);
     if (scene.contact.is_on())
       check_bodies(scene, tissue, comm);
+    if (scene.tissue.has_cuts())
+      tissue.cuts =
+        add_cuts(scene.tissue.cuts, tissue.founders, comm, tissue.surface);
     tissue.n_proliferating =
       check_at_cells(scene, tissue.founders.positions, comm);
     tissue.counts  = check_at_surface(scene, tissue.surface, comm);

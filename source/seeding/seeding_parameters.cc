@@ -68,6 +68,13 @@ namespace Morula
                  "For the shape points: width of gaps and cavities that an "
                  "automatic surface closes; from 2 on. Units: cell lengths.",
                  {2.})
+    , cuts(TissueKeys::cuts,
+           "",
+           "File with cuts of no width through the tissue at t = 0, in um: in "
+           "2-D lines as well-known text, WKT; in 3-D open surfaces as STL, "
+           "OFF, PLY or OBJ. Their two faces are surface, and open or press on "
+           "each other. They run between cells, and what lies outside of the "
+           "tissue is left out. Needs Contact/Between = all.")
     , cell_spacing("Tissue/Cell spacing",
                    10.,
                    "L_p: cells sit on a regular lattice of this spacing, "
@@ -113,7 +120,8 @@ namespace Morula
         {0.})
   {
     // These keys name files, which are looked for beside the scene as well.
-    for (Key<std::string> *key : {&surface_mesh, &points_file, &points_surface})
+    for (Key<std::string> *key :
+         {&surface_mesh, &points_file, &points_surface, &cuts})
       key->of_file();
   }
 
@@ -129,6 +137,7 @@ namespace Morula
             &surface_mesh,
             &points_file,
             &points_surface,
+            &cuts,
             &closed_gap,
             &cell_spacing,
             &lattice_offset,
@@ -236,6 +245,19 @@ namespace Morula
     }
 
     void
+    check_cuts(const Key<std::string> &cuts, const unsigned int dim)
+    {
+      const std::string ending = ending_of(cuts);
+      if (dim == 2 && ending != ".wkt")
+        cuts.refuse("a file whose name ends with .wkt",
+                    "In 2-D cuts are lines, as well-known text.");
+      if (dim == 3 && !is_mesh_format(ending))
+        cuts.refuse("a file whose name ends with .stl, .off, .ply or .obj",
+                    "In 3-D cuts are surfaces of triangles.");
+      check_readable(cuts);
+    }
+
+    void
     check_points_surface(const Key<std::string> &surface,
                          const unsigned int      dim)
     {
@@ -316,6 +338,8 @@ namespace Morula
       check_mesh_format(surface_mesh);
     if (has_surface_file())
       check_points_surface(points_surface, dim);
+    if (has_cuts())
+      check_cuts(cuts, dim);
     if (has_no_surface() && boundary_points > 0)
       boundary_points.refuse("0, as Tissue/Points surface = none",
                              "Set Boundary points = 0, or Points surface = "

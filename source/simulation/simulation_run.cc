@@ -85,6 +85,8 @@ namespace Morula
       warnings.push_back("Tissue: " + seeded.bodies);
     if (!seeded.mesh.empty())
       warnings.push_back("Surface mesh: " + seeded.mesh);
+    if (!seeded.cuts.empty())
+      warnings.push_back("Cut: " + seeded.cuts);
     for (const std::string &text : texts_of(model.scene, seeded.pieces))
       warnings.push_back("Piece: " + text);
     warnings.insert(warnings.end(),

@@ -118,7 +118,7 @@ namespace
 
   template <int dim>
   Sharing
-  sharing(const Hairpin<dim> &body, const Parting<dim> &parting)
+  sharing(const Hairpin<dim> &body, const SharedParting<dim> &parting)
   {
     GridParameters          parameters;
     std::vector<Point<dim>> places;
@@ -193,14 +193,13 @@ namespace
               SCOPED_TRACE(std::to_string(thickness) + " thick, gap " +
                            std::to_string(gap) + ", at " + std::to_string(y));
               const Hairpin<dim> body(thickness, gap, noise, y);
-              const GridBox<dim> box = box_around(body);
-              const Parting<dim> parting(box,
-                                         contested_grid_cells(box,
-                                                              body.patches,
-                                                              0.4),
-                                         body.cells,
-                                         body.patches);
-              ASSERT_FALSE(parting.is_trivial());
+              const GridBox<dim> box     = box_around(body);
+              const auto         parting = std::make_shared<const Parting<dim>>(
+                box,
+                contested_grid_cells(box, body.patches, 0.4),
+                body.cells,
+                body.patches);
+              ASSERT_FALSE(parting->is_trivial());
               Sharing      share    = sharing(body, parting);
               unsigned int n_joined = 0, n_torn = 0, n_joint = 0;
               for (std::size_t i = 0; i < body.cells.size(); ++i)

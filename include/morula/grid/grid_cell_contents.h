@@ -27,8 +27,8 @@ namespace Morula
      *  million times before the integers overflow. */
     static constexpr double resolution = 1099511627776.;
 
-    explicit GridCellContents(const GridWindow<dim> &window,
-                              const Parting<dim>    &parting = {});
+    explicit GridCellContents(const GridWindow<dim>    &window,
+                              const SharedParting<dim> &parting = {});
 
     /** Adds a particle, whose volume is spread over its cube.
      *  @param id of its cell, by which its part is known */

@@ -23,7 +23,8 @@ namespace Morula
   public:
     GridNodes() = default;
 
-    GridNodes(const GridWindow<dim> &window, const Parting<dim> &parting);
+    /** @param parting none if there is no contact */
+    GridNodes(const GridWindow<dim> &window, const SharedParting<dim> &parting);
 
     unsigned int
     size() const
@@ -35,10 +36,10 @@ namespace Morula
     bool
     is_trivial() const
     {
-      return parting_.is_trivial();
+      return near_contest.empty();
     }
 
-    const Parting<dim> &
+    const SharedParting<dim> &
     parting() const
     {
       return parting_;
@@ -81,6 +82,14 @@ namespace Morula
       return part == 0 ? number : first_further[number] + part - 1;
     }
 
+    /** The part that a cell belongs to in a grid cell of the grid's box. */
+    unsigned int
+    part_of_cell(const types::particle_index id,
+                 const unsigned int          number) const
+    {
+      return is_trivial() ? 0 : parting_->part_of_cell(id, number);
+    }
+
     /** The node that a cell belongs to in a grid cell of the window. */
     unsigned int
     node_of_cell(const GridIndex<dim>       &index,
@@ -89,7 +98,7 @@ namespace Morula
       return node(index,
                   is_trivial() || !near_contest[boxes.number(index)] ?
                     0 :
-                    parting_.part_of_cell(id, whole.number(index)));
+                    part_of_cell(id, whole.number(index)));
     }
 
     /** Calls visit(node) for all parts of a grid cell of the window. */
@@ -111,7 +120,7 @@ namespace Morula
     are_linked(const unsigned int a, const unsigned int b) const
     {
       return is_trivial() || (!near_contest[grid_cell(a)]) ||
-             parting_.are_linked(name(a), name(b));
+             parting_->are_linked(name(a), name(b));
     }
 
     /** Whether a grid cell of the window, or one that touches it, is contested.
@@ -128,22 +137,19 @@ namespace Morula
     void
     for_linked(const unsigned int node, const Visitor &visit) const
     {
-      const unsigned int here = grid_cell(node);
-      boxes.for_neighbors(boxes.index(here),
-                          1,
-                          [&](const unsigned int    number,
-                              const GridIndex<dim> &index) {
-                            if (!is_near_contest(here))
-                              visit(number, index);
-                            else
-                              for_parts(number, [&](const unsigned int other) {
-                                if (are_linked(node, other))
-                                  visit(other, index);
-                              });
-                          });
+      if (!is_near_contest(grid_cell(node)))
+        boxes.for_neighbors(index(node), 1, visit);
+      else
+        for (unsigned int i = first_linked[node]; i < first_linked[node + 1];
+             ++i)
+          visit(linked[i], index(linked[i]));
     }
 
   private:
+    /** Fills `linked`. */
+    void
+    find_linked();
+
     struct Further
     {
       unsigned int grid_cell; // in the window
@@ -152,10 +158,12 @@ namespace Morula
 
     GridBoxes<dim>            boxes;
     GridBox<dim>              whole;
-    Parting<dim>              parting_;
+    SharedParting<dim>        parting_;
     std::vector<Further>      further;
     std::vector<unsigned int> first_further; // node by grid cell, 0 for none
-    std::vector<char>         near_contest;  // by grid cell
+    std::vector<char>         near_contest;  // by grid cell, if any
+    /** For each node near a contest those which for_linked() visits. */
+    std::vector<unsigned int> first_linked, linked;
   };
 } // namespace Morula
 

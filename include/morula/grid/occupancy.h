@@ -41,10 +41,10 @@ namespace Morula
      *        all grid cells around it; see SharedPoint
      * @param parting which tissue belongs together, with contact
      */
-    explicit Occupancy(const GridWindow<dim> &window,
-                       const unsigned int     points_per_cell = 1,
-                       const bool             share_points    = false,
-                       const Parting<dim>    &parting         = {});
+    explicit Occupancy(const GridWindow<dim>    &window,
+                       const unsigned int        points_per_cell = 1,
+                       const bool                share_points    = false,
+                       const SharedParting<dim> &parting         = {});
 
     /** The occupancy of a box on one rank. */
     explicit Occupancy(const GridBox<dim> &box);

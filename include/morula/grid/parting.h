@@ -10,6 +10,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/base/types.h>
 
+#include <memory>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -126,7 +127,13 @@ namespace Morula
                   const types::particle_index b) const;
 
   private:
-    using Parts = std::vector<GridCellPart>;
+    /** The parts that cells belong to, cell by cell. */
+    struct PartsOfCells
+    {
+      std::vector<GridCellPart> parts;
+      std::vector<unsigned int> number; // places in `parts`
+      std::vector<unsigned int> begin;  // of each cell's numbers, and the end
+    };
 
     void
     bond(const GridBox<dim>                  &box,
@@ -147,9 +154,8 @@ namespace Morula
     std::vector<unsigned int> contested_;
     std::vector<GridCellPart> further;
     /** Pairs of linked parts, both ways, sorted; of which one is contested. */
-    std::vector<std::pair<GridCellPart, GridCellPart>> links;
-    /** (Grid cell, part) of each cell, by its place in the list. */
-    std::vector<Parts>                                      parts_of_cells;
+    std::vector<std::pair<GridCellPart, GridCellPart>>      links;
+    PartsOfCells                                            of_cells;
     std::unordered_map<types::particle_index, unsigned int> places; // by id
     std::unordered_map<types::particle_index, unsigned int> parts_of_patches;
     /** Place of the cell behind each patch, by the patch's id. */
@@ -161,6 +167,10 @@ namespace Morula
     mutable std::vector<unsigned int> marks; // of are_connected(), by place
     mutable unsigned int              mark = 0;
   };
+
+  /** The parting of a step, which several rooms keep. */
+  template <int dim>
+  using SharedParting = std::shared_ptr<const Parting<dim>>;
 
   /**
    * Grid cells that have two patches in their surroundings, the grid cells that

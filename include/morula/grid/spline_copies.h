@@ -147,7 +147,10 @@ namespace Morula
     GridNodes<dim> nodes;
     /** Whether this rank owns it, by grid cell of the window; only of those
      *  near active ones. */
-    std::vector<char>         own;
+    std::vector<char> own;
+    /** Whether a node of a spline's support belongs to no part yet; all 0
+     *  between splines. */
+    std::vector<char>         left;
     std::vector<unsigned int> own_active;
     std::vector<SplineCopy>   copies;
     std::vector<unsigned int> first;  // copy of each spline, and the end

@@ -87,9 +87,8 @@ namespace Morula
                  const unsigned int          body,
                  const unsigned int          number) const
     {
-      return bodies.empty() ?
-               occupancy_.nodes().parting().part_of_cell(id, number) :
-               body;
+      return bodies.empty() ? occupancy_.nodes().part_of_cell(id, number) :
+                              body;
     }
 
     /** The node in occupancy(grid_cell.part) of one of grid_cells(). */

@@ -96,7 +96,7 @@ namespace Morula
     const Parting<dim> &
     parting() const
     {
-      return parting_;
+      return *parting_;
     }
 
     /**
@@ -146,9 +146,9 @@ namespace Morula
      *  Collective. */
     template <typename Belongs>
     SplineSpace<dim>
-    splines_around(const Belongs      &belongs,
-                   const bool          share_points,
-                   const Parting<dim> &parting = {}) const;
+    splines_around(const Belongs            &belongs,
+                   const bool                share_points,
+                   const SharedParting<dim> &parting = {}) const;
 
     template <typename Belongs>
     std::vector<GridRange<dim>>
@@ -159,7 +159,7 @@ namespace Morula
     BackgroundGrid<dim>  grid_;
     Cells<dim>           cells_;
     BoundaryPoints<dim>  boundary_points_;
-    Parting<dim>         parting_;
+    SharedParting<dim>   parting_ = std::make_shared<const Parting<dim>>();
   };
 
   /** One more than the largest number of a body. Collective. */

@@ -32,6 +32,9 @@ namespace Morula
     /** Of how many bodies and pieces tissue from a file is, and which closed
      *  surfaces its mesh has; empty otherwise. */
     std::string bodies, mesh;
+
+    /** How far the tissue is cut at t = 0; empty if it is not. */
+    std::string cuts;
     /** See held_pieces(). */
     std::vector<HeldPiece> pieces;
     /** See scene_warnings(). */

@@ -29,6 +29,7 @@ namespace Morula
     inline const std::string surface_mesh   = "Tissue/Surface mesh";
     inline const std::string points_file    = "Tissue/Points file";
     inline const std::string points_surface = "Tissue/Points surface";
+    inline const std::string cuts           = "Tissue/Cuts";
   } // namespace TissueKeys
 
   /** Section "Tissue": the initial tissue. */
@@ -45,6 +46,7 @@ namespace Morula
     Key<std::string>         points_file;
     Key<std::string>         points_surface;
     Key<double>              closed_gap;
+    Key<std::string>         cuts;
     Key<double>              cell_spacing;
     Key<std::vector<double>> lattice_offset;
     Key<std::string>         surface_cells;
@@ -102,6 +104,13 @@ namespace Morula
     has_no_surface() const
     {
       return is_points() && points_surface == "none";
+    }
+
+    /** Whether the tissue is cut at t = 0. */
+    bool
+    has_cuts() const
+    {
+      return !cuts.value().empty();
     }
 
     /** Whether the surface around the cells comes from a file, too. */

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_seeding_well_known_text_h
+#define morula_seeding_well_known_text_h
+
+#include <morula/base/key.h>
+
+#include <boost/algorithm/string.hpp>
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
+#include <boost/geometry/geometries/multi_linestring.hpp>
+#include <boost/geometry/geometries/multi_polygon.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/geometries/polygon.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace Morula
+{
+  /** Plane shapes of files as well-known text (WKT), which Boost.Geometry
+   *  reads. Coordinates in µm. */
+  namespace Wkt
+  {
+    namespace geometry = boost::geometry;
+
+    using Place = geometry::model::d2::point_xy<double>;
+    // Rings go counter-clockwise, and their last point is the first one again.
+    using Polygon = geometry::model::polygon<Place, false>;
+    using Body    = geometry::model::multi_polygon<Polygon>;
+    using Line    = geometry::model::linestring<Place>;
+    using Lines   = geometry::model::multi_linestring<Line>;
+
+    /** Refuses the file. @param kind POLYGON, ... @param why and a full stop */
+    [[noreturn]] inline void
+    refuse(const Key<std::string> &file,
+           const std::string      &kind,
+           const std::string      &why)
+    {
+      file.refuse("a file with one " + kind + " or MULTI" + kind +
+                    " of well-known text (WKT) in um",
+                  why + " Correct the file, or write it anew.");
+    }
+
+    /** The shapes of a file, of which there may be one or many.
+     *  @param kind POLYGON or LINESTRING
+     *  @throws InputError if the text is none */
+    template <typename Many>
+    Many
+    read(const Key<std::string> &file, const std::string &kind)
+    {
+      // The text is brought into the form that Boost reads, read as one shape
+      // or as many. One shape becomes a list of one, so that the rest knows a
+      // single kind.
+      std::ifstream stream(file.value());
+      std::string   text{std::istreambuf_iterator<char>(stream), {}};
+      // Boost takes blanks for the ends of words, and no other white space.
+      std::replace_if(text.begin(), text.end(), boost::is_space(), ' ');
+      boost::trim(text);
+      Many shapes;
+      try
+        {
+          if (boost::istarts_with(text, kind))
+            {
+              shapes.resize(1);
+              geometry::read_wkt(text, shapes[0]);
+            }
+          else
+            geometry::read_wkt(text, shapes);
+        }
+      catch (const geometry::exception &error)
+        {
+          // What Boost says of the text, without the text itself, which may be
+          // long.
+          const std::string reason = error.what();
+          refuse(file,
+                 kind,
+                 "It cannot be read as such: " +
+                   reason.substr(0, reason.find(" in '")) + ".");
+        }
+      return shapes;
+    }
+  } // namespace Wkt
+} // namespace Morula
+
+#endif

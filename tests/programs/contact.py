@@ -251,6 +251,24 @@ end
         together = self.run_scene(scene, {**keys, "Contact/Fields pass": "true"})
         self.assertAlmostEqual(lowest[0], together["o_min"][-1], delta=0.01)
 
+    def test_touching_faces_are_no_surface_for_fields(self):
+        """A field that is held at all of the surface: two blocks that touch are
+        as one, unless fields end at each of them."""
+        keys = {"Fields/Names": "o", "Fields/o/Diffusion": "1000",
+                "Fields/o/Consumption": "1", "Fields/o/Fixed where": "1",
+                "Fields/o/Value": "1", "Time/End time": "0.1"}
+        one = self.scene(block(0, 60, "a"), [[rectangle(0, 60)]])
+        whole = self.run_scene(one, {**keys, "Contact/Between": "none"})["o_min"]
+        scene = self.blocks(1e-4)
+        pressed = {**keys, **self.press(60, "5*t"), "Time/End time": "0.1"}
+        for between, ranks in (("bodies", 1), ("all", 2)):
+            both = self.run_scene(
+                scene, {**pressed, "Contact/Between": between}, ranks)["o_min"]
+            for i in (0, -1):
+                self.assertAlmostEqual(both[i], whole[0], delta=0.01)
+        ends = self.run_scene(scene, {**pressed, "Contact/Fields pass": "false"})
+        self.assertGreater(ends["o_min"][0], whole[0] + 0.1)
+
     def test_what_is_refused(self):
         scene = self.blocks(10)
         for keys, message in (

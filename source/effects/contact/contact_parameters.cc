@@ -42,8 +42,8 @@ namespace Morula
         "Contact/Fields pass",
         true,
         "Whether fields pass from body to body where these touch, or "
-        "are within a grid spacing of it. With false they end at each "
-        "body's own surface.")
+        "are within a grid spacing of it; faces that touch are no surface "
+        "for them then. With false they end at each body's own surface.")
   {
     friction.require([](const double zeta) { return zeta >= 0.; },
                      "a number >= 0, in kPa day/um",

@@ -9,6 +9,7 @@
 #include <morula/mechanics/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
+#include <morula/particles/touching_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -162,7 +163,8 @@ namespace Morula
   FieldSolver<dim>::evaluate_surface(const Field<dim> &field, const double t)
   {
     // The points at which something is done are found first, by the places that
-    // they had at t = 0, as conditions are decided there. They need to know how
+    // they had at t = 0, as conditions are decided there. Where bodies touch
+    // and the field passes, there is no surface for it. Points need to know how
     // far they belong to the tissue, and D, which is that of the nearest cell
     // where it differs between cells; both ask other ranks. Then each point
     // gets its coefficients of doc/theory.md (11.2), (11.3), at the time t.
@@ -171,10 +173,13 @@ namespace Morula
     if (!field.has_surface())
       return;
     const BoundaryPoints<dim> &points = tissue.boundary_points();
-    PointGroups                at_surface;
+    if (!touching && points.has_bodies() && !space.is_parted())
+      touching = touching_points(tissue);
+    PointGroups at_surface;
     everywhere(tissue.communicator(), [&]() {
       at_surface = group_points(points, space, [&](const unsigned int p) {
-        return field.acts_on(points[p].seed_position());
+        return !(touching && (*touching)[p]) &&
+               field.acts_on(points[p].seed_position());
       });
     });
     equation.surface_places = grouped_places(points, space, at_surface);

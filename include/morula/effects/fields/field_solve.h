@@ -10,6 +10,7 @@
 #include <morula/particles/tissue.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -219,6 +220,10 @@ namespace Morula
     /** Values by field and cell as they are now; empty: as the cells have them.
      *  */
     std::vector<std::vector<double>> values;
+    /** Boundary points where bodies touch and fields pass, so that they are no
+     *  surface for fields; nothing before they are asked for, and without
+     *  contact. */
+    std::optional<std::vector<char>> touching;
   };
 } // namespace Morula
 

@@ -27,6 +27,12 @@ namespace Morula
      */
     constexpr double staying = 0.8, least_part = 0.25;
 
+    /** Where more than this part has stayed, and at least this part of it goes
+     *  on in one direction, the drag holds back a long slide. It gets so much
+     * of its strength then, down to the least. */
+    constexpr double slow = 0.5, one_way = 0.5, softer = 0.25,
+                     least_drag = 1. / 256.;
+
     /** Forces below this count as none, in units of E h^(dim-1). */
     constexpr double no_force = 1e-9;
 
@@ -141,10 +147,11 @@ namespace Morula
     // take their new geometry, and the weak drag a new centre.
     const TimerOutput::Scope section(timer, "contact");
     const auto               renewal = pairs.look(balance.relevant_values(u));
-    double                   sums[4] = {renewal.normal,
+    double                   sums[5] = {renewal.normal,
                                         renewal.tangential,
                                         renewal.of_new_pairs,
-                                        1. * renewal.has_new_links};
+                                        1. * renewal.has_new_links,
+                                        renewal.onward};
     Utilities::MPI::sum(sums, comm, sums);
     const double crossed = Utilities::MPI::max(renewal.crossed, comm),
                  slid    = Utilities::MPI::max(renewal.slid, comm);
@@ -167,17 +174,29 @@ namespace Morula
     if (sums[1] <= small_drag * sums[0] + no_force * unit &&
         sums[2] <= small_part * sums[0] + no_force * unit)
       return false;
-    // Where a surface is strongly curved the geometry may swing between two
-    // states for ever. So it follows only a part of the way, half as much each
-    // time that less than a fifth of the tangential forces has gone.
-    if (sums[1] > staying * left_over)
+    // A soft body slides far against the drag, a little in each turn, if all of
+    // it goes one way: the drag becomes weaker then. Where a surface is
+    // strongly curved the geometry may swing between two states for ever. So it
+    // follows only a part of the way, half as much each time that less than a
+    // fifth of the tangential forces has gone.
+    const bool slides_far = sums[1] > slow * left_over &&
+                            sums[4] > one_way * sums[1] &&
+                            drag_part > least_drag;
+    const double before = left_over;
+    left_over           = sums[1];
+    if (slides_far)
+      {
+        drag_part *= softer;
+        left_over *= softer;
+        pairs.set_drag(drag_part);
+      }
+    else if (sums[1] > staying * before)
       part = std::max(0.5 * part, least_part);
-    left_over                        = sums[1];
     const std::vector<double> values = balance.relevant_values(u);
     frozen.resize(values.size(), 0.);
     for (std::size_t i = 0; i < values.size(); ++i)
       frozen[i] += part * (values[i] - frozen[i]);
-    if (part < 1.)
+    if (part < 1. || slides_far)
       sums[3] = pairs.look(frozen).has_new_links;
     pairs.adopt();
     if (Utilities::MPI::max(sums[3], comm) > 0.)

@@ -79,6 +79,27 @@ class ContactLaws(BodiesTest):
         self.assertLess(np.std(normal) / np.mean(normal), 1e-2)
         self.assertLess(np.max(abs(sliding["force_x"])) / np.mean(normal), 1e-2)
 
+    def test_a_long_layer_slides(self):
+        """A layer of 120 grid spacings that is squeezed out from under another
+        one, up to a third of a spacing in a step: the drag that keeps surfaces
+        together in a turn does not hold it back."""
+        rows = [[(2 * i + 1, y + 2 * j + 1, 4, body)
+                 for j in range(18) for i in range(600)]
+                for y, body in ((0, "a"), (36.0001, "b"))]
+        outlines = [[(0, y), (1200, y), (1200, y + 36), (0, y + 36), (0, y)]
+                    for y in (0, 36.0001)]
+        found = self.run_scene(
+            self.scene(rows[0] + rows[1], [[ring] for ring in outlines]), {
+                "Boundary conditions/Slip where": "X < 0.001 || Y < 0.001",
+                "Boundary conditions/Fixed where": "Y > 72",
+                "Boundary conditions/Displacement": "0; -7.2*t",
+                "Tissue/Boundary points": "1978", "Grid/Offset": "3.1, 4.7",
+                "Time/End time": "0.2", "Time/Step": "0.05"})
+        self.assertEqual(found["rejected_steps"].sum(), 0)
+        self.assertLessEqual(max(found["turns"]), 10)
+        last = self.forces().iloc[-1]
+        self.assertLess(abs(last["force_x"]), 6e-3 * abs(last["force_y"]))
+
     def test_pressed_and_released(self):
         """Two blocks that were pressed together by a tenth of their height, and
         released, are as before: no force is left, and no cell is deformed."""

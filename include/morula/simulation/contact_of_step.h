@@ -77,6 +77,7 @@ namespace Morula
     /** The relevant unknowns at which the geometry is frozen; empty at t. */
     std::vector<double> frozen;
     double              part      = 1.; // of the way that the geometry follows
+    double              drag_part = 1.; // of the pairs' drag
     double              left_over = std::numeric_limits<double>::max();
   };
 } // namespace Morula

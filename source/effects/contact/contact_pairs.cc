@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace Morula
 {
@@ -162,7 +161,8 @@ namespace Morula
           continue;
         // The drag keeps frozen normals from letting a body spin: k_t of
         // doc/theory.md (4.8k).
-        double drag = drag_of_pressure * law.kappa * std::max(-gap, 0.) / law.h;
+        double drag =
+          drag_part * drag_of_pressure * law.kappa * std::max(-gap, 0.) / law.h;
         if (first_contact && gap < nearly_touching * law.h)
           drag = std::max(drag, first_drag * law.E / law.h);
         list.push_back({b,
@@ -316,9 +316,9 @@ namespace Morula
     // left of the drag tells whether the frozen state was good enough. The
     // candidates at u then show what has come near, and whether points have
     // passed through each other.
+    seen_slides.clear();
     const std::vector<State>    now = states(u);
     std::vector<Tensor<1, dim>> ways;
-    std::set<ContactPair>       before;
     Renewal                     result;
     for (const State &state : now)
       ways.push_back(state.u);
@@ -327,17 +327,22 @@ namespace Morula
         const Tensor<1, dim> w = ways[pair.b] - ways[pair.c] - pair.jump;
         const double         p =
           -law.kappa * std::min(gap(pair, ways), 0.) * pair.across.norm();
+        const Tensor<1, dim> slide = along(pair, w);
+        const double         drag  = pair.weight * pair.drag;
         result.normal += pair.weight * p;
-        result.tangential += pair.weight * pair.drag * along(pair, w).norm();
+        result.tangential += drag * slide.norm();
+        if (const auto last = slides.find({pair.b, pair.c});
+            last != slides.end() && last->second.norm() > 0.)
+          result.onward += drag * (slide * last->second) / last->second.norm();
         if (p > 0.)
           result.slid =
             std::max(result.slid, (ways[pair.b] - ways[pair.c]).norm());
-        before.emplace(pair.b, pair.c);
+        seen_slides.emplace(ContactPair{pair.b, pair.c}, slide);
       }
     seen       = pairs_at(now, false);
     seen_links = link(seen);
     for (const Pair &pair : seen)
-      if (before.count({pair.b, pair.c}) == 0)
+      if (seen_slides.count({pair.b, pair.c}) == 0)
         result.of_new_pairs +=
           pair.weight * law.kappa * std::max(-pair.gap, 0.);
     result.has_new_links = seen_links != links_;
@@ -375,6 +380,7 @@ namespace Morula
     // pattern even where the same unknowns are linked.
     pairs  = std::move(seen);
     links_ = std::move(seen_links);
+    slides = std::move(seen_slides);
   }
 
 

@@ -69,6 +69,9 @@ namespace Morula
     {
       /** Sums of A p and of the tangential forces before it, kPa µm^(dim-1). */
       double normal = 0., tangential = 0.;
+      /** The part of the tangential forces that goes on in the direction of the
+       *  renewal before. */
+      double onward = 0.;
       /** The normal force of pairs that were not there before. */
       double of_new_pairs = 0.;
       /** The deepest overlap of points that did not overlap so much at t, and
@@ -81,6 +84,14 @@ namespace Morula
     /** Looks at the configuration at @p u. The frozen one stays. */
     Renewal
     look(const std::vector<double> &u);
+
+    /** Makes the drag of pairs that look() finds so much of its usual strength.
+     */
+    void
+    set_drag(const double part)
+    {
+      drag_part = part;
+    }
 
     /** Freezes the configuration that look() has seen last. */
     void
@@ -165,6 +176,9 @@ namespace Morula
     std::vector<UnknownLink>  links_, seen_links;
     std::vector<double>       first_gaps; // by pair of points, µm
     std::vector<double>       slacks;     // likewise
+    double                    drag_part = 1.;
+    /** How far pairs have slid between the last two renewals, and since, µm. */
+    std::map<ContactPair, Tensor<1, dim>> slides, seen_slides;
   };
 } // namespace Morula
 

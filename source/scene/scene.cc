@@ -3,8 +3,6 @@
 
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
-#include <morula/effects/forces/type_tension.h>
-#include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/scene.h>
 
 #include <boost/algorithm/string.hpp>
@@ -18,8 +16,9 @@ namespace Morula
 {
   namespace
   {
+    template <typename List>
     void
-    append(KeyList &list, const KeyList &more)
+    append(List &list, const List &more)
     {
       list.insert(list.end(), more.begin(), more.end());
     }
@@ -123,10 +122,6 @@ namespace Morula
     // may have extended. So they are added here, and not where the keys are
     // declared.
     solver.largest_gap.needs(NitscheParameters::held_by());
-    for (AnyKey *const key : contact.list())
-      if (key != &contact.between)
-        key->needs({contact.between.path()});
-    contact.fields_pass.needs({fields.names.path()});
     add_words(growth_law, catalogue.growth_laws);
     add_words(cell_cycle.division_axis, catalogue.division_rules);
     if (std::any_of(catalogue.division_rules.begin(),
@@ -206,6 +201,68 @@ namespace Morula
   }
 
 
+  RestOfScene
+  Scene::rest_of_scene() const
+  {
+    // Volumes differ where cells have grown, or were born, to different ones.
+    const bool volumes_differ =
+      has_active_tissue() || has_any(catalogue.fates) || tissue.is_points() ||
+      tissue.surface_cells == "trimmed";
+    return {dimension,
+            catalogue,
+            material,
+            grid,
+            time.step,
+            tissue.cell_spacing,
+            cell_types.name_list(),
+            law_of_growth(),
+            division_axes(),
+            has_proliferation() || divides_by_fate(),
+            has_active_tissue(),
+            volumes_differ,
+            tissue.has_no_surface() ? &tissue.points_surface : nullptr,
+            tissue.refine_surface};
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::effect_keys() const
+  {
+    std::vector<const EffectKeys *> list{&cell_cycle,
+                                         &cell_types,
+                                         &fields,
+                                         &contact};
+    append(list, catalogue.all_keys());
+    return list;
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::keys_in_use() const
+  {
+    // Keys say whether their effect is on, but for those that others switch:
+    // laws and rules by their names, and the cell cycle.
+    std::set<const EffectKeys *> off;
+    const auto                   leave = [&off](const auto                  &choices,
+                              const std::set<std::string> &chosen) {
+      for (const auto &choice : choices)
+        if (chosen.count(choice.name()) == 0)
+          off.insert(&choice.keys());
+    };
+    const bool cells_divide = has_proliferation() || divides_by_fate();
+    leave(catalogue.growth_laws, {law_of_growth()});
+    leave(catalogue.division_rules,
+          cells_divide ? division_axes() : std::set<std::string>());
+    if (!cells_divide)
+      off.insert(&cell_cycle);
+    std::vector<const EffectKeys *> list;
+    for (const EffectKeys *const keys : effect_keys())
+      if (off.count(keys) == 0 && keys->is_on())
+        list.push_back(keys);
+    return list;
+  }
+
+
   bool
   Scene::divides_by_fate() const
   {
@@ -237,10 +294,10 @@ namespace Morula
       laws.growth += (laws.growth.empty() ? "" : "|") + law.name();
     laws.division_axes = boost::join(cell_cycle.division_axis.choices(), "|");
     const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
-    cell_types.declare_types(names_in(cell_types.names),
-                             {of_cells.begin(), of_cells.end()},
-                             laws,
-                             fields.name_list());
+    cell_types.make_types(names_in(cell_types.names),
+                          {of_cells.begin(), of_cells.end()},
+                          laws,
+                          fields.name_list());
     if (cell_types.present())
       catalogue.declare_types(cell_types.name_list());
     for (auto &condition : catalogue.boundary_conditions)
@@ -259,8 +316,6 @@ namespace Morula
     catalogue.see_expressions(keys_of_cells(list()),
                               cell_types.name_list(),
                               fields.name_list());
-    keys<TypeSurfaceTensionParameters>().pulls =
-      keys<TypeTensionParameters>().force;
     if (!cell_types.present())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));

@@ -135,13 +135,7 @@ namespace Morula
     Parameters &
     keys()
     {
-      Parameters *found = nullptr;
-      for_each([&found](auto &choice) {
-        if (found == nullptr)
-          found = dynamic_cast<Parameters *>(&choice.keys());
-      });
-      AssertThrow(found != nullptr, ExcMessage("No effect has such keys."));
-      return *found;
+      return keys_of<Parameters>(*this);
     }
 
     /** The keys of an effect, by their type. */
@@ -149,14 +143,15 @@ namespace Morula
     const Parameters &
     keys() const
     {
-      return const_cast<Catalogue *>(this)->keys<Parameters>();
+      return keys_of<const Parameters>(*this);
     }
 
     /** Makes the keys that effects have in the sections of the cells' types. */
     void
     declare_types(const std::vector<std::string> &types);
 
-    /** See EffectKeys. @throws InputError */
+    /** Lets the keys of all effects see_expressions() and see_others(), see
+     *  EffectKeys. @throws InputError */
     void
     see_expressions(const std::vector<ExpressionKey *> &keys,
                     const std::vector<std::string>     &types,
@@ -165,6 +160,18 @@ namespace Morula
     /** The keys of each effect, kind by kind. */
     std::vector<const EffectKeys *>
     all_keys() const;
+
+    /** The tensions of the cells' types. @throws InputError if keys contradict
+     *  each other */
+    TypeTensions
+    tensions() const;
+
+    /** How it is found out which cells touch, and what expressions ask of them.
+     */
+    NeighbourSearch
+    neighbour_search() const;
+    const std::vector<NeighbourVariable> &
+    neighbour_variables() const;
 
     /** A copy whose keys have their defaults. */
     Catalogue
@@ -185,29 +192,39 @@ namespace Morula
     Choices<BoundaryCondition> boundary_conditions;
 
   private:
-    /** Calls @p action for all effects of all kinds. */
-    template <typename Action>
-    void
-    for_each(const Action &action)
+    /** Calls @p action for all effects of all kinds of a catalogue, which may
+     *  be constant. */
+    template <typename Self, typename Action>
+    static void
+    for_each(Self &self, const Action &action)
     {
-      for (auto &choice : growth_laws)
-        action(choice);
-      for (auto &choice : division_rules)
-        action(choice);
-      for (auto &choice : growth_factors)
-        action(choice);
-      for (auto &choice : flows)
-        action(choice);
-      for (auto &choice : fates)
-        action(choice);
-      for (auto &choice : traits)
-        action(choice);
-      for (auto &choice : step_effects)
-        action(choice);
-      for (auto &choice : forces)
-        action(choice);
-      for (auto &choice : boundary_conditions)
-        action(choice);
+      const auto of_kind = [&action](auto &choices) {
+        for (auto &choice : choices)
+          action(choice);
+      };
+      of_kind(self.growth_laws);
+      of_kind(self.division_rules);
+      of_kind(self.growth_factors);
+      of_kind(self.flows);
+      of_kind(self.fates);
+      of_kind(self.traits);
+      of_kind(self.step_effects);
+      of_kind(self.forces);
+      of_kind(self.boundary_conditions);
+    }
+
+    /** The first keys of a type. */
+    template <typename Parameters, typename Self>
+    static Parameters &
+    keys_of(Self &self)
+    {
+      Parameters *found = nullptr;
+      for_each(self, [&found](auto &choice) {
+        if (found == nullptr)
+          found = dynamic_cast<Parameters *>(&choice.keys());
+      });
+      AssertThrow(found != nullptr, ExcMessage("No effect has such keys."));
+      return *found;
     }
 
     /** @throws std::invalid_argument for names that are in use or that a .prm

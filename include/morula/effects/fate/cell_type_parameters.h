@@ -5,6 +5,7 @@
 #define morula_effects_fate_cell_type_parameters_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 
 #include <deque>
 #include <map>
@@ -55,7 +56,7 @@ namespace Morula
   };
 
   /** Section "Cell types": names first, then a section for each of them. */
-  struct CellTypesParameters : public Keys
+  struct CellTypesParameters : public EffectKeys
   {
     CellTypesParameters();
 
@@ -68,6 +69,39 @@ namespace Morula
     {
       return !types.empty();
     }
+
+    bool
+    is_on() const override
+    {
+      return present();
+    }
+
+    /** Whether some cells may change their type. */
+    bool
+    have_transitions() const;
+
+    /** The values of a key of cells that types have of their own. */
+    std::vector<const ExpressionKey *>
+    own_values_of(const AnyKey &key) const;
+
+    /** What the type number @p type has of its own: a line a key. */
+    std::string
+    details_of(const unsigned int type) const;
+
+    /** Refuses types whose Where holds at no founder. @param n numbers of
+     *  founders, over all ranks, by type. @throws InputError */
+    void
+    check_founders(const std::vector<dealii::types::particle_index> &n) const;
+
+    std::vector<const AnyKey *>
+    said_by_column(const std::string &column) const override;
+
+    /** Refuses laws that differ from type to type, and daughters of types that
+     *  there are not. */
+    void
+    check_with(const RestOfScene &scene) const override;
+    std::vector<IdleKey>
+    idle_keys(const RestOfScene &scene) const override;
 
     /** The names in the order of the types' numbers. */
     std::vector<std::string>
@@ -84,10 +118,10 @@ namespace Morula
      *         given twice
      */
     void
-    declare_types(const std::string                        &names,
-                  const std::vector<const ExpressionKey *> &of_cells,
-                  const LawsOfCells                        &laws,
-                  const std::vector<std::string>           &fields);
+    make_types(const std::string                        &names,
+               const std::vector<const ExpressionKey *> &of_cells,
+               const LawsOfCells                        &laws,
+               const std::vector<std::string>           &fields);
 
     /** Tells the keys of cells the types and their own values. */
     void
@@ -101,6 +135,16 @@ namespace Morula
     KeyList
     list() override;
   };
+
+  /** Warns of types that no cell has and none can get, of daughters where no
+   *  cell divides, and of a first type that takes what no other one does.
+   *  Collective. @param of_file whether a file says the founders' types */
+  template <int dim>
+  void
+  review_types(const CellTypesParameters &parameters,
+               const Preview<dim>        &scene,
+               const bool                 of_file,
+               Review                    &review);
 } // namespace Morula
 
 #endif

@@ -148,7 +148,7 @@ namespace Morula
     add_effects(out, catalogue.fates, rest);
     add_effect(out,
                "fields",
-               scene.fields.present(),
+               scene.fields.is_on(),
                scene.fields.names,
                scene.fields.further_lines(rest));
     add_effects(out, catalogue.traits, rest);

@@ -129,7 +129,7 @@ namespace Morula
            const std::vector<Point<dim>>   &founders,
            const std::vector<unsigned int> &given)
   {
-    if (!scene.cell_types.present() || !given.empty())
+    if (!scene.cell_types.is_on() || !given.empty())
       return given;
     const SceneEffects<dim>   effects = effects_of<dim>(scene);
     std::vector<unsigned int> list;

@@ -267,7 +267,7 @@ namespace Morula
     {
       // The names are those of a table, which refuses two that are equal.
       scene.fields.check_with(scene.rest_of_scene());
-      if (scene.fields.present())
+      if (scene.fields.is_on())
         try
           {
             CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);

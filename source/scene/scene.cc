@@ -162,7 +162,7 @@ namespace Morula
   Scene::division_axis(const unsigned int type) const
   {
     const bool has_own =
-      cell_types.present() && !cell_types.types[type].division_axis.empty();
+      cell_types.is_on() && !cell_types.types[type].division_axis.empty();
     return has_own ? cell_types.types[type].division_axis.value() :
                      division_axis();
   }
@@ -183,7 +183,7 @@ namespace Morula
   bool
   Scene::grows(const unsigned int type) const
   {
-    if (!cell_types.present() || cell_types.types[type].growth_law.empty())
+    if (!cell_types.is_on() || cell_types.types[type].growth_law.empty())
       return growth_law != "none";
     return cell_types.types[type].growth_law != "none";
   }
@@ -289,16 +289,16 @@ namespace Morula
     fields.declare_fields(names_in(fields.names));
     for (const std::string &field : fields.name_list())
       cell_cycle.division_axis.add_word("gradient of " + field);
-    LawsOfCells laws;
+    std::string growth_laws;
     for (const auto &law : catalogue.growth_laws)
-      laws.growth += (laws.growth.empty() ? "" : "|") + law.name();
-    laws.division_axes = boost::join(cell_cycle.division_axis.choices(), "|");
+      growth_laws += (growth_laws.empty() ? "" : "|") + law.name();
     const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
     cell_types.make_types(names_in(cell_types.names),
                           {of_cells.begin(), of_cells.end()},
-                          laws,
+                          growth_laws,
+                          boost::join(cell_cycle.division_axis.choices(), "|"),
                           fields.name_list());
-    if (cell_types.present())
+    if (cell_types.is_on())
       catalogue.declare_types(cell_types.name_list());
     for (auto &condition : catalogue.boundary_conditions)
       if (const AnyKey *key = condition.keys().names_key())
@@ -316,7 +316,7 @@ namespace Morula
     catalogue.see_expressions(keys_of_cells(list()),
                               cell_types.name_list(),
                               fields.name_list());
-    if (!cell_types.present())
+    if (!cell_types.is_on())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));
     // Cells of a type that does not proliferate stay in G0: their rate of
@@ -347,27 +347,24 @@ namespace Morula
   {
     // The order is that of the printed parameters. Types are left out because
     // their keys are copies of those in this list.
-    KeyList list = {&method, &dimension, &output_directory, &random_seed};
+    KeyList    list = {&method, &dimension, &output_directory, &random_seed};
+    const auto append_all = [&list](auto &choices) {
+      for (auto &choice : choices)
+        append(list, choice.keys().list());
+    };
     for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
       append(list, section->list());
-    for (auto &flow : catalogue.flows)
-      append(list, flow.keys().list());
+    append_all(catalogue.flows);
     list.push_back(&growth_law);
-    for (auto &law : catalogue.growth_laws)
-      append(list, law.keys().list());
+    append_all(catalogue.growth_laws);
     list.push_back(&proliferation_law);
     append(list, cell_cycle.list());
-    for (auto &rule : catalogue.division_rules)
-      append(list, rule.keys().list());
-    for (auto &factor : catalogue.growth_factors)
-      append(list, factor.keys().list());
-    for (auto &fate : catalogue.fates)
-      append(list, fate.keys().list());
+    append_all(catalogue.division_rules);
+    append_all(catalogue.growth_factors);
+    append_all(catalogue.fates);
     append(list, fields.list());
-    for (auto &trait : catalogue.traits)
-      append(list, trait.keys().list());
-    for (auto &effect : catalogue.step_effects)
-      append(list, effect.keys().list());
+    append_all(catalogue.traits);
+    append_all(catalogue.step_effects);
     // Nitsche's keys follow the library's own conditions, to which they belong;
     // conditions of a user's program come after both.
     for (auto &condition : catalogue.boundary_conditions)
@@ -377,8 +374,7 @@ namespace Morula
     for (auto &condition : catalogue.boundary_conditions)
       if (condition.has_section())
         append(list, condition.keys().list());
-    for (auto &force : catalogue.forces)
-      append(list, force.keys().list());
+    append_all(catalogue.forces);
     append(list, contact.list());
     append(list, solver.list());
     append(list, output.list());

@@ -154,7 +154,7 @@ namespace Morula
 
     const Catalogue                &catalogue = scene.catalogue;
     std::unique_ptr<CellTypes<dim>> types;
-    if (scene.cell_types.present())
+    if (scene.cell_types.is_on())
       {
         types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
         for (unsigned int type = 0; type < types->size(); ++type)
@@ -222,7 +222,7 @@ namespace Morula
              [&](const auto &name, auto condition) {
                effects.conditions.push_back({name, std::move(condition)});
              });
-    if (scene.fields.present())
+    if (scene.fields.is_on())
       effects.fields = Fields<dim>(scene.fields, setting);
     effects.state.declare(effects.columns);
     return effects;

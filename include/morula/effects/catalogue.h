@@ -41,9 +41,7 @@ namespace Morula
     void
     add_growth_law(const std::string &name)
     {
-      check_name(name);
-      growth_laws.push_back(
-        Choice<GrowthLaw>::of<Law>(name, section("Growth/", name)));
+      add_in_section<Law>(growth_laws, "Growth/", name);
     }
 
     /** Adds a rule that `Proliferation/Cell cycle/Division axis` can name; its
@@ -52,9 +50,7 @@ namespace Morula
     void
     add_division_rule(const std::string &name)
     {
-      check_name(name);
-      division_rules.push_back(Choice<DivisionRule>::of<Rule>(
-        name, section("Proliferation/Cell cycle/", name)));
+      add_in_section<Rule>(division_rules, "Proliferation/Cell cycle/", name);
     }
 
     /** Adds a force. A scene has it if its keys say so; they stand in `<Name>`.
@@ -63,8 +59,7 @@ namespace Morula
     void
     add_force(const std::string &name)
     {
-      check_name(name);
-      forces.push_back(Choice<Force>::of<AddedForce>(name, section("", name)));
+      add_in_section<AddedForce>(forces, "", name);
     }
 
     /** Adds a factor of F_g, left of those before. A scene has it if its keys
@@ -73,9 +68,7 @@ namespace Morula
     void
     add_growth_factor(const std::string &name)
     {
-      check_name(name);
-      growth_factors.push_back(
-        Choice<GrowthFactor>::of<Factor>(name, section("", name)));
+      add_in_section<Factor>(growth_factors, "", name);
     }
 
     /** Adds a flow, which acts after those before. A scene has it if its keys
@@ -84,8 +77,7 @@ namespace Morula
     void
     add_flow(const std::string &name)
     {
-      check_name(name);
-      flows.push_back(Choice<Flow>::of<AddedFlow>(name, section("", name)));
+      add_in_section<AddedFlow>(flows, "", name);
     }
 
     /** Adds a trait. A scene has it if its keys say so; they stand in `<Name>`.
@@ -94,8 +86,7 @@ namespace Morula
     void
     add_trait(const std::string &name)
     {
-      check_name(name);
-      traits.push_back(Choice<Trait>::of<AddedTrait>(name, section("", name)));
+      add_in_section<AddedTrait>(traits, "", name);
     }
 
     /** Adds a step effect, whose moments come after those before. A scene has
@@ -104,9 +95,7 @@ namespace Morula
     void
     add_step_effect(const std::string &name)
     {
-      check_name(name);
-      step_effects.push_back(
-        Choice<StepEffect>::of<Added>(name, section("", name)));
+      add_in_section<Added>(step_effects, "", name);
     }
 
     /** Adds a fate, which is asked after those before. A scene has it if its
@@ -115,8 +104,7 @@ namespace Morula
     void
     add_fate(const std::string &name)
     {
-      check_name(name);
-      fates.push_back(Choice<Fate>::of<AddedFate>(name, section("", name)));
+      add_in_section<AddedFate>(fates, "", name);
     }
 
     /** Adds a condition on the surface. A scene has it if its keys say so; they
@@ -125,9 +113,9 @@ namespace Morula
     void
     add_boundary_condition(const std::string &name)
     {
-      check_name(name);
-      boundary_conditions.push_back(Choice<BoundaryCondition>::of<Condition>(
-        name, section("Boundary conditions/", name)));
+      add_in_section<Condition>(boundary_conditions,
+                                "Boundary conditions/",
+                                name);
     }
 
     /** The keys of an effect, by their type. */
@@ -192,6 +180,19 @@ namespace Morula
     Choices<BoundaryCondition> boundary_conditions;
 
   private:
+    /** Adds an effect whose keys stand in @p around and a section of its own.
+     */
+    template <template <int> class Added, template <int> class Interface>
+    void
+    add_in_section(Choices<Interface> &choices,
+                   const std::string  &around,
+                   const std::string  &name)
+    {
+      check_name(name);
+      choices.push_back(
+        Choice<Interface>::template of<Added>(name, section(around, name)));
+    }
+
     /** Calls @p action for all effects of all kinds of a catalogue, which may
      *  be constant. */
     template <typename Self, typename Action>

@@ -19,7 +19,8 @@ namespace Morula
   CellTypeKeys::CellTypeKeys(const std::string                        &name,
                              const std::vector<std::string>           &others,
                              const std::vector<const ExpressionKey *> &of_cells,
-                             const LawsOfCells                        &laws)
+                             const std::string &growth_laws,
+                             const std::string &division_axes)
     : name(name)
     , where("Where",
             "",
@@ -35,7 +36,7 @@ namespace Morula
                  "",
                  "none, or the law by which cells of this type grow; empty: "
                  "that of all.",
-                 {"|none|" + laws.growth})
+                 {"|none|" + growth_laws})
     , proliferation_law(
         "Proliferation/Law",
         "",
@@ -47,7 +48,7 @@ namespace Morula
                     "",
                     "What n_s of cells of this type is when they enter S; "
                     "empty: that of all.",
-                    {"|" + laws.division_axes})
+                    {"|" + division_axes})
   {
     // The names of types are the user's, so their keys are made while the file
     // is read. A type has some keys of its own, one rate for each other type,
@@ -116,7 +117,8 @@ namespace Morula
   CellTypesParameters::make_types(
     const std::string                        &text,
     const std::vector<const ExpressionKey *> &of_cells,
-    const LawsOfCells                        &laws,
+    const std::string                        &growth_laws,
+    const std::string                        &division_axes,
     const std::vector<std::string>           &fields)
   {
     // The text is that of the key Names, which is read before all others. First
@@ -135,7 +137,7 @@ namespace Morula
                      list.end(),
                      std::back_inserter(others),
                      [&](const std::string &other) { return other != name; });
-        types.emplace_back(name, others, of_cells, laws);
+        types.emplace_back(name, others, of_cells, growth_laws, division_axes);
       }
   }
 
@@ -189,17 +191,6 @@ namespace Morula
       key.refuse("two of " + names,
                  "Name the types of both daughters, the one at -n_s first.");
     return {numbers[0], numbers[1]};
-  }
-
-
-  bool
-  CellTypesParameters::have_transitions() const
-  {
-    for (const CellTypeKeys &type : types)
-      for (const ExpressionKey &rate : type.transitions)
-        if (!rate.is_default())
-          return true;
-    return false;
   }
 
 
@@ -260,7 +251,7 @@ namespace Morula
   void
   CellTypesParameters::check_with(const RestOfScene &scene) const
   {
-    if (!present() && !scene.material.on_transition.is_default())
+    if (!is_on() && !scene.material.on_transition.is_default())
       scene.material.on_transition.refuse(
         "its default, as there are no types of cells",
         "Set " + names.path() + ", or remove this key.");
@@ -281,8 +272,10 @@ namespace Morula
   std::vector<IdleKey>
   CellTypesParameters::idle_keys(const RestOfScene &scene) const
   {
-    if (have_transitions())
-      return {};
+    for (const CellTypeKeys &type : types)
+      for (const ExpressionKey &rate : type.transitions)
+        if (!rate.is_default())
+          return {};
     return {{scene.material.on_transition,
              "no cell changes its type",
              "Set Cell types/NAME/Transitions, or remove this key."}};

@@ -14,12 +14,6 @@
 
 namespace Morula
 {
-  /** The names from which a type of cells may choose, separated by '|'. */
-  struct LawsOfCells
-  {
-    std::string growth, division_axes;
-  };
-
   /** Section "Cell types/NAME". */
   struct CellTypeKeys : public Keys
   {
@@ -28,12 +22,14 @@ namespace Morula
      * @param others names of the other types
      * @param of_cells keys of cells, for which the type may have values of its
      *        own
-     * @param laws that there are
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
      */
     CellTypeKeys(const std::string                        &name,
                  const std::vector<std::string>           &others,
                  const std::vector<const ExpressionKey *> &of_cells,
-                 const LawsOfCells                        &laws);
+                 const std::string                        &growth_laws,
+                 const std::string                        &division_axes);
 
     std::string      name;
     ExpressionKey    where;
@@ -63,22 +59,11 @@ namespace Morula
     Key<std::string>         names;
     std::deque<CellTypeKeys> types;
 
-    /** Whether the scene has types. */
-    bool
-    present() const
-    {
-      return !types.empty();
-    }
-
     bool
     is_on() const override
     {
-      return present();
+      return !types.empty();
     }
-
-    /** Whether some cells may change their type. */
-    bool
-    have_transitions() const;
 
     /** The values of a key of cells that types have of their own. */
     std::vector<const ExpressionKey *>
@@ -112,7 +97,8 @@ namespace Morula
      * @param names as `Names` has them
      * @param of_cells keys of cells, for which types may have values of their
      *        own
-     * @param laws that there are
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
      * @param fields names that are taken
      * @throws InputError for names that expressions cannot have, or that are
      *         given twice
@@ -120,7 +106,8 @@ namespace Morula
     void
     make_types(const std::string                        &names,
                const std::vector<const ExpressionKey *> &of_cells,
-               const LawsOfCells                        &laws,
+               const std::string                        &growth_laws,
+               const std::string                        &division_axes,
                const std::vector<std::string>           &fields);
 
     /** Tells the keys of cells the types and their own values. */

@@ -78,13 +78,6 @@ namespace Morula
     Key<std::string>      names;
     std::deque<FieldKeys> fields;
 
-    /** Whether the scene has fields. */
-    bool
-    present() const
-    {
-      return !fields.empty();
-    }
-
     /** Whether something is done to a field at the surface. */
     bool
     have_surface() const;
@@ -92,7 +85,7 @@ namespace Morula
     bool
     is_on() const override
     {
-      return present();
+      return !fields.empty();
     }
     void
     check_with(const RestOfScene &scene) const override;

@@ -299,6 +299,10 @@ namespace Morula::MeshFile
     PlyHeader
     ply_header(const std::vector<Line> &lines)
     {
+      // A header lists elements, each with a line of its own, and then the
+      // properties of the last one, in the order of their values in a row. A
+      // list says the type of its length before that of its entries. What is
+      // no such line ends the reading, as the rest cannot be trusted.
       PlyHeader header;
       for (const Line &line : lines)
         {

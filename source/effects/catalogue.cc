@@ -85,7 +85,7 @@ namespace Morula
   void
   Catalogue::declare_types(const std::vector<std::string> &types)
   {
-    for_each([&](auto &choice) { choice.keys().declare_types(types); });
+    for_each(*this, [&](auto &choice) { choice.keys().declare_types(types); });
   }
 
 
@@ -94,8 +94,9 @@ namespace Morula
                              const std::vector<std::string>     &types,
                              const std::vector<std::string>     &fields)
   {
-    for_each([&](auto &choice) {
+    for_each(*this, [&](auto &choice) {
       choice.keys().see_expressions(keys, types, fields);
+      choice.keys().see_others(*this);
     });
   }
 
@@ -104,9 +105,33 @@ namespace Morula
   Catalogue::all_keys() const
   {
     std::vector<const EffectKeys *> list;
-    const_cast<Catalogue *>(this)->for_each(
-      [&list](const auto &choice) { list.push_back(&choice.keys()); });
+    for_each(*this,
+             [&list](const auto &choice) { list.push_back(&choice.keys()); });
     return list;
+  }
+
+
+  TypeTensions
+  Catalogue::tensions() const
+  {
+    TypeTensions tensions;
+    for (const EffectKeys *const keys : all_keys())
+      keys->add_tensions(tensions);
+    return tensions;
+  }
+
+
+  NeighbourSearch
+  Catalogue::neighbour_search() const
+  {
+    return keys<NeighbourParameters>().search();
+  }
+
+
+  const std::vector<NeighbourVariable> &
+  Catalogue::neighbour_variables() const
+  {
+    return keys<NeighbourParameters>().variables;
   }
 
 
@@ -117,7 +142,7 @@ namespace Morula
     // begin with the defaults. Otherwise a scene would see what the one before
     // it set.
     Catalogue copy(*this);
-    copy.for_each([](auto &choice) { choice.reset(); });
+    for_each(copy, [](auto &choice) { choice.reset(); });
     return copy;
   }
 
@@ -139,8 +164,9 @@ namespace Morula
                                   "' cannot name an effect: small letters, "
                                   "blanks and '-' may.");
     bool in_use = name == "none" || name == "random";
-    for_each(
-      [&](const auto &choice) { in_use = in_use || choice.name() == name; });
+    for_each(*this, [&](const auto &choice) {
+      in_use = in_use || choice.name() == name;
+    });
     if (in_use)
       throw std::invalid_argument("There is an effect '" + name + "' already.");
   }

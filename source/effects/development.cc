@@ -123,6 +123,19 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  CellDevelopment<dim>::is_held(const PresentCell<dim> &cell,
+                                const double            t) const
+  {
+    return cycle() != nullptr &&
+           cycle()->is_held(clock(cell.cell()),
+                            CellAt<dim>(cell, t),
+                            t,
+                            cell.cell().elastic_volume_ratio());
+  }
+
+
+  template <int dim>
   void
   CellDevelopment<dim>::set_clock(const CellView<dim, double> &cell,
                                   const CycleState<dim>       &state) const

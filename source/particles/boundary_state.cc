@@ -36,6 +36,9 @@ namespace Morula
   void
   BoundaryColumns<dim>::need_contact(const bool fuses, const bool with_parts)
   {
+    // Body and pressure are columns of every scene with contact; the part and
+    // the time of touch only of those that ask for them. Both halves of a point
+    // that is split have its values. Who asks twice gets nothing more.
     if (body.exists())
       return;
     body             = add<unsigned int>({"body",

@@ -216,6 +216,9 @@ namespace Morula
               const PointList<dim>            &patches,
               const double                     radius)
     {
+      // The nearest patch of those that are left is the next plane's first one.
+      // All that look the same way as it go with it, so that what is left
+      // belongs to other faces. At a corner dim faces meet, and no more count.
       std::vector<unsigned int> rest;
       for (const unsigned int k : near)
         if (x.distance(patches.positions[k]) < radius)

@@ -308,6 +308,11 @@ namespace Morula
                     const std::array<unsigned int, 3> &face,
                     const unsigned int                 inner)
     {
+      // The outward normal of the face comes first. Then each edge gets a part
+      // as in a tetrahedron whose circumcentre is infinitely far outward. An
+      // edge belongs to two faces of the hull, whose ways outward differ: the
+      // first one leaves its normal, and the second adds the sector of the disc
+      // of radius rho between the two.
       const auto        &x                = diagram.points;
       const Tensor<1, 3> u                = x[face[1]] - x[face[0]],
                          v                = x[face[2]] - x[face[0]];

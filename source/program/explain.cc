@@ -4,9 +4,7 @@
 #include <morula/base/json.h>
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
-#include <morula/program/explain_cells.h>
-#include <morula/program/explain_effects.h>
-#include <morula/program/explain_folds.h>
+#include <morula/program/explain_parts.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/free_growth.h>
 #include <morula/scene/seeded_tissue.h>
@@ -179,21 +177,10 @@ namespace Morula
       for (const BodyMeasures &body : bodies)
         thinnest = std::min(thinnest, body.thickness());
       add_effect(rows, "bodies", true, text.str());
-      text.str("");
-      const double h = scene.grid.spacing;
-      text << "boundary points that face each other press from their first "
-              "overlap on, "
-           << as_text(scene.contact.stiffness) << " E/h: bodies overlap by h/"
-           << as_text(scene.contact.stiffness) << " ("
-           << h / scene.contact.stiffness
-           << " um) at a pressure of E; without friction; in a step two of "
-              "them come nearer by at most "
-           << (scene.contact.is_of_all() ? 2. * h : h)
-           << " um; the thinnest body is about " << thinnest
-           << " um thick (2 V/A), the least is " << 0.4 * h << " um; fields "
-           << (scene.contact.fields_pass ? "pass from body to body" :
-                                           "end at each body's surface");
-      add_effect(rows, "contact", true, text.str());
+      add_effect(rows,
+                 "contact",
+                 true,
+                 scene.contact.details_of_bodies(scene.grid.spacing, thinnest));
     }
 
     /** How many bodies the tissue is, and which surfaces its mesh has. */

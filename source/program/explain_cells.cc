@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/explain_cells.h>
+#include <morula/program/explain_parts.h>
 
 #include <iomanip>
 #include <string>
@@ -23,13 +23,6 @@ namespace Morula
                    expression.vocabulary().name_of(variable);
       return names;
     }
-
-    /** A key of a type's section without that section. */
-    std::string
-    name_in_section(const AnyKey &key, const std::string &type)
-    {
-      return key.path().substr(std::string("Cell types/" + type + "/").size());
-    }
   } // namespace
 
 
@@ -38,19 +31,13 @@ namespace Morula
               const Scene                              &scene,
               const std::vector<types::particle_index> &n_founders)
   {
-    if (!scene.cell_types.present())
-      return;
-    out << "Cell types\n";
-    for (unsigned int i = 0; i < scene.cell_types.types.size(); ++i)
-      {
-        const CellTypeKeys &type = scene.cell_types.types[i];
-        out << "  " << std::left << std::setw(24) << type.name << n_founders[i]
-            << (n_founders[i] == 1 ? " founder" : " founders") << '\n';
-        for (const AnyKey *key : type.list())
-          if (!key->is_default())
-            out << "    " << name_in_section(*key, type.name) << " = "
-                << key->text() << '\n';
-      }
+    const std::vector<std::string> names = scene.cell_types.name_list();
+    if (!names.empty())
+      out << "Cell types\n";
+    for (unsigned int i = 0; i < names.size(); ++i)
+      out << "  " << std::left << std::setw(24) << names[i] << n_founders[i]
+          << (n_founders[i] == 1 ? " founder" : " founders") << '\n'
+          << scene.cell_types.details_of(i);
   }
 
 

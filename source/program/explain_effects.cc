@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/explain_effects.h>
-#include <morula/scene/rearrangement_review.h>
+#include <morula/program/explain_parts.h>
 
 #include <iomanip>
 #include <sstream>
@@ -59,26 +58,18 @@ namespace Morula
     /** A row for each effect that its keys switch on. */
     template <template <int> class Interface>
     void
-    add_effects(EffectRows &rows, const Choices<Interface> &choices)
+    add_effects(EffectRows               &rows,
+                const Choices<Interface> &choices,
+                const RestOfScene        &scene)
     {
       for (const auto &choice : choices)
         // What has no keys is a part of others.
-        if (!choice.keys().list().empty())
+        if (const EffectKeys &keys = choice.keys(); !keys.list().empty())
           add_effect(rows,
                      topic_of(choice),
-                     choice.keys().is_on(),
-                     choice.keys().details());
-    }
-
-    void
-    add_fields(EffectRows &rows, const Scene &scene)
-    {
-      std::ostringstream out; // a line a field
-      for (const FieldKeys &field : scene.fields.fields)
-        out << "    " << std::left << std::setw(22) << field.name
-            << field.details() << '\n';
-      add_effect(
-        rows, "fields", scene.fields.present(), scene.fields.names, out.str());
+                     keys.is_on(),
+                     keys.details(),
+                     keys.is_on() ? keys.further_lines(scene) : "");
     }
   } // namespace
 
@@ -120,6 +111,7 @@ namespace Morula
   {
     const CellCycleParameters &cycle     = scene.cell_cycle;
     const Catalogue           &catalogue = scene.catalogue;
+    const RestOfScene          rest      = scene.rest_of_scene();
     const bool                 divides   = scene.has_proliferation();
 
     // The rows come in a fixed order: first what the library does to cells,
@@ -152,14 +144,15 @@ namespace Morula
                  details_of(catalogue.division_rules, scene.division_axis()) +
                  (cycle.axis_follows_rotation ? ", follows rotation" : "") +
                  (cycle.stay_inside ? ", inside the surface" : ""));
-    add_effects(out, catalogue.growth_factors);
-    add_effects(out, catalogue.fates);
-    add_fields(out, scene);
-    add_effects(out, catalogue.traits);
-    add_effects(out, catalogue.step_effects);
-    for (EffectRow &row : out)
-      if (row.name == "rearrangement")
-        row.further = rearrangement_lines(scene);
+    add_effects(out, catalogue.growth_factors, rest);
+    add_effects(out, catalogue.fates, rest);
+    add_effect(out,
+               "fields",
+               scene.fields.is_on(),
+               scene.fields.names,
+               scene.fields.further_lines(rest));
+    add_effects(out, catalogue.traits, rest);
+    add_effects(out, catalogue.step_effects, rest);
     for (const auto &choice : catalogue.boundary_conditions)
       {
         // A condition is on if it acts somewhere: its expression may be true
@@ -174,14 +167,14 @@ namespace Morula
                      choice.keys().details(),
                    applied_lines(scene, applied, choice.name()));
       }
-    add_effects(out, catalogue.forces);
+    add_effects(out, catalogue.forces, rest);
     add_effect(out, "material", true, material_text(scene));
     add_effect(
       out,
       "heterogeneous stiffness",
       !scene.material.youngs_modulus.expression(scene.dimension).is_constant(),
       "E = " + scene.material.youngs_modulus.text() + " kPa");
-    add_effects(out, catalogue.flows);
+    add_effects(out, catalogue.flows, rest);
     add_effect(out,
                "surface refinement",
                scene.tissue.refine_surface,

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/friction.h>
-#include <morula/effects/surface/lumen.h>
-#include <morula/program/explain_folds.h>
+#include <morula/program/explain_parts.h>
 
-#include <deal.II/base/numbers.h>
-
-#include <cmath>
 #include <sstream>
 
 namespace Morula
@@ -30,47 +25,30 @@ namespace Morula
       if (growth && growth->most > unequal * growth->least)
         text << "    founders grow unequally: by factors of " << growth->least
              << " to " << growth->most << " in volume until End time\n";
-      const bool  grows = scene.has_growth() || scene.has_proliferation();
-      const auto &lumen = scene.keys<LumenParameters>();
-      if (grows && lumen.is_on() && !lumen.volume.empty())
-        text << "    tissue grows around a lumen whose volume is given\n";
+      const bool grows = scene.has_growth() || scene.has_proliferation();
+      for (const EffectKeys *const keys : scene.keys_in_use())
+        if (grows && !keys->lets_buckle().empty())
+          text << "    tissue grows " << keys->lets_buckle() << '\n';
       if (grows && !scene.material.youngs_modulus.expression(scene.dimension)
                       .is_constant())
         text << "    tissue grows whose stiffness is not the same everywhere\n";
       return text.str();
     }
 
+    /** What resists the motion of the tissue, and so decides the fold. */
     std::string
-    meaning_of_friction(const Scene &scene)
+    resistance(const Scene &scene)
     {
-      const auto &friction = scene.keys<FrictionParameters>();
-      if (!friction.is_on())
-        return "none: which fold is found is up to the grid; scan "
-               "Friction/Coefficient (doc/modelling.md, Folds)";
-      const std::optional<double> value =
-        friction.coefficient.largest_number(scene.dimension);
-      if (!value)
-        return friction.coefficient.text() + " kPa day/um^2";
-      std::ostringstream text;
-      text << *value << " kPa day/um^2, as cells of "
-           << scene.tissue.cell_spacing
-           << " um feel it one by one in a medium of "
-           << viscosity_of_medium(*value, scene.tissue.cell_spacing) << " Pa s";
-      return text.str();
+      const RestOfScene rest = scene.rest_of_scene();
+      std::string       all;
+      for (const EffectKeys *const keys : scene.keys_in_use())
+        if (const std::string one = keys->resistance(rest); !one.empty())
+          all += (all.empty() ? "" : "; ") + one;
+      return !all.empty() ? all :
+                            "none: which fold is found is up to the grid; scan "
+                            "Friction/Coefficient (doc/modelling.md, Folds)";
     }
   } // namespace
-
-
-  double
-  viscosity_of_medium(const double friction, const double length)
-  {
-    // Stokes' force 6 π η R v on a sphere equals ζ V v with V = 4 π R³/3, hence
-    // η = 2 ζ R²/9. R is that of the sphere with the volume of the cube.
-    constexpr double pascal_seconds = 1e3 * 86400.; // in a kPa day
-    const double     radius_squared =
-      std::pow(3. / (4. * numbers::PI), 2. / 3.) * length * length;
-    return 2. / 9. * friction * radius_squared * pascal_seconds;
-  }
 
 
   void
@@ -98,7 +76,7 @@ namespace Morula
     out << "Folds\n";
     if (!what.empty())
       out << "  may buckle, as\n"
-          << what << "  friction: " << meaning_of_friction(scene) << '\n';
+          << what << "  friction: " << resistance(scene) << '\n';
     if (!advice.empty())
       out << "  cells grow unequally; consider\n" << advice;
   }

@@ -103,19 +103,6 @@ namespace Morula
         });
       return Utilities::MPI::sum(sum, comm) == 0.;
     }
-
-    std::string
-    vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero)
-    {
-      // Sums that cancel leave rounding: what is below `zero` is printed as 0.
-      std::ostringstream text;
-      text.precision(4);
-      text << '(';
-      for (unsigned int d = 0; d < scene.dimension; ++d)
-        text << (d == 0 ? "" : " ") << (std::abs(v[d]) <= zero ? 0. : v[d]);
-      text << ')';
-      return text.str();
-    }
   } // namespace
 
 
@@ -164,10 +151,25 @@ namespace Morula
             }
         });
         list.push_back(sums.over_all_ranks(comm));
+        list.back().is_tension = condition->is_tension();
         if (sums.row.has_force && list.back().magnitude == 0.)
           list.back().is_idle = is_idle(scene, loads, *condition, comm);
       }
     return list;
+  }
+
+
+  std::string
+  vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero)
+  {
+    // Sums that cancel leave rounding: what is below `zero` is printed as 0.
+    std::ostringstream text;
+    text.precision(4);
+    text << '(';
+    for (unsigned int d = 0; d < scene.dimension; ++d)
+      text << (d == 0 ? "" : " ") << (std::abs(v[d]) <= zero ? 0. : v[d]);
+    text << ')';
+    return text.str();
   }
 
 

@@ -29,91 +29,93 @@ namespace Morula
     /** Lengths of cells, µm. */
     constexpr double shortest_cell = 0.5, longest_cell = 300.;
 
-    /** What a condition's keys are but for its place. */
+    /** The other keys of a condition than that of its place. */
     std::string
-    other_keys(const EffectKeys &keys, const AnyKey *where)
+    other_keys(const Scene            &scene,
+               const AppliedCondition &one,
+               const AnyKey           &where)
     {
       std::string paths;
-      for (const AnyKey *key : keys.list())
-        if (key != where)
+      for (const AnyKey *key :
+           find_choice(scene.catalogue.boundary_conditions, one.name)
+             ->keys()
+             .list())
+        if (key != &where)
           paths += (paths.empty() ? "" : " or ") + key->path();
       return paths;
     }
 
     /** Loads that are none, or far stronger than the tissue. */
     void
-    review_loads(const Scene                         &scene,
-                 const std::vector<AppliedCondition> &applied,
-                 const std::optional<double>         &stiffness,
-                 Review                              &review)
+    review_load(const Scene                 &scene,
+                const AppliedCondition      &one,
+                const AnyKey                &where,
+                const std::optional<double> &stiffness,
+                Review                      &review)
     {
-      for (const AppliedCondition &one : applied)
-        for (const auto &choice : scene.catalogue.boundary_conditions)
-          {
-            const AnyKey *const where = choice.keys().switch_key();
-            if (where == nullptr || choice.name() != one.name)
-              continue;
-            const std::string keys = other_keys(choice.keys(), where);
-            // A closed surface under tension has no forces in sum.
-            const bool is_tension =
-              one.name.find("tension") != std::string::npos;
-            if (one.points == 0 && one.chosen > 0)
-              review.warn(where->path(),
-                          where->text(),
-                          "it acts nowhere: at all " +
-                            std::to_string(one.chosen) +
-                            " boundary points that it chooses another "
-                            "condition wins (fixed over slip, slip over "
-                            "loads).",
-                          "Choose places that differ.");
-            else if (one.is_idle && !keys.empty() && !is_tension)
-              review.warn(where->path(),
-                          where->text(),
-                          "its load is zero at the end of every step.",
-                          "Set " + keys + ", or remove the condition.");
-            else if (stiffness && one.points > 0 &&
-                     one.magnitude > strongest_load * *stiffness * one.area)
-              review.warn(where->path(),
-                          where->text(),
-                          "its load is " + as_text(one.magnitude / one.area) +
-                            " kPa on average, " +
-                            as_text(one.magnitude / one.area / *stiffness) +
-                            " times the stiffest cell's E. Is it in Pa?",
-                          "If it is meant so, all is well.");
-            else if (stiffness && one.has_force && one.points > 0 &&
-                     one.magnitude > 0. && !is_tension &&
-                     one.magnitude < weakest_load * *stiffness * one.area)
-              review.warn(where->path(),
-                          where->text(),
-                          "its load is " + as_text(one.magnitude / one.area) +
-                            " kPa on average, next to nothing beside the "
-                            "stiffest cell's E. Is it in MPa?",
-                          "If it is meant so, all is well.");
-          }
+      // A condition has one warning at most, the surest first: it acts nowhere,
+      // it is zero in all steps, it is far too strong, or far too weak. The
+      // forces of a tension cancel on a closed surface, so that a small sum
+      // says nothing of it.
+      const auto warn = [&](const std::string &why, const std::string &remedy) {
+        review.warn(where.path(), where.text(), why, remedy);
+      };
+      const std::string keys  = other_keys(scene, one, where);
+      const double      scale = stiffness.value_or(0.) * one.area;
+      if (one.points == 0 && one.chosen > 0)
+        warn("it acts nowhere: at all " + std::to_string(one.chosen) +
+               " boundary points that it chooses another condition wins (fixed "
+               "over slip, slip over loads).",
+             "Choose places that differ.");
+      else if (one.is_idle && !keys.empty() && !one.is_tension)
+        warn("its load is zero at the end of every step.",
+             "Set " + keys + ", or remove the condition.");
+      else if (stiffness && one.points > 0 &&
+               one.magnitude > strongest_load * scale)
+        warn("its load is " + as_text(one.magnitude / one.area) +
+               " kPa on average, " +
+               as_text(one.magnitude / one.area / *stiffness) +
+               " times the stiffest cell's E. Is it in Pa?",
+             "If it is meant so, all is well.");
+      else if (stiffness && one.has_force && one.points > 0 &&
+               one.magnitude > 0. && !one.is_tension &&
+               one.magnitude < weakest_load * scale)
+        warn("its load is " + as_text(one.magnitude / one.area) +
+               " kPa on average, next to nothing beside the stiffest cell's E. "
+               "Is it in MPa?",
+             "If it is meant so, all is well.");
     }
 
     void
-    review_points(const Scene                         &scene,
-                  const std::vector<AppliedCondition> &applied,
-                  Review                              &review)
+    review_points(const Scene            &scene,
+                  const AppliedCondition &one,
+                  const AnyKey           &where,
+                  Review                 &review)
     {
-      // The key that says where the condition acts is named in the warning, so
-      // conditions without such a key are passed over.
+      if (one.points > 0 && one.points < fewest_points)
+        review.warn(where.path(),
+                    where.text(),
+                    "it acts on " + std::to_string(one.points) +
+                      " boundary points, whose area is " + as_text(one.area) +
+                      (scene.dimension == 3 ? " um^2" : " um") +
+                      ": with so few, what it covers jumps by a whole patch, "
+                      "and so does its force.",
+                    "Choose a larger place, or a smaller Tissue/Cell spacing.");
+    }
+
+    /** Calls @p action for each condition and the key that says where it acts,
+     *  which warnings name; conditions without one are passed over. */
+    template <typename Action>
+    void
+    for_placed(const Scene                         &scene,
+               const std::vector<AppliedCondition> &applied,
+               const Action                        &action)
+    {
       for (const AppliedCondition &one : applied)
-        if (one.points > 0 && one.points < fewest_points)
-          for (const auto &choice : scene.catalogue.boundary_conditions)
-            if (const AnyKey *const where = choice.keys().switch_key();
-                where != nullptr && choice.name() == one.name)
-              review.warn(where->path(),
-                          where->text(),
-                          "it acts on " + std::to_string(one.points) +
-                            " boundary points, whose area is " +
-                            as_text(one.area) +
-                            (scene.dimension == 3 ? " um^2" : " um") +
-                            ": with so few, what it covers jumps by a whole "
-                            "patch, and so does its force.",
-                          "Choose a larger place, or a smaller Tissue/Cell "
-                          "spacing.");
+        if (const auto *const choice =
+              find_choice(scene.catalogue.boundary_conditions, one.name))
+          if (const AnyKey *const where = choice->keys().switch_key())
+            action(one, *where);
     }
   } // namespace
 
@@ -134,8 +136,12 @@ namespace Morula
     const ValueRange            stiffnesses = range_of<dim>(E, founders, comm);
     const std::optional<double> stiffness =
       stiffnesses ? stiffnesses->second : std::optional<double>();
-    review_points(scene, applied, review);
-    review_loads(scene, applied, stiffness, review);
+    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
+      review_points(scene, one, where, review);
+    });
+    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
+      review_load(scene, one, where, stiffness, review);
+    });
     review_number(E,
                   stiffnesses,
                   softest,

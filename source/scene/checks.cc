@@ -25,19 +25,8 @@ namespace Morula
       for (const Point<dim> &X : at.founders)
         require_elastic(scene.material, X);
       const SceneEffects<dim> effects = effects_of<dim>(scene);
-      if (effects.development.law)
-        effects.development.law->check(at);
-      const Proliferation<dim> *const cells = effects.development.proliferation;
-      for (const auto &fate : effects.development.fates)
-        fate->check(at);
-      for (const auto &trait : effects.traits)
-        trait->check(at);
-      for (const auto &[name, effect] : effects.step_effects)
+      for (const Effect<dim> *const effect : effects.all())
         effect->check(at);
-      for (const auto &[name, force] : effects.forces)
-        force->check(at);
-      if (cells != nullptr)
-        cells->cycle().check(at.founders, scene.time.step);
     }
 
     /** Number of founders, over all ranks, that proliferate. Refuses a cell
@@ -63,25 +52,6 @@ namespace Morula
             scene.proliferation_law.path() +
             " = none. Founders sit at centers of cells, inside of the tissue.");
       return n;
-    }
-
-    /** Refuses a type of cells whose condition for founders holds at none. */
-    template <int dim>
-    void
-    check_types(const Scene                   &scene,
-                const std::vector<Point<dim>> &founders,
-                const MPI_Comm                 comm)
-    {
-      // The numbers are sums over all ranks. A type without a condition of its
-      // own may be reached by transitions only, so it may have no founder.
-      const auto n = founders_of_types(scene, founders, comm);
-      for (unsigned int i = 0; i < n.size(); ++i)
-        if (const ExpressionKey &where = scene.cell_types.types[i].where;
-            n[i] == 0 && !where.empty())
-          where.refuse("a condition that holds at some founder",
-                       "It is positive at none, or at founders of later types "
-                       "only: correct it, or leave it empty. Founders sit at "
-                       "centers of cells, inside of the tissue.");
     }
 
     /** Where conditions act on the points of this rank, in their own order. */
@@ -154,21 +124,34 @@ namespace Morula
 
 
   template <int dim>
+  std::vector<unsigned int>
+  types_of(const Scene                     &scene,
+           const std::vector<Point<dim>>   &founders,
+           const std::vector<unsigned int> &given)
+  {
+    if (!scene.cell_types.is_on() || !given.empty())
+      return given;
+    const SceneEffects<dim>   effects = effects_of<dim>(scene);
+    std::vector<unsigned int> list;
+    for (const Point<dim> &X : founders)
+      list.push_back(effects.development.types->founder_type(X));
+    return list;
+  }
+
+
+  template <int dim>
   std::vector<types::particle_index>
   founders_of_types(const Scene                     &scene,
                     const std::vector<Point<dim>>   &founders,
                     const MPI_Comm                   comm,
                     const std::vector<unsigned int> &given)
   {
-    // Types are those of the file, if it has any, or follow from the
-    // conditions. The sum is over all ranks.
+    // The sum is over all ranks.
     std::vector<types::particle_index> n(scene.cell_types.types.size(), 0);
     if (n.empty())
       return n;
-    const SceneEffects<dim> effects = effects_of<dim>(scene);
-    for (std::size_t i = 0; i < founders.size(); ++i)
-      ++n[given.empty() ? effects.development.types->founder_type(founders[i]) :
-                          given[i]];
+    for (const unsigned int type : types_of(scene, founders, given))
+      ++n[type];
     Utilities::MPI::sum(n, comm, n);
     return n;
   }
@@ -189,7 +172,7 @@ namespace Morula
     const Preview<dim>                at =
       preview<dim>(scene, founders, no_points, no_normals, comm);
     everywhere(comm, [&] { check_founders(scene, at); });
-    check_types(scene, founders, comm);
+    scene.cell_types.check_founders(founders_of_types(scene, founders, comm));
     const types::particle_index n_proliferating =
       count_proliferating(scene, founders, comm);
     check_memory(scene, expected_size(scene, founders, comm), comm);
@@ -250,6 +233,7 @@ namespace Morula
   }
 
 
+  MORULA_INSTANTIATE(types_of);
   MORULA_INSTANTIATE(founders_of_types);
   MORULA_INSTANTIATE(preview);
   MORULA_INSTANTIATE(check_at_cells);

@@ -6,6 +6,7 @@
 #include <morula/base/review.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/scene/applied.h>
 #include <morula/scene/first_cells.h>
 #include <morula/scene/held_pieces.h>
 #include <morula/scene/loads_at_start.h>
@@ -223,6 +224,11 @@ namespace Morula
                 const std::vector<unsigned int> &piece,
                 Pieces<dim>                     &pieces)
     {
+      // Fixed points hold all directions, slip points that of their normal,
+      // both by their area. Then the forces of all loads are added to the
+      // pieces of their points: those at the end of the run on the surface of t
+      // = 0. A point without a force brings no area, which is the measure of
+      // what rounding leaves.
       const BoundaryConditions<dim> conditions =
         boundary_conditions_of<dim>(scene);
       const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
@@ -294,18 +300,6 @@ namespace Morula
         }
     }
 
-    std::string
-    components(const Scene &scene, const Tensor<1, 3> &v, const double zero)
-    {
-      std::ostringstream text;
-      text.precision(4);
-      text << '(';
-      for (unsigned int d = 0; d < scene.dimension; ++d)
-        text << (d == 0 ? "" : " ") << (std::abs(v[d]) <= zero ? 0. : v[d]);
-      text << ')';
-      return text.str();
-    }
-
     /** "a force of (1 0) kPa um and a moment of 3 kPa um^2". */
     std::string
     load_text(const Scene &scene, const HeldPiece &piece)
@@ -314,10 +308,10 @@ namespace Morula
       const double       zero  = 1e-9 * piece.force.norm();
       std::ostringstream text;
       text.precision(4);
-      text << "a force of " << components(scene, piece.force, zero) << " kPa um"
-           << (space ? "^2" : "") << " and a moment of ";
+      text << "a force of " << vector_text(scene, piece.force, zero)
+           << " kPa um" << (space ? "^2" : "") << " and a moment of ";
       if (space)
-        text << components(scene, piece.moment, 0.) << " kPa um^3";
+        text << vector_text(scene, piece.moment, 0.) << " kPa um^3";
       else
         text << piece.moment[2] << " kPa um^2";
       return text.str();
@@ -368,6 +362,9 @@ namespace Morula
   std::vector<std::string>
   texts_of(const Scene &scene, const std::vector<HeldPiece> &pieces)
   {
+    // The largest pieces have a line each: where it is, what holds it, which
+    // motions nothing holds, and what balances its loads along these. The rest
+    // is counted.
     std::vector<std::string> texts;
     const unsigned int       all = scene.dimension == 3 ? 6 : 3;
     for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
@@ -376,7 +373,7 @@ namespace Morula
         std::ostringstream text;
         text.precision(4);
         text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
-             << " around " << components(scene, piece.center, 1e-6) << " um: ";
+             << " around " << vector_text(scene, piece.center, 1e-6) << " um: ";
         if (piece.free_motions == all)
           text << "held nowhere";
         else
@@ -423,7 +420,7 @@ namespace Morula
       piece << "the tissue";
     else
       piece << "the piece of " << first->cells << " cells around "
-            << components(scene, first->center, 1e-6) << " um"
+            << vector_text(scene, first->center, 1e-6) << " um"
             << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
     const bool drags = balanced_by(scene) != "inertia";
     review.warn("Boundary conditions",

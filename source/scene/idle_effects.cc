@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/type_tension.h>
-#include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/scene/idle_effects.h>
-#include <morula/scene/tensions.h>
+#include <morula/scene/reviews.h>
 
 #include <algorithm>
 #include <map>
@@ -16,49 +13,6 @@ namespace Morula
 {
   namespace
   {
-    /** Keys of the scene itself that nothing reads, and those that depend on
-     *  several effects. */
-    std::vector<IdleKey>
-    idle_keys(const Scene &scene)
-    {
-      std::vector<IdleKey>        list;
-      const std::set<std::string> axes     = scene.division_axes();
-      const std::string           set_axis = "Set " +
-                                   scene.cell_cycle.division_axis.path() +
-                                   ", or remove this key.";
-      if (axes == std::set<std::string>{"random"})
-        list.push_back(
-          {scene.cell_cycle.axis_spread, "all axes are random", set_axis});
-      if (axes.count("stretch") + axes.count("stress") == 0)
-        list.push_back({scene.cell_cycle.least_anisotropy,
-                        "no axis is that of stretch or stress",
-                        set_axis});
-      const auto &types = scene.cell_types.types;
-      if (std::none_of(types.begin(), types.end(), [](const auto &type) {
-            return std::any_of(type.transitions.begin(),
-                               type.transitions.end(),
-                               [](const ExpressionKey &rate) {
-                                 return !rate.is_default();
-                               });
-          }))
-        list.push_back({scene.material.on_transition,
-                        "no cell changes its type",
-                        "Set Cell types/NAME/Transitions, or remove this "
-                        "key."});
-      if (scene.output.snapshot_interval > scene.time.end_time)
-        list.push_back({scene.output.snapshot_interval,
-                        "the run ends before",
-                        "Lower it, or remove it."});
-      const auto &exchanges = scene.keys<RearrangementParameters>();
-      if (!scene.keys<TypeTensionParameters>().any() &&
-          !exchanges.drive.is_changed())
-        list.push_back({exchanges.energy,
-                        "no exchange changes an energy: there is neither a "
-                        "tension nor a Drive",
-                        "Set Cell types/NAME/Tension, or remove this key."});
-      return list;
-    }
-
     /** The value of a key that is to be warned of, if it does nothing: the
      *  scene's for all cells, and those of types. */
     std::vector<const AnyKey *>
@@ -67,10 +21,8 @@ namespace Morula
       std::vector<const AnyKey *> list;
       if (review.is_given(key))
         list.push_back(&key);
-      for (const CellTypeKeys &type : scene.cell_types.types)
-        for (const ExpressionKey &own : type.overrides)
-          if (!own.empty() && own.path() == type.path_of(key))
-            list.push_back(&own);
+      for (const ExpressionKey *own : scene.cell_types.own_values_of(key))
+        list.push_back(own);
       return list;
     }
 
@@ -172,13 +124,18 @@ namespace Morula
                           scene.cell_cycle,
                           scene.proliferation_law,
                           review);
-    std::vector<IdleKey> idle = idle_keys(scene);
-    for (const EffectKeys *const keys : scene.catalogue.all_keys())
+    std::vector<IdleKey> idle;
+    if (scene.output.snapshot_interval > scene.time.end_time)
+      idle.push_back({scene.output.snapshot_interval,
+                      "the run ends before",
+                      "Lower it, or remove it."});
+    const RestOfScene rest = scene.rest_of_scene();
+    for (const EffectKeys *const keys : scene.effect_keys())
       {
         if (const AnyKey *const key = keys->switch_key();
             key != nullptr && !keys->is_on())
           review_switched_off(scene, *keys, *key, review);
-        for (const IdleKey &one : keys->idle_keys(scene.dimension))
+        for (const IdleKey &one : keys->idle_keys(rest))
           idle.push_back(one);
       }
     const std::set<const AnyKey *> said = review_needs(scene, review);

@@ -2,14 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/scene/checks.h>
-#include <morula/scene/idle_keys.h>
+#include <morula/scene/reviews.h>
 #include <morula/scene/seeded_tissue.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +21,9 @@ namespace Morula
                 const types::particle_index n_founders,
                 Review                     &review)
     {
+      // Each number is compared with the end of the run, but for that of cells,
+      // which is compared with the founders. Lengths of a step that are equal
+      // to the run's but for rounding are no mistake.
       const double end = scene.time.end_time;
       if (scene.time.step > (1. + 1e-9) * end)
         review.warn(scene.time.step.path(),
@@ -51,85 +52,6 @@ namespace Morula
                     "Raise it, or set it to 0 for a run to the end.");
     }
 
-    /** Types that no cell has, and none can get. */
-    void
-    review_types(const Scene                              &scene,
-                 const std::vector<types::particle_index> &n_founders,
-                 Review                                   &review)
-    {
-      // A type is reached by transitions from a type that is reached, and by
-      // divisions. Whether its cells divide is not asked.
-      const auto            &types = scene.cell_types.types;
-      std::set<unsigned int> reached, open;
-      for (unsigned int i = 0; i < types.size(); ++i)
-        if (n_founders[i] > 0)
-          open.insert(i);
-      while (!open.empty())
-        {
-          const unsigned int i = *open.begin();
-          open.erase(open.begin());
-          reached.insert(i);
-          std::set<std::string> names;
-          for (const ExpressionKey &to : types[i].transitions)
-            if (to.is_changed())
-              names.insert(to.path().substr(to.path().rfind(" ") + 1));
-          if (scene.has_proliferation() || scene.divides_by_fate())
-            {
-              const auto [one, other] = scene.cell_types.daughters(i);
-              names.insert({types[one].name, types[other].name});
-            }
-          for (unsigned int j = 0; j < types.size(); ++j)
-            if (names.count(types[j].name) > 0 && reached.count(j) == 0)
-              open.insert(j);
-        }
-      for (unsigned int i = 0; i < types.size(); ++i)
-        {
-          if (reached.count(i) == 0)
-            review.warn(scene.cell_types.names.path(),
-                        types[i].name,
-                        "no founder is of this type, and no transition or "
-                        "division leads to it.",
-                        "Say where it is by Where, or remove it.");
-          if (!types[i].daughters.empty() && !scene.has_proliferation() &&
-              !scene.divides_by_fate())
-            review.warn(types[i].daughters.path(),
-                        types[i].daughters.value(),
-                        "no cell divides.",
-                        "Set " + scene.proliferation_law.path() +
-                          ", or remove this key.");
-        }
-    }
-
-    /** Founders of the first type at which its own Where does not hold: those
-     *  that no other type takes are of the first one. Collective. */
-    template <int dim>
-    void
-    review_first_type(const Scene         &scene,
-                      const Founders<dim> &founders,
-                      const MPI_Comm       comm,
-                      Review              &review)
-    {
-      const auto          &types = scene.cell_types.types;
-      const ExpressionKey &where = types.front().where;
-      if (where.empty() || !founders.types.empty())
-        return;
-      const auto holds = [](const ExpressionKey &key, const Point<dim> &X) {
-        return !key.empty() && key.expression(dim).value(X, 0.) > 0.;
-      };
-      types::particle_index n = 0;
-      for (const Point<dim> &X : founders.positions)
-        n += std::none_of(types.begin(), types.end(), [&](const auto &type) {
-          return holds(type.where, X);
-        });
-      if (n = Utilities::MPI::sum(n, comm); n > 0)
-        review.warn(where.path(),
-                    where.text(),
-                    "it does not hold at " + std::to_string(n) +
-                      " founders for which no other type's Where holds: they "
-                      "are of this type all the same, as it is the first.",
-                    "Name the type of the others first in " +
-                      scene.cell_types.names.path() + ", or remove this key.");
-    }
     /** Whether the column of a state is in the file: a rank may have no cell.
      *  Collective. */
     bool
@@ -201,16 +123,17 @@ namespace Morula
                     "cycle.",
                     "Set " + scene.proliferation_law.path() +
                       " = cell cycle, or drop the column.");
-      if (has_phases && scene.has_proliferation())
-        review.warn_of_idle(scene.cell_cycle.start,
-                            "the points file says the phase of each cell",
-                            "Remove this key, or drop the column 'phase'.");
-      if (has_types)
-        for (const CellTypeKeys &type : scene.cell_types.types)
-          if (!type.where.empty())
-            review.warn_of_idle(type.where,
-                                "the points file says the type of each cell",
-                                "Remove this key, or drop the column 'type'.");
+      for (const auto &[column, is_there] :
+           {std::pair("phase", has_phases), std::pair("type", has_types)})
+        for (const EffectKeys *const keys : scene.keys_in_use())
+          for (const AnyKey *const key : keys->said_by_column(column))
+            if (is_there)
+              review.warn_of_idle(*key,
+                                  std::string("the points file says the ") +
+                                    column + " of each cell",
+                                  std::string("Remove this key, or drop the "
+                                              "column '") +
+                                    column + "'.");
       if (has_own_volumes(scene, founders, comm))
         review.warn_of_idle(
           scene.tissue.cell_spacing,
@@ -234,14 +157,6 @@ namespace Morula
     // same lists.
     review_time(scene, founders.n_global, review);
     review_idle_founders(scene, founders, comm, review);
-    if (scene.cell_types.present())
-      {
-        review_types(scene,
-                     founders_of_types<dim>(
-                       scene, founders.positions, comm, founders.types),
-                     review);
-        review_first_type(scene, founders, comm, review);
-      }
   }
 
 

@@ -2,14 +2,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/effects/state/neighbour_columns.h>
-#include <morula/effects/surface/surface_tension.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/cell_fields.h>
-#include <morula/scene/rearrangement_review.h>
 #include <morula/scene/scene.h>
-#include <morula/scene/tensions.h>
 #include <morula/seeding/limits.h>
 
 #include <cmath>
@@ -70,11 +65,8 @@ namespace Morula
                      const std::string &allowed,
                      const std::string &remedy)
     {
-      // A type has a copy of every key of cells; it is found by its path.
-      for (const CellTypeKeys &type : scene.cell_types.types)
-        for (const ExpressionKey &own : type.overrides)
-          if (!own.empty() && own.path() == type.path_of(key))
-            own.refuse(allowed, remedy);
+      for (const ExpressionKey *own : scene.cell_types.own_values_of(key))
+        own->refuse(allowed, remedy);
     }
 
     /**
@@ -126,16 +118,9 @@ namespace Morula
       // Growth is needed in them, since effects may ask for its column.
       choice.keys().check_each(dim);
       CellColumns<dim>  columns;
-      StateColumns<dim> state(scene.cell_types.name_list(),
-                              scene.fields.name_list(),
-                              scene.keys<NeighbourParameters>().variables);
+      StateColumns<dim> state = state_columns_of<dim>(scene);
       columns.need_growth();
-      choice.template make<dim>(EffectSetting<dim>{scene.random_seed,
-                                                   scene.time.slack(),
-                                                   columns,
-                                                   state,
-                                                   Point<dim>(),
-                                                   tensions_of(scene)});
+      choice.template make<dim>(effect_setting(scene, columns, state));
     }
 
     /** Checks the effects that the scene names and makes them, for what they
@@ -165,26 +150,22 @@ namespace Morula
     void
     check_switched(const Scene &scene, const Choices<Interface> &choices)
     {
-      // An effect that is on is made and checked with the material. One that is
-      // off must not have values that do nothing: first each is checked for
-      // itself, so that a mistake in it is reported as what it is.
+      // An effect that is on is made. One that is off must not have values that
+      // do nothing: first each is checked for itself, so that a mistake in it
+      // is reported as what it is. Both are checked with the rest of the scene.
       for (const auto &choice : choices)
         {
-          const AnyKey *const switch_key = choice.keys().switch_key();
-          if (choice.keys().is_on())
-            {
-              try_effect<dim>(scene, choice);
-              choice.keys().check_with(scene.material);
-              continue;
-            }
-          for (const AnyKey *key : choice.keys().list())
-            if (!key->is_default())
-              key->check(dim);
-          if (switch_key != nullptr)
-            refuse_forgotten(scene,
-                             *switch_key,
-                             choice.keys(),
-                             choice.keys().how_to_switch_on());
+          const EffectKeys   &keys       = choice.keys();
+          const AnyKey *const switch_key = keys.switch_key();
+          if (keys.is_on())
+            try_effect<dim>(scene, choice);
+          else
+            for (const AnyKey *key : keys.list())
+              if (!key->is_default())
+                key->check(dim);
+          keys.check_with(scene.rest_of_scene());
+          if (!keys.is_on() && switch_key != nullptr)
+            refuse_forgotten(scene, *switch_key, keys, keys.how_to_switch_on());
         }
     }
 
@@ -278,72 +259,25 @@ namespace Morula
                        scene.division_axes());
     }
 
-    /** Refuses types of cells with laws that differ, and daughters of types
-     * that there are not. */
-    template <int dim>
-    void
-    check_types(const Scene &scene)
-    {
-      const CellTypesParameters &types = scene.cell_types;
-      if (!types.present() && !scene.material.on_transition.is_default())
-        scene.material.on_transition.refuse(
-          "its default, as there are no types of cells",
-          "Set " + types.names.path() + ", or remove this key.");
-      for (unsigned int i = 0; i < types.types.size(); ++i)
-        {
-          const CellTypeKeys &type = types.types[i];
-          type.check_each(dim);
-          types.daughters(i);
-          if (!type.growth_law.empty() && type.growth_law != "none" &&
-              type.growth_law != scene.law_of_growth())
-            type.growth_law.refuse("none or " + scene.law_of_growth(),
-                                   "A scene has one law of growth: give its "
-                                   "keys other values for this type.");
-        }
-    }
-
-    /** Refuses tensions that contradict each other, and two of the surface. */
-    void
-    check_tensions(const Scene &scene)
-    {
-      const TypeTensions   tensions = tensions_of(scene);
-      const ExpressionKey &of_all =
-        scene.keys<SurfaceTensionParameters>().tension;
-      if (tensions.any_with_surface() && !of_all.is_default())
-        of_all.refuse("its default, as types of cells have tensions with the "
-                      "surface",
-                      "Remove this key, or each type's Tension/With surface.");
-    }
-
     /** Refuses fields that contradict themselves, and those whose columns have
      *  the names of others. */
     template <int dim>
     void
     check_fields(const Scene &scene)
     {
-      // Fields are checked each, then against the surface, then by the names of
-      // all columns: the names are those of a table, which refuses two that are
-      // equal.
-      for (const FieldKeys &field : scene.fields.fields)
-        field.check(dim);
-      if (!scene.fields.present())
-        return;
-      if (scene.fields.have_surface() && scene.tissue.has_no_surface())
-        scene.fields.names.refuse(
-          "fields that nothing is done to at the surface, as " +
-            scene.tissue.points_surface.path() + " = none",
-          "Remove their Fixed where, Transfer and Flux where, or set Points "
-          "surface = automatic.");
-      try
-        {
-          CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
-        }
-      catch (const std::invalid_argument &error)
-        {
-          scene.fields.names.refuse(
-            "names that no other column of cells-NNNN.csv and snapshot.h5 has",
-            error.what() + std::string(" Choose another name."));
-        }
+      // The names are those of a table, which refuses two that are equal.
+      scene.fields.check_with(scene.rest_of_scene());
+      if (scene.fields.is_on())
+        try
+          {
+            CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
+          }
+        catch (const std::invalid_argument &error)
+          {
+            scene.fields.names.refuse(
+              "names that no other column of cells-NNNN.csv and snapshot.h5 has",
+              error.what() + std::string(" Choose another name."));
+          }
     }
 
 
@@ -368,51 +302,6 @@ namespace Morula
       scene.nitsche.check_each(dim);
     }
 
-    /** Refuses contact where bodies have no surface that could touch, or where
-     *  patches would grow too long for it. */
-    template <int dim>
-    void
-    check_contact(const Scene &scene)
-    {
-      const ContactParameters &contact = scene.contact;
-      contact.check_each(dim);
-      if (scene.tissue.has_cuts() && !contact.is_of_all())
-        scene.tissue.cuts.refuse(
-          "nothing, as " + contact.between.path() + " = " +
-            contact.between.text(),
-          "The faces of a cut are apart only with "
-          "Between = all: set that, or remove the cuts.");
-      if (!contact.is_on())
-        return;
-      if (scene.tissue.has_no_surface())
-        contact.between.refuse("none, as " +
-                                 scene.tissue.points_surface.path() + " = none",
-                               "Bodies touch with their boundary points: set "
-                               "Points surface = automatic.");
-      if (contact.bodies == "cell type" && !scene.cell_types.present())
-        contact.bodies.refuse("apart, as " + scene.cell_types.names.path() +
-                                " is empty",
-                              "Name the types of the cells, or choose apart.");
-      if (scene.has_active_tissue() && !scene.tissue.refine_surface)
-        scene.tissue.refine_surface.refuse(
-          "true, as " + contact.between.path() + " = " +
-            contact.between.text() + " and the tissue grows or flows",
-          "Patches that grow longer than half a grid spacing let bodies pass "
-          "through each other.");
-      const auto &exchange = scene.keys<RearrangementParameters>();
-      if (exchange.is_on())
-        contact.between.refuse(
-          "none, as " + exchange.switch_key()->path() + " = " +
-            exchange.switch_key()->text(),
-          "Cells that exchange places would change their body. Do without one of "
-          "the two.");
-      if (contact.fusion_time > 0. && !scene.tissue.refine_surface)
-        scene.tissue.refine_surface.refuse(
-          "true, as " + contact.fusion_time.path() + " = " +
-            contact.fusion_time.text(),
-          "Bodies that fuse get a new surface.");
-    }
-
     template <int dim>
     void
     check_scene(const Scene &scene)
@@ -428,8 +317,7 @@ namespace Morula
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
-      check_types<dim>(scene);
-      check_tensions(scene);
+      scene.cell_types.check_with(scene.rest_of_scene());
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,
@@ -441,10 +329,10 @@ namespace Morula
       check_fields<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.traits);
       check_switched<dim>(scene, scene.catalogue.step_effects);
-      check_rearrangement(scene);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
-      check_contact<dim>(scene);
+      scene.contact.check_each(dim);
+      scene.contact.check_with(scene.rest_of_scene());
       scene.solver.check_each(dim);
       check_kernel(scene.solver.kernel, scene.material);
       scene.output.check_each(dim);

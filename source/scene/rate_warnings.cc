@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
-#include <morula/scene/rate_warnings.h>
+#include <morula/scene/reviews.h>
 
 #include <deal.II/base/mpi.h>
 

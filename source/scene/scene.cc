@@ -3,8 +3,6 @@
 
 #include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
-#include <morula/effects/forces/type_tension.h>
-#include <morula/effects/surface/type_surface_tension.h>
 #include <morula/scene/scene.h>
 
 #include <boost/algorithm/string.hpp>
@@ -18,8 +16,9 @@ namespace Morula
 {
   namespace
   {
+    template <typename List>
     void
-    append(KeyList &list, const KeyList &more)
+    append(List &list, const List &more)
     {
       list.insert(list.end(), more.begin(), more.end());
     }
@@ -123,10 +122,6 @@ namespace Morula
     // may have extended. So they are added here, and not where the keys are
     // declared.
     solver.largest_gap.needs(NitscheParameters::held_by());
-    for (AnyKey *const key : contact.list())
-      if (key != &contact.between)
-        key->needs({contact.between.path()});
-    contact.fields_pass.needs({fields.names.path()});
     add_words(growth_law, catalogue.growth_laws);
     add_words(cell_cycle.division_axis, catalogue.division_rules);
     if (std::any_of(catalogue.division_rules.begin(),
@@ -167,7 +162,7 @@ namespace Morula
   Scene::division_axis(const unsigned int type) const
   {
     const bool has_own =
-      cell_types.present() && !cell_types.types[type].division_axis.empty();
+      cell_types.is_on() && !cell_types.types[type].division_axis.empty();
     return has_own ? cell_types.types[type].division_axis.value() :
                      division_axis();
   }
@@ -188,7 +183,7 @@ namespace Morula
   bool
   Scene::grows(const unsigned int type) const
   {
-    if (!cell_types.present() || cell_types.types[type].growth_law.empty())
+    if (!cell_types.is_on() || cell_types.types[type].growth_law.empty())
       return growth_law != "none";
     return cell_types.types[type].growth_law != "none";
   }
@@ -203,6 +198,69 @@ namespace Morula
                        [](const CellTypeKeys &type) {
                          return type.proliferation_law == "cell cycle";
                        });
+  }
+
+
+  RestOfScene
+  Scene::rest_of_scene() const
+  {
+    // Volumes differ where cells have grown, or were born, to different ones.
+    const bool volumes_differ =
+      has_active_tissue() || has_any(catalogue.fates) || tissue.is_points() ||
+      tissue.surface_cells == "trimmed";
+    return {dimension,
+            catalogue,
+            material,
+            grid,
+            time.step,
+            tissue.cell_spacing,
+            cell_types.name_list(),
+            law_of_growth(),
+            division_axes(),
+            has_proliferation() || divides_by_fate(),
+            has_active_tissue(),
+            volumes_differ,
+            tissue.has_no_surface() ? &tissue.points_surface : nullptr,
+            tissue.refine_surface,
+            tissue.cuts};
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::effect_keys() const
+  {
+    std::vector<const EffectKeys *> list{&cell_cycle,
+                                         &cell_types,
+                                         &fields,
+                                         &contact};
+    append(list, catalogue.all_keys());
+    return list;
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::keys_in_use() const
+  {
+    // Keys say whether their effect is on, but for those that others switch:
+    // laws and rules by their names, and the cell cycle.
+    std::set<const EffectKeys *> off;
+    const auto                   leave = [&off](const auto                  &choices,
+                              const std::set<std::string> &chosen) {
+      for (const auto &choice : choices)
+        if (chosen.count(choice.name()) == 0)
+          off.insert(&choice.keys());
+    };
+    const bool cells_divide = has_proliferation() || divides_by_fate();
+    leave(catalogue.growth_laws, {law_of_growth()});
+    leave(catalogue.division_rules,
+          cells_divide ? division_axes() : std::set<std::string>());
+    if (!cells_divide)
+      off.insert(&cell_cycle);
+    std::vector<const EffectKeys *> list;
+    for (const EffectKeys *const keys : effect_keys())
+      if (off.count(keys) == 0 && keys->is_on())
+        list.push_back(keys);
+    return list;
   }
 
 
@@ -232,16 +290,16 @@ namespace Morula
     fields.declare_fields(names_in(fields.names));
     for (const std::string &field : fields.name_list())
       cell_cycle.division_axis.add_word("gradient of " + field);
-    LawsOfCells laws;
+    std::string growth_laws;
     for (const auto &law : catalogue.growth_laws)
-      laws.growth += (laws.growth.empty() ? "" : "|") + law.name();
-    laws.division_axes = boost::join(cell_cycle.division_axis.choices(), "|");
+      growth_laws += (growth_laws.empty() ? "" : "|") + law.name();
     const std::vector<ExpressionKey *> of_cells = keys_of_cells(list());
-    cell_types.declare_types(names_in(cell_types.names),
-                             {of_cells.begin(), of_cells.end()},
-                             laws,
-                             fields.name_list());
-    if (cell_types.present())
+    cell_types.make_types(names_in(cell_types.names),
+                          {of_cells.begin(), of_cells.end()},
+                          growth_laws,
+                          boost::join(cell_cycle.division_axis.choices(), "|"),
+                          fields.name_list());
+    if (cell_types.is_on())
       catalogue.declare_types(cell_types.name_list());
     for (auto &condition : catalogue.boundary_conditions)
       if (const AnyKey *key = condition.keys().names_key())
@@ -259,9 +317,7 @@ namespace Morula
     catalogue.see_expressions(keys_of_cells(list()),
                               cell_types.name_list(),
                               fields.name_list());
-    keys<TypeSurfaceTensionParameters>().pulls =
-      keys<TypeTensionParameters>().force;
-    if (!cell_types.present())
+    if (!cell_types.is_on())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));
     // Cells of a type that does not proliferate stay in G0: their rate of
@@ -292,27 +348,24 @@ namespace Morula
   {
     // The order is that of the printed parameters. Types are left out because
     // their keys are copies of those in this list.
-    KeyList list = {&method, &dimension, &output_directory, &random_seed};
+    KeyList    list = {&method, &dimension, &output_directory, &random_seed};
+    const auto append_all = [&list](auto &choices) {
+      for (auto &choice : choices)
+        append(list, choice.keys().list());
+    };
     for (Keys *section : std::vector<Keys *>{&time, &tissue, &grid, &material})
       append(list, section->list());
-    for (auto &flow : catalogue.flows)
-      append(list, flow.keys().list());
+    append_all(catalogue.flows);
     list.push_back(&growth_law);
-    for (auto &law : catalogue.growth_laws)
-      append(list, law.keys().list());
+    append_all(catalogue.growth_laws);
     list.push_back(&proliferation_law);
     append(list, cell_cycle.list());
-    for (auto &rule : catalogue.division_rules)
-      append(list, rule.keys().list());
-    for (auto &factor : catalogue.growth_factors)
-      append(list, factor.keys().list());
-    for (auto &fate : catalogue.fates)
-      append(list, fate.keys().list());
+    append_all(catalogue.division_rules);
+    append_all(catalogue.growth_factors);
+    append_all(catalogue.fates);
     append(list, fields.list());
-    for (auto &trait : catalogue.traits)
-      append(list, trait.keys().list());
-    for (auto &effect : catalogue.step_effects)
-      append(list, effect.keys().list());
+    append_all(catalogue.traits);
+    append_all(catalogue.step_effects);
     // Nitsche's keys follow the library's own conditions, to which they belong;
     // conditions of a user's program come after both.
     for (auto &condition : catalogue.boundary_conditions)
@@ -322,8 +375,7 @@ namespace Morula
     for (auto &condition : catalogue.boundary_conditions)
       if (condition.has_section())
         append(list, condition.keys().list());
-    for (auto &force : catalogue.forces)
-      append(list, force.keys().list());
+    append_all(catalogue.forces);
     append(list, contact.list());
     append(list, solver.list());
     append(list, output.list());

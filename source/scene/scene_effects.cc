@@ -7,9 +7,7 @@
 #include <morula/effects/fate/types_around.h>
 #include <morula/effects/growth/forgetting.h>
 #include <morula/effects/state/direction.h>
-#include <morula/effects/state/neighbour_columns.h>
 #include <morula/scene/scene.h>
-#include <morula/scene/tensions.h>
 #include <morula/seeding/shape.h>
 
 #include <cmath>
@@ -79,6 +77,36 @@ namespace Morula
 
 
   template <int dim>
+  StateColumns<dim>
+  state_columns_of(const Scene &scene)
+  {
+    StateColumns<dim> state(scene.cell_types.name_list(),
+                            scene.fields.name_list(),
+                            scene.catalogue.neighbour_variables());
+    for (unsigned int k = 0; k < scene.fields.fields.size(); ++k)
+      state.carried[k] = scene.fields.fields[k].exchanged;
+    return state;
+  }
+
+
+  template <int dim>
+  EffectSetting<dim>
+  effect_setting(const Scene       &scene,
+                 CellColumns<dim>  &columns,
+                 StateColumns<dim> &state)
+  {
+    return {scene.random_seed,
+            scene.time.slack(),
+            columns,
+            state,
+            center_of<dim>(scene.tissue),
+            scene.catalogue.tensions(),
+            scene.catalogue.neighbour_search(),
+            whole_volume<dim>(scene.tissue)};
+  }
+
+
+  template <int dim>
   SceneEffects<dim>
   effects_of(const Scene &scene)
   {
@@ -89,12 +117,7 @@ namespace Morula
     // state itself come last, when it is known which variables any expression
     // reads.
     SceneEffects<dim> effects;
-    effects.state =
-      StateColumns<dim>(scene.cell_types.name_list(),
-                        scene.fields.name_list(),
-                        scene.keys<NeighbourParameters>().variables);
-    for (unsigned int k = 0; k < scene.fields.fields.size(); ++k)
-      effects.state.carried[k] = scene.fields.fields[k].exchanged;
+    effects.state = state_columns_of<dim>(scene);
     effects.state.declare_types(effects.columns);
     effects.state.use(scene.material.youngs_modulus);
     effects.state.use(scene.material.poissons_ratio);
@@ -112,14 +135,8 @@ namespace Morula
                                                             effects.state),
                                              effects.columns,
                                              scene.random_seed);
-    EffectSetting<dim> setting{scene.random_seed,
-                               scene.time.slack(),
-                               effects.columns,
-                               effects.state,
-                               center_of<dim>(scene.tissue),
-                               tensions_of(scene),
-                               scene.keys<NeighbourParameters>().search(),
-                               whole_volume<dim>(scene.tissue)};
+    EffectSetting<dim> setting =
+      effect_setting(scene, effects.columns, effects.state);
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {
@@ -137,7 +154,7 @@ namespace Morula
 
     const Catalogue                &catalogue = scene.catalogue;
     std::unique_ptr<CellTypes<dim>> types;
-    if (scene.cell_types.present())
+    if (scene.cell_types.is_on())
       {
         types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
         for (unsigned int type = 0; type < types->size(); ++type)
@@ -145,8 +162,7 @@ namespace Morula
             development.grows.push_back(scene.grows(type));
             for (const Expression *const rate : types->rates(type))
               if (reads_types_around(*rate, effects.state))
-                development.neighbours =
-                  scene.keys<NeighbourParameters>().search();
+                development.neighbours = catalogue.neighbour_search();
           }
       }
     if (scene.has_growth())
@@ -206,7 +222,7 @@ namespace Morula
              [&](const auto &name, auto condition) {
                effects.conditions.push_back({name, std::move(condition)});
              });
-    if (scene.fields.present())
+    if (scene.fields.is_on())
       effects.fields = Fields<dim>(scene.fields, setting);
     effects.state.declare(effects.columns);
     return effects;
@@ -214,29 +230,40 @@ namespace Morula
 
 
   template <int dim>
-  Tables<dim>
-  SceneEffects<dim>::tables() const
+  std::vector<const Effect<dim> *>
+  SceneEffects<dim>::all() const
   {
     // The order is that of the columns of the tables. Types are a fate, too,
     // but their columns come first.
-    Tables<dim> tables;
+    std::vector<const Effect<dim> *> list;
     if (development.types != nullptr)
-      development.types->declare(tables);
+      list.push_back(development.types);
     for (const auto &fate : development.fates)
       if (fate.get() != development.types)
-        fate->declare(tables);
+        list.push_back(fate.get());
     if (development.law)
-      development.law->declare(tables);
+      list.push_back(development.law.get());
     for (const auto &factor : development.factors)
-      factor->declare(tables);
+      list.push_back(factor.get());
     for (const auto &flow : development.flows)
-      flow->declare(tables);
+      list.push_back(flow.get());
     for (const auto &trait : traits)
-      trait->declare(tables);
+      list.push_back(trait.get());
     for (const auto &[name, effect] : step_effects)
-      effect->declare(tables);
+      list.push_back(effect.get());
     for (const auto &[name, force] : forces)
-      force->declare(tables);
+      list.push_back(force.get());
+    return list;
+  }
+
+
+  template <int dim>
+  Tables<dim>
+  SceneEffects<dim>::tables() const
+  {
+    Tables<dim> tables;
+    for (const Effect<dim> *const effect : all())
+      effect->declare(tables);
     for (const auto &[name, condition] : conditions)
       condition->declare(tables);
     fields.declare(tables);
@@ -252,6 +279,8 @@ namespace Morula
   }
 
 
+  MORULA_INSTANTIATE(state_columns_of);
+  MORULA_INSTANTIATE(effect_setting);
   MORULA_INSTANTIATE(effects_of);
   MORULA_INSTANTIATE(boundary_conditions_of);
   template struct SceneEffects<2>;

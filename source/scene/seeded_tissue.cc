@@ -47,13 +47,9 @@ namespace Morula
     {
       if (scene.contact.bodies == "apart")
         return bodies_apart(founders, comm);
-      if (!founders.types.empty())
-        return founders.types;
       std::vector<unsigned int> list;
       everywhere(comm, [&]() {
-        const auto effects = effects_of<dim>(scene);
-        for (const Point<dim> &X : founders.positions)
-          list.push_back(effects.development.types->founder_type(X));
+        list = types_of(scene, founders.positions, founders.types);
       });
       return list;
     }

@@ -151,7 +151,7 @@ namespace Morula
        comm](const double cells, const double volume, const double grid_cells) {
         check_memory(scene, {cells, volume, grid_cells}, comm);
       });
-    if (scene.cell_types.present())
+    if (scene.cell_types.is_on())
       limits.types = scene.cell_types.name_list();
     return limits;
   }

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/scene/steps_review.h>
+#include <morula/scene/reviews.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -2,21 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/fields/field_review.h>
-#include <morula/effects/idle_rate.h>
-#include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/usual_numbers.h>
 #include <morula/scene/estimates.h>
-#include <morula/scene/idle_effects.h>
-#include <morula/scene/idle_keys.h>
-#include <morula/scene/rate_warnings.h>
-#include <morula/scene/rearrangement_review.h>
-#include <morula/scene/steps_review.h>
-#include <morula/scene/tensions.h>
+#include <morula/scene/reviews.h>
 #include <morula/scene/warnings.h>
-#include <morula/seeding/grid_warnings.h>
 #include <morula/seeding/near_bodies.h>
-#include <morula/seeding/unit_warnings.h>
+#include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -59,13 +50,18 @@ namespace Morula
     }
 
     /** Whether some surface is pulled or pressed. */
+    template <int dim>
     bool
-    has_loads(const ConditionCounts &counts)
+    has_loads(const BoundaryConditions<dim> &conditions,
+              const ConditionCounts         &counts)
     {
-      for (const auto &[name, n] : counts.acting)
-        if (n > 0 && name != "fixed" && name != "slip")
-          return true;
-      return false;
+      return std::any_of(conditions.list().begin(),
+                         conditions.list().end(),
+                         [&counts](const auto &named) {
+                           return named.condition->kind() ==
+                                    SurfaceCondition::loaded &&
+                                  counts.acting.at(named.name) > 0;
+                         });
     }
   } // namespace
 
@@ -98,7 +94,11 @@ namespace Morula
 
     Preview<dim> at = preview<dim>(
       scene, founders.positions, surface.positions, surface.normals, comm);
-    at.is_loaded = has_loads(counts) || !effects.forces.empty();
+    const RestOfScene rest = scene.rest_of_scene();
+    at.scene               = &rest;
+    at.is_loaded = has_loads(conditions, counts) || !effects.forces.empty();
+    at.volumes   = founders.volumes;
+    at.types     = types_of<dim>(scene, founders.positions, founders.types);
     const double V =
       std::accumulate(founders.volumes.begin(), founders.volumes.end(), 0.);
     at.mean_volume = Utilities::MPI::sum(V, comm) / founders.n_global;
@@ -111,36 +111,18 @@ namespace Morula
     if (const auto range =
           range_of(scene.material.youngs_modulus, founders.positions, comm))
       at.stiffness = range->second;
-    const DevelopmentEffects<dim> &development = effects.development;
-    if (development.law)
-      development.law->review(at, review);
-    for (const auto &factor : development.factors)
-      factor->review(at, review);
-    for (const auto &flow : development.flows)
-      flow->review(at, review);
-    if (development.proliferation != nullptr)
+    for (const Effect<dim> *const effect : effects.all())
+      effect->review(at, review);
+    if (scene.has_proliferation())
       review_cell_cycle(scene.cell_cycle, at, review);
     review_rates(scene, founders, surface, comm, review);
-    for (const auto &fate : development.fates)
-      fate->review(at, review);
-    for (const auto &trait : effects.traits)
-      trait->review(at, review);
-    for (const auto &[name, effect] : effects.step_effects)
-      effect->review(at, review);
-    for (const auto &[name, force] : effects.forces)
-      force->review(at, review);
-    review_rearrangement(scene, review);
-    if (const auto &exchanges = scene.keys<RearrangementParameters>();
-        exchanges.is_on())
-      review_rate(exchanges.diffusion.expression(dim),
-                  "no cell changes its place by it.",
-                  at,
-                  review);
+    for (const EffectKeys *const keys : scene.keys_in_use())
+      keys->review(rest, review);
     review_fields(scene.fields, at, review);
-    review_tensions(scene, founders, surface, comm, review);
     review_unused(scene.tissue, review);
     review_idle_effects(scene, review);
     review_idle_keys(scene, founders, comm, review);
+    review_types(scene.cell_types, at, !founders.types.empty(), review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/seeding/grid_warnings.h>
+#include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,7 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/points_file.h>
-#include <morula/seeding/unit_warnings.h>
+#include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/boost_adaptors/point.h>

@@ -47,12 +47,11 @@ namespace Morula
         add(named.name, [&](const Point<dim> &X, const Tensor<1, dim> &N) {
           return named.condition->acts_on(X, N);
         });
-    for (const FieldKeys &field : model.scene.fields.fields)
-      for (const ExpressionKey *where : {&field.fixed_where, &field.flux_where})
-        if (!where->empty())
-          add(where->path(), [&](const Point<dim> &X, const Tensor<1, dim> &) {
-            return where->expression(dim).value(X, 0.) > 0.;
-          });
+    for (const EffectKeys *const keys : model.scene.keys_in_use())
+      for (const ExpressionKey *const where : keys->places())
+        add(where->path(), [&](const Point<dim> &X, const Tensor<1, dim> &) {
+          return where->expression(dim).value(X, 0.) > 0.;
+        });
     return n;
   }
 

@@ -81,19 +81,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  TissueModel<dim>::is_held(const PresentCell<dim> &cell, const double t) const
-  {
-    const CellCycle<dim> *cycle = development.cycle();
-    return cycle != nullptr &&
-           cycle->is_held(development.clock(cell.cell()),
-                          CellAt<dim>(cell, t),
-                          t,
-                          cell.cell().elastic_volume_ratio());
-  }
-
-
-  template <int dim>
   double
   TissueModel<dim>::typical_stiffness(const Tissue<dim>            &tissue,
                                       const DevelopmentOfStep<dim> &growth,

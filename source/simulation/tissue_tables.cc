@@ -37,7 +37,7 @@ namespace Morula
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
         sums.add_cell(cell.scalars(), cell.position());
-        held += model.is_held(cell, t);
+        held += model.development.is_held(cell, t);
         for (std::size_t k = 0; k < columns.size(); ++k)
           // Columns that count events or belong to the step stay 0 here.
           if (columns[k].of_cell)
@@ -67,12 +67,11 @@ namespace Morula
   {
     // The table has this rank's cells in the canonical order (by grid cell,
     // then by id). The output joins those of all ranks.
-    const CellCycle<dim> *cycle = model.development.cycle();
     const Cells<dim>     &cells = tissue.cells();
     CellFields<dim>       table(t,
                           cells.size(),
                           cells.columns(),
-                          cycle != nullptr && cycle->has_checkpoint());
+                          model.development.has_checkpoint());
     const CellReader<dim> reader = model.development.reader(t);
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
@@ -83,7 +82,7 @@ namespace Morula
                   cells[p],
                   cells.position(p),
                   reader.phase(cells[p]),
-                  model.is_held(cell, t),
+                  model.development.is_held(cell, t),
                   cell.quantities());
       }
     return table;

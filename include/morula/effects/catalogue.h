@@ -41,9 +41,7 @@ namespace Morula
     void
     add_growth_law(const std::string &name)
     {
-      check_name(name);
-      growth_laws.push_back(
-        Choice<GrowthLaw>::of<Law>(name, section("Growth/", name)));
+      add_in_section<Law>(growth_laws, "Growth/", name);
     }
 
     /** Adds a rule that `Proliferation/Cell cycle/Division axis` can name; its
@@ -52,9 +50,7 @@ namespace Morula
     void
     add_division_rule(const std::string &name)
     {
-      check_name(name);
-      division_rules.push_back(Choice<DivisionRule>::of<Rule>(
-        name, section("Proliferation/Cell cycle/", name)));
+      add_in_section<Rule>(division_rules, "Proliferation/Cell cycle/", name);
     }
 
     /** Adds a force. A scene has it if its keys say so; they stand in `<Name>`.
@@ -63,8 +59,7 @@ namespace Morula
     void
     add_force(const std::string &name)
     {
-      check_name(name);
-      forces.push_back(Choice<Force>::of<AddedForce>(name, section("", name)));
+      add_in_section<AddedForce>(forces, "", name);
     }
 
     /** Adds a factor of F_g, left of those before. A scene has it if its keys
@@ -73,9 +68,7 @@ namespace Morula
     void
     add_growth_factor(const std::string &name)
     {
-      check_name(name);
-      growth_factors.push_back(
-        Choice<GrowthFactor>::of<Factor>(name, section("", name)));
+      add_in_section<Factor>(growth_factors, "", name);
     }
 
     /** Adds a flow, which acts after those before. A scene has it if its keys
@@ -84,8 +77,7 @@ namespace Morula
     void
     add_flow(const std::string &name)
     {
-      check_name(name);
-      flows.push_back(Choice<Flow>::of<AddedFlow>(name, section("", name)));
+      add_in_section<AddedFlow>(flows, "", name);
     }
 
     /** Adds a trait. A scene has it if its keys say so; they stand in `<Name>`.
@@ -94,8 +86,7 @@ namespace Morula
     void
     add_trait(const std::string &name)
     {
-      check_name(name);
-      traits.push_back(Choice<Trait>::of<AddedTrait>(name, section("", name)));
+      add_in_section<AddedTrait>(traits, "", name);
     }
 
     /** Adds a step effect, whose moments come after those before. A scene has
@@ -104,9 +95,7 @@ namespace Morula
     void
     add_step_effect(const std::string &name)
     {
-      check_name(name);
-      step_effects.push_back(
-        Choice<StepEffect>::of<Added>(name, section("", name)));
+      add_in_section<Added>(step_effects, "", name);
     }
 
     /** Adds a fate, which is asked after those before. A scene has it if its
@@ -115,8 +104,7 @@ namespace Morula
     void
     add_fate(const std::string &name)
     {
-      check_name(name);
-      fates.push_back(Choice<Fate>::of<AddedFate>(name, section("", name)));
+      add_in_section<AddedFate>(fates, "", name);
     }
 
     /** Adds a condition on the surface. A scene has it if its keys say so; they
@@ -125,9 +113,9 @@ namespace Morula
     void
     add_boundary_condition(const std::string &name)
     {
-      check_name(name);
-      boundary_conditions.push_back(Choice<BoundaryCondition>::of<Condition>(
-        name, section("Boundary conditions/", name)));
+      add_in_section<Condition>(boundary_conditions,
+                                "Boundary conditions/",
+                                name);
     }
 
     /** The keys of an effect, by their type. */
@@ -135,13 +123,7 @@ namespace Morula
     Parameters &
     keys()
     {
-      Parameters *found = nullptr;
-      for_each([&found](auto &choice) {
-        if (found == nullptr)
-          found = dynamic_cast<Parameters *>(&choice.keys());
-      });
-      AssertThrow(found != nullptr, ExcMessage("No effect has such keys."));
-      return *found;
+      return keys_of<Parameters>(*this);
     }
 
     /** The keys of an effect, by their type. */
@@ -149,14 +131,15 @@ namespace Morula
     const Parameters &
     keys() const
     {
-      return const_cast<Catalogue *>(this)->keys<Parameters>();
+      return keys_of<const Parameters>(*this);
     }
 
     /** Makes the keys that effects have in the sections of the cells' types. */
     void
     declare_types(const std::vector<std::string> &types);
 
-    /** See EffectKeys. @throws InputError */
+    /** Lets the keys of all effects see_expressions() and see_others(), see
+     *  EffectKeys. @throws InputError */
     void
     see_expressions(const std::vector<ExpressionKey *> &keys,
                     const std::vector<std::string>     &types,
@@ -165,6 +148,18 @@ namespace Morula
     /** The keys of each effect, kind by kind. */
     std::vector<const EffectKeys *>
     all_keys() const;
+
+    /** The tensions of the cells' types. @throws InputError if keys contradict
+     *  each other */
+    TypeTensions
+    tensions() const;
+
+    /** How it is found out which cells touch, and what expressions ask of them.
+     */
+    NeighbourSearch
+    neighbour_search() const;
+    const std::vector<NeighbourVariable> &
+    neighbour_variables() const;
 
     /** A copy whose keys have their defaults. */
     Catalogue
@@ -185,29 +180,52 @@ namespace Morula
     Choices<BoundaryCondition> boundary_conditions;
 
   private:
-    /** Calls @p action for all effects of all kinds. */
-    template <typename Action>
+    /** Adds an effect whose keys stand in @p around and a section of its own.
+     */
+    template <template <int> class Added, template <int> class Interface>
     void
-    for_each(const Action &action)
+    add_in_section(Choices<Interface> &choices,
+                   const std::string  &around,
+                   const std::string  &name)
     {
-      for (auto &choice : growth_laws)
-        action(choice);
-      for (auto &choice : division_rules)
-        action(choice);
-      for (auto &choice : growth_factors)
-        action(choice);
-      for (auto &choice : flows)
-        action(choice);
-      for (auto &choice : fates)
-        action(choice);
-      for (auto &choice : traits)
-        action(choice);
-      for (auto &choice : step_effects)
-        action(choice);
-      for (auto &choice : forces)
-        action(choice);
-      for (auto &choice : boundary_conditions)
-        action(choice);
+      check_name(name);
+      choices.push_back(
+        Choice<Interface>::template of<Added>(name, section(around, name)));
+    }
+
+    /** Calls @p action for all effects of all kinds of a catalogue, which may
+     *  be constant. */
+    template <typename Self, typename Action>
+    static void
+    for_each(Self &self, const Action &action)
+    {
+      const auto of_kind = [&action](auto &choices) {
+        for (auto &choice : choices)
+          action(choice);
+      };
+      of_kind(self.growth_laws);
+      of_kind(self.division_rules);
+      of_kind(self.growth_factors);
+      of_kind(self.flows);
+      of_kind(self.fates);
+      of_kind(self.traits);
+      of_kind(self.step_effects);
+      of_kind(self.forces);
+      of_kind(self.boundary_conditions);
+    }
+
+    /** The first keys of a type. */
+    template <typename Parameters, typename Self>
+    static Parameters &
+    keys_of(Self &self)
+    {
+      Parameters *found = nullptr;
+      for_each(self, [&found](auto &choice) {
+        if (found == nullptr)
+          found = dynamic_cast<Parameters *>(&choice.keys());
+      });
+      AssertThrow(found != nullptr, ExcMessage("No effect has such keys."));
+      return *found;
     }
 
     /** @throws std::invalid_argument for names that are in use or that a .prm

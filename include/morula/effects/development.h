@@ -184,6 +184,17 @@ namespace Morula
       return effects.proliferation->clock(cell);
     }
 
+    /** Whether cells can wait at a size checkpoint. */
+    bool
+    has_checkpoint() const
+    {
+      return cycle() != nullptr && cycle()->has_checkpoint();
+    }
+
+    /** Whether the cell waits there at @p t, day. */
+    bool
+    is_held(const PresentCell<dim> &cell, const double t) const;
+
     /** Sets a cell's clock. Only with a cycle. */
     void
     set_clock(const CellView<dim, double> &cell,

@@ -27,8 +27,9 @@ namespace Morula
 {
   using namespace dealii;
 
+  class Catalogue;
   class ExpressionKey;
-  struct MaterialParameters;
+  struct RestOfScene;
 
   /** A key that nothing reads in a scene, and what to do. */
   struct IdleKey
@@ -84,6 +85,18 @@ namespace Morula
                     const std::vector<std::string> & /*fields*/)
     {}
 
+    /** Takes from other effects' keys, when all have their values, what two
+     *  effects have in common. */
+    virtual void
+    see_others(const Catalogue &)
+    {}
+
+    /** Adds the tensions that the keys give to types of cells.
+     *  @throws InputError if keys contradict each other */
+    virtual void
+    add_tensions(TypeTensions &) const
+    {}
+
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
     virtual std::string
@@ -92,10 +105,26 @@ namespace Morula
       return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
     }
 
-    /** Keys that nothing reads, as the values of others in @p dim dimensions
-     *  tell: said of those that the scene sets. See AnyKey::needs(), too. */
+    /** Keys that nothing reads, as the values of others tell: said of those
+     *  that the scene sets. See AnyKey::needs(), too. */
     virtual std::vector<IdleKey>
-    idle_keys(const unsigned int /*dim*/) const
+    idle_keys(const RestOfScene &) const
+    {
+      return {};
+    }
+
+    /** Keys that nothing reads where a file of points says for each cell what
+     *  stands in @p column. */
+    virtual std::vector<const AnyKey *>
+    said_by_column(const std::string & /*column*/) const
+    {
+      return {};
+    }
+
+    /** Keys that choose boundary points on which the effect acts, besides those
+     *  of conditions: the run warns when their last point is gone. */
+    virtual std::vector<const ExpressionKey *>
+    places() const
     {
       return {};
     }
@@ -108,9 +137,16 @@ namespace Morula
       return false;
     }
 
-    /** Refuses what the keys contradict in the material. @throws InputError */
+    /** Refuses what the keys contradict in the rest of the scene. Also called
+     *  while the effect is off. @throws InputError */
     virtual void
-    check_with(const MaterialParameters &) const
+    check_with(const RestOfScene &) const
+    {}
+
+    /** Warns of what the keys alone tell to be unwise in the scene, if the
+     *  effect is on. Effect::review() sees the founders as well. */
+    virtual void
+    review(const RestOfScene &, Review &) const
     {}
 
     /** What it is called in --explain; empty: the effect's name. */
@@ -123,6 +159,30 @@ namespace Morula
     /** What --explain says of its values: ", Key = value" for each. */
     virtual std::string
     details() const;
+
+    /** Lines of --explain that follow from the keys and the rest of the scene,
+     *  each with its end, if the effect is on. */
+    virtual std::string
+    further_lines(const RestOfScene &) const
+    {
+      return "";
+    }
+
+    /** By what tissue that grows may buckle where the effect is on: what
+     *  follows "tissue grows " in --explain; empty: not by it. */
+    virtual std::string
+    lets_buckle() const
+    {
+      return "";
+    }
+
+    /** How the effect resists motion, which decides the fold that is found, if
+     *  it is on; empty: it does not. */
+    virtual std::string
+    resistance(const RestOfScene &) const
+    {
+      return "";
+    }
   };
 
   template <int dim>
@@ -190,6 +250,12 @@ namespace Morula
     double mean_volume = 0., largest_volume = 0.;
     /** E of the stiffest cell, kPa, if it is known before the run. */
     std::optional<double> stiffness = {};
+    /** Initial volumes of this rank's founders, µm^dim. */
+    std::vector<double> volumes = {};
+    /** Their types by number; empty without types. */
+    std::vector<unsigned int> types = {};
+    /** What the scene says; only for reviews. */
+    const RestOfScene *scene = nullptr;
   };
 
   /** What all effects have in common. An effect keeps nothing between calls: a

@@ -39,6 +39,8 @@ namespace Morula
     double       magnitude = 0.;
     /** Whether it is a load that is zero at the end of every step. */
     bool is_idle = false;
+    /** See BoundaryCondition. */
+    bool is_tension = false;
   };
 
   /**
@@ -51,6 +53,12 @@ namespace Morula
   applied_conditions(const Scene               &scene,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm);
+
+  /** The components of a vector in the scene's dimension, e.g. "(1 0)". What is
+   *  not larger than @p zero is printed as 0: sums that cancel leave rounding.
+   */
+  std::string
+  vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero);
 
   /** E.g. "20 boundary points, 100 um, from (50 -48) to (50 48) um; force (2 0)
    *  kPa um at t = 1 day". */

@@ -25,6 +25,15 @@ namespace Morula
           const std::vector<Tensor<1, dim>> &normals,
           const MPI_Comm                     comm);
 
+  /** The types of this rank's founders by number, those of the file if it has
+   *  any; empty without types. @param founders initial positions, µm
+   *  @param given what the file says. @throws InputError */
+  template <int dim>
+  std::vector<unsigned int>
+  types_of(const Scene                     &scene,
+           const std::vector<Point<dim>>   &founders,
+           const std::vector<unsigned int> &given);
+
   /** Number of founders, over all ranks, of each type of cells; empty without
    *  types. Collective. @param founders initial positions, µm
    *  @param given their types, if their file says them */

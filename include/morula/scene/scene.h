@@ -11,6 +11,7 @@
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/cell_type_parameters.h>
 #include <morula/effects/fields/fields.h>
+#include <morula/effects/rest_of_scene.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
@@ -146,6 +147,19 @@ namespace Morula
     bool
     divides_by_fate() const;
 
+    /** What effects' keys may see of this, which must outlive it. */
+    RestOfScene
+    rest_of_scene() const;
+
+    /** The keys of all effects: first those that are no entry of the catalogue.
+     */
+    std::vector<const EffectKeys *>
+    effect_keys() const;
+
+    /** Those of the effects that the scene has. */
+    std::vector<const EffectKeys *>
+    keys_in_use() const;
+
     /** The keys of an effect, by their type: e.g. keys<FixedParameters>(). */
     template <typename Parameters>
     Parameters &
@@ -248,6 +262,10 @@ namespace Morula
       std::unique_ptr<const StepEffect<dim>> effect;
     };
 
+    /** All of them but the conditions and fields. */
+    std::vector<const Effect<dim> *>
+    all() const;
+
     /** What they add to the tables of a run. Refers to them. */
     Tables<dim>
     tables() const;
@@ -264,6 +282,19 @@ namespace Morula
     std::vector<NamedForce>                              forces;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;
   };
+
+  /** An empty set of variables that cells have in a scene's expressions. */
+  template <int dim>
+  StateColumns<dim>
+  state_columns_of(const Scene &scene);
+
+  /** What a scene offers to its effects, which add to the columns.
+   *  @throws InputError */
+  template <int dim>
+  EffectSetting<dim>
+  effect_setting(const Scene       &scene,
+                 CellColumns<dim>  &columns,
+                 StateColumns<dim> &state);
 
   /** Makes all effects of a scene. @throws InputError */
   template <int dim>

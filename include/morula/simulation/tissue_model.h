@@ -52,10 +52,6 @@ namespace Morula
       return {scene.grid, development.columns(), comm, boundary_columns()};
     }
 
-    /** Whether the cell waits at the size checkpoint at @p t, day. */
-    bool
-    is_held(const PresentCell<dim> &cell, const double t) const;
-
     /** The largest Young's modulus of the tissue, kPa. Collective.
      *  @param growth of the step, used if moduli depend on the state of cells
      */

@@ -45,6 +45,10 @@ namespace Morula
         "are within a grid spacing of it; faces that touch are no surface "
         "for them then. With false they end at each body's own surface.")
   {
+    for (AnyKey *const key : list())
+      if (key != &between)
+        key->needs({between.path()});
+    fields_pass.needs({"Fields/Names"});
     friction.require([](const double zeta) { return zeta >= 0.; },
                      "a number >= 0, in kPa day/um",
                      "0 is no friction.");

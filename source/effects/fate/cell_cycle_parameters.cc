@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/rest_of_scene.h>
 
 namespace Morula
 {
@@ -114,6 +115,31 @@ namespace Morula
       "can hardly tell.");
     size_checkpoint.not_negative("(a ratio of volumes)",
                                  "0 means no checkpoint.");
+  }
+
+
+  std::vector<const AnyKey *>
+  CellCycleParameters::said_by_column(const std::string &column) const
+  {
+    return column == "phase" ? std::vector<const AnyKey *>{&start} :
+                               std::vector<const AnyKey *>();
+  }
+
+
+  std::vector<IdleKey>
+  CellCycleParameters::idle_keys(const RestOfScene &scene) const
+  {
+    const std::string remedy =
+      "Set " + division_axis.path() + ", or remove this key.";
+    std::vector<IdleKey> idle;
+    if (scene.division_axes == std::set<std::string>{"random"})
+      idle.push_back({axis_spread, "all axes are random", remedy});
+    if (scene.division_axes.count("stretch") +
+          scene.division_axes.count("stress") ==
+        0)
+      idle.push_back(
+        {least_anisotropy, "no axis is that of stretch or stress", remedy});
+    return idle;
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <morula/base/name_list.h>
 #include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/effects/rest_of_scene.h>
 
 #include <algorithm>
 
@@ -18,7 +19,8 @@ namespace Morula
   CellTypeKeys::CellTypeKeys(const std::string                        &name,
                              const std::vector<std::string>           &others,
                              const std::vector<const ExpressionKey *> &of_cells,
-                             const LawsOfCells                        &laws)
+                             const std::string &growth_laws,
+                             const std::string &division_axes)
     : name(name)
     , where("Where",
             "",
@@ -34,7 +36,7 @@ namespace Morula
                  "",
                  "none, or the law by which cells of this type grow; empty: "
                  "that of all.",
-                 {"|none|" + laws.growth})
+                 {"|none|" + growth_laws})
     , proliferation_law(
         "Proliferation/Law",
         "",
@@ -46,7 +48,7 @@ namespace Morula
                     "",
                     "What n_s of cells of this type is when they enter S; "
                     "empty: that of all.",
-                    {"|" + laws.division_axes})
+                    {"|" + division_axes})
   {
     // The names of types are the user's, so their keys are made while the file
     // is read. A type has some keys of its own, one rate for each other type,
@@ -112,10 +114,11 @@ namespace Morula
 
 
   void
-  CellTypesParameters::declare_types(
+  CellTypesParameters::make_types(
     const std::string                        &text,
     const std::vector<const ExpressionKey *> &of_cells,
-    const LawsOfCells                        &laws,
+    const std::string                        &growth_laws,
+    const std::string                        &division_axes,
     const std::vector<std::string>           &fields)
   {
     // The text is that of the key Names, which is read before all others. First
@@ -134,7 +137,7 @@ namespace Morula
                      list.end(),
                      std::back_inserter(others),
                      [&](const std::string &other) { return other != name; });
-        types.emplace_back(name, others, of_cells, laws);
+        types.emplace_back(name, others, of_cells, growth_laws, division_axes);
       }
   }
 
@@ -188,6 +191,94 @@ namespace Morula
       key.refuse("two of " + names,
                  "Name the types of both daughters, the one at -n_s first.");
     return {numbers[0], numbers[1]};
+  }
+
+
+  std::vector<const ExpressionKey *>
+  CellTypesParameters::own_values_of(const AnyKey &key) const
+  {
+    // A type has a copy of every key of cells; it is found by its path.
+    std::vector<const ExpressionKey *> list;
+    for (const CellTypeKeys &type : types)
+      for (const ExpressionKey &own : type.overrides)
+        if (!own.empty() && own.path() == type.path_of(key))
+          list.push_back(&own);
+    return list;
+  }
+
+
+  std::string
+  CellTypesParameters::details_of(const unsigned int type) const
+  {
+    std::string       lines;
+    const std::size_t section =
+      types[type].path_of(names).size() - names.path().size();
+    for (const AnyKey *key : types[type].list())
+      if (!key->is_default())
+        lines +=
+          "    " + key->path().substr(section) + " = " + key->text() + '\n';
+    return lines;
+  }
+
+
+  void
+  CellTypesParameters::check_founders(
+    const std::vector<dealii::types::particle_index> &n) const
+  {
+    // A type without a condition of its own may be reached by transitions only,
+    // so it may have no founder.
+    for (unsigned int i = 0; i < types.size(); ++i)
+      if (const ExpressionKey &where = types[i].where;
+          n[i] == 0 && !where.empty())
+        where.refuse("a condition that holds at some founder",
+                     "It is positive at none, or at founders of later types "
+                     "only: correct it, or leave it empty. Founders sit at "
+                     "centers of cells, inside of the tissue.");
+  }
+
+
+  std::vector<const AnyKey *>
+  CellTypesParameters::said_by_column(const std::string &column) const
+  {
+    std::vector<const AnyKey *> keys;
+    if (column == "type")
+      for (const CellTypeKeys &type : types)
+        keys.push_back(&type.where);
+    return keys;
+  }
+
+
+  void
+  CellTypesParameters::check_with(const RestOfScene &scene) const
+  {
+    if (!is_on() && !scene.material.on_transition.is_default())
+      scene.material.on_transition.refuse(
+        "its default, as there are no types of cells",
+        "Set " + names.path() + ", or remove this key.");
+    for (unsigned int i = 0; i < types.size(); ++i)
+      {
+        const CellTypeKeys &type = types[i];
+        type.check_each(scene.dim);
+        daughters(i);
+        if (!type.growth_law.empty() && type.growth_law != "none" &&
+            type.growth_law != scene.growth_law)
+          type.growth_law.refuse("none or " + scene.growth_law,
+                                 "A scene has one law of growth: give its keys "
+                                 "other values for this type.");
+      }
+  }
+
+
+  std::vector<IdleKey>
+  CellTypesParameters::idle_keys(const RestOfScene &scene) const
+  {
+    for (const CellTypeKeys &type : types)
+      for (const ExpressionKey &rate : type.transitions)
+        if (!rate.is_default())
+          return {};
+    return {{scene.material.on_transition,
+             "no cell changes its type",
+             "Set Cell types/NAME/Transitions, or remove this key."}};
   }
 
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/death.h>
-#include <morula/mechanics/material.h>
+#include <morula/effects/rest_of_scene.h>
 
 namespace Morula
 {
@@ -74,15 +74,15 @@ namespace Morula
 
 
   void
-  DeathParameters::check_with(const MaterialParameters &material) const
+  DeathParameters::check_with(const RestOfScene &scene) const
   {
     // Cells that go at once are never part of the balance of momentum as dead
     // ones, so they may have any weight. A cell that shrinks needs a weight
     // that shrinks with it.
     const bool shrink =
       !shrinking_time.expression(3).is_always(0.) || keep_debris.is_changed();
-    if (shrink && !material.per_grown_volume())
-      material.energy_per.refuse(
+    if (is_on() && shrink && !scene.material.per_grown_volume())
+      scene.material.energy_per.refuse(
         "grown volume, as cells die (" + rate.path() + " or " + when.path() +
           ") and shrink",
         "A shrunken cell would pull with the stiffness of a whole one. Cells "
@@ -92,9 +92,9 @@ namespace Morula
 
 
   std::vector<IdleKey>
-  DeathParameters::idle_keys(const unsigned int dim) const
+  DeathParameters::idle_keys(const RestOfScene &scene) const
   {
-    if (!shrinking_time.expression(dim).is_always(0.))
+    if (!shrinking_time.expression(scene.dim).is_always(0.))
       return {};
     return {
       {final_volume,

@@ -42,6 +42,15 @@ namespace Morula
 
   template <int dim>
   void
+  Proliferation<dim>::check(const Preview<dim> &scene) const
+  {
+    DividingFate<dim>::check(scene);
+    cycle_.check(scene.founders, scene.step);
+  }
+
+
+  template <int dim>
+  void
   Proliferation<dim>::set_clock(const CellView<dim, double> &cell,
                                 const CycleState<dim>       &state) const
   {

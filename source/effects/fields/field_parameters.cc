@@ -4,9 +4,12 @@
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
 #include <morula/effects/fields/field_parameters.h>
+#include <morula/effects/rest_of_scene.h>
 
 #include <algorithm>
 #include <cctype>
+#include <iomanip>
+#include <sstream>
 
 namespace Morula
 {
@@ -206,6 +209,42 @@ namespace Morula
                        [](const FieldKeys &field) {
                          return field.has_surface();
                        });
+  }
+
+
+  void
+  FieldsParameters::check_with(const RestOfScene &scene) const
+  {
+    for (const FieldKeys &field : fields)
+      field.check(scene.dim);
+    if (have_surface() && scene.no_surface != nullptr)
+      names.refuse("fields that nothing is done to at the surface, as " +
+                     scene.no_surface->path() + " = none",
+                   "Remove their Fixed where, Transfer and Flux where, or set "
+                   "Points surface = automatic.");
+  }
+
+
+  std::vector<const ExpressionKey *>
+  FieldsParameters::places() const
+  {
+    std::vector<const ExpressionKey *> keys;
+    for (const FieldKeys &field : fields)
+      for (const ExpressionKey *where : {&field.fixed_where, &field.flux_where})
+        if (!where->empty())
+          keys.push_back(where);
+    return keys;
+  }
+
+
+  std::string
+  FieldsParameters::further_lines(const RestOfScene &) const
+  {
+    std::ostringstream out; // a line a field
+    for (const FieldKeys &field : fields)
+      out << "    " << std::left << std::setw(22) << field.name
+          << field.details() << '\n';
+    return out.str();
   }
 
 

@@ -2,13 +2,14 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/fields/field_review.h>
+#include <morula/effects/fields/field_parameters.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <array>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <string>
 
 namespace Morula
@@ -67,42 +68,44 @@ namespace Morula
               Utilities::MPI::sum(points.flux, scene.comm)};
     }
 
+    bool
+    is_zero(const ExpressionKey &key, const unsigned int dim)
+    {
+      return key.empty() ||
+             (!key.differs_by_type() && key.expression(dim).is_always(0.));
+    }
+
+    /** Fields that nothing makes, and keys that nothing reads. */
     template <int dim>
     void
-    review_field(const FieldKeys    &field,
-                 const Preview<dim> &scene,
-                 Review             &review)
+    review_sources(const FieldKeys     &field,
+                   const PointsOfField &points,
+                   Review              &review)
     {
-      const auto [n, n_fixed, n_flux] = points_of(field, scene);
-      const double cell               = std::pow(scene.mean_volume, 1. / dim);
-      const double h                  = scene.grid_spacing;
-      const bool   steady             = field.is_steady();
+      const bool steady = field.is_steady();
       if (steady)
         review.warn_of_idle(field.dilution,
                             "a steady field is not diluted",
                             "Set " + field.time.path() +
                               " = transient, or remove this key.");
-      const auto is_zero = [](const ExpressionKey &key) {
-        return key.empty() ||
-               (!key.differs_by_type() && key.expression(dim).is_always(0.));
-      };
-      const bool reads_value = n_fixed > 0. || !field.transfer.empty();
-      if (is_zero(field.production) &&
-          (!reads_value || is_zero(field.value) ||
-           (n_fixed == 0. && is_zero(field.transfer))) &&
-          (n_flux == 0. || is_zero(field.flux)) &&
-          (steady || is_zero(field.initial)))
+      const bool reads_value = points.fixed > 0. || !field.transfer.empty();
+      if (is_zero(field.production, dim) &&
+          (!reads_value || is_zero(field.value, dim) ||
+           (points.fixed == 0. && is_zero(field.transfer, dim))) &&
+          (points.flux == 0. || is_zero(field.flux, dim)) &&
+          (steady || is_zero(field.initial, dim)))
         review.warn("Fields/" + field.name,
                     steady ? "steady" : "transient",
                     "it is 0 everywhere: no cell makes it, and nothing comes "
                     "in through the surface" +
-                      std::string(steady && !is_zero(field.initial) ?
+                      std::string(steady && !is_zero(field.initial, dim) ?
                                     "; Initial is only where the steady "
                                     "state is sought first." :
                                     "."),
                     "Set its Production, or its Value at the surface, or its "
                     "Flux.");
-      if (n > 0. && n_fixed == n && !field.transfer.empty())
+      if (points.all > 0. && points.fixed == points.all &&
+          !field.transfer.empty())
         review.warn(field.transfer.path(),
                     field.transfer.text(),
                     "it does nothing, as Fixed where holds at all boundary "
@@ -110,8 +113,8 @@ namespace Morula
                     "Remove one of them.");
       // Few points carry a value or a flux: what they cover jumps by patches.
       for (const auto &[key, number] :
-           {std::make_pair(&field.fixed_where, n_fixed),
-            std::make_pair(&field.flux_where, n_flux)})
+           {std::make_pair(&field.fixed_where, points.fixed),
+            std::make_pair(&field.flux_where, points.flux)})
         if (number > 0. && number < 10.)
           review.warn(key->path(),
                       key->text(),
@@ -120,6 +123,14 @@ namespace Morula
                         "by a whole patch.",
                       "Choose a larger place, or a smaller Tissue/Cell "
                       "spacing.");
+    }
+
+    /** The length on which a field falls off that comes in through the surface,
+     *  µm: the root of Diffusion over Consumption; nothing where these are no
+     *  plain numbers. */
+    std::optional<double>
+    reach_of(const FieldKeys &field, const unsigned int dim)
+    {
       const auto D = field.diffusion.largest_number(dim);
       auto       k = field.consumption.largest_number(dim);
       // Uptake that depends on the field is taken for its value at the surface.
@@ -132,21 +143,37 @@ namespace Morula
           }
         catch (const std::exception &)
           {}
-      if (!reads_value || !D || !k || !(*k > 0.))
+      if (!D || !k || !(*k > 0.))
+        return {};
+      return std::sqrt(*D / *k);
+    }
+
+    /** Fields that hardly get into the tissue, beside a cell and beside the
+     *  grid. */
+    template <int dim>
+    void
+    review_reach(const FieldKeys     &field,
+                 const PointsOfField &points,
+                 const Preview<dim>  &scene,
+                 Review              &review)
+    {
+      const std::optional<double> reach = reach_of(field, dim);
+      if ((points.fixed == 0. && field.transfer.empty()) || !reach)
         return;
-      const double      reach = std::sqrt(*D / *k);
+      const double      cell = std::pow(scene.mean_volume, 1. / dim);
+      const double      h    = scene.grid_spacing;
       const std::string what =
-        "the field reaches only " + as_text(reach) +
+        "the field reaches only " + as_text(*reach) +
         " um into the tissue, the root of Diffusion over Consumption";
-      if (reach < 0.2 * cell)
+      if (*reach < 0.2 * cell)
         review.warn(field.diffusion.path(),
                     field.diffusion.text(),
                     what + ", and a cell is " + as_text(cell) +
                       " um long. Is Diffusion in um^2/day (1 um^2/s is 86400 "
                       "of it), Consumption in 1/day?",
                     "If it is meant so, all is well.");
-      else if (const double wrong = excess_at_fixed_values(reach / h);
-               n_fixed > 0. && wrong > 0.)
+      else if (const double wrong = excess_at_fixed_values(*reach / h);
+               points.fixed > 0. && wrong > 0.)
         review.warn(field.diffusion.path(),
                     field.diffusion.text(),
                     what +
@@ -154,14 +181,14 @@ namespace Morula
                       "fixed values may be too much by " +
                       as_text(std::round(100. * wrong)) +
                       " %, as the grid lines lie.",
-                    "Choose Grid/Spacing below " + as_text(2. * reach) +
+                    "Choose Grid/Spacing below " + as_text(2. * *reach) +
                       " um, or one that the accuracy allows.");
-      else if (n_fixed == 0. && reach < 0.2 * h)
+      else if (points.fixed == 0. && *reach < 0.2 * h)
         review.warn(field.diffusion.path(),
                     field.diffusion.text(),
                     what + ": less than a fifth of a grid spacing, what comes "
                            "in is wrong by a tenth and more.",
-                    "Choose Grid/Spacing below " + as_text(5. * reach) +
+                    "Choose Grid/Spacing below " + as_text(5. * *reach) +
                       " um.");
     }
   } // namespace
@@ -173,8 +200,13 @@ namespace Morula
                 const Preview<dim>     &scene,
                 Review                 &review)
   {
+    // The numbers of points are collective, so all ranks count for all fields.
     for (const FieldKeys &field : parameters.fields)
-      review_field(field, scene, review);
+      {
+        const PointsOfField points = points_of(field, scene);
+        review_sources<dim>(field, points, review);
+        review_reach(field, points, scene, review);
+      }
   }
 
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_fractions.h>
 #include <morula/effects/forces/type_tension.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/rest_of_scene.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/particles/point_exchange.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -37,7 +43,7 @@ namespace Morula
 
 
   std::vector<IdleKey>
-  TypeTensionParameters::idle_keys(const unsigned int) const
+  TypeTensionParameters::idle_keys(const RestOfScene &) const
   {
     if (any())
       return {};
@@ -110,6 +116,33 @@ namespace Morula
 
   namespace
   {
+    /** A fraction that a type reaches in the middle of a domain 2 h wide. */
+    constexpr double of_a_domain = 0.9;
+
+    /** The largest fraction of each type at the founders. Collective. */
+    template <int dim>
+    std::vector<double>
+    largest_fractions(const Preview<dim> &scene, const unsigned int n_types)
+    {
+      // The founders of a rank may stand anywhere, so the sums of all ranks'
+      // splines are joined; there are far fewer splines than cells.
+      const std::vector<double> &offset = scene.scene->grid.offset.value();
+      Point<dim>                 lines;
+      for (unsigned int d = 0; d < dim; ++d)
+        lines[d] = offset[d];
+      const GridBox<dim> box({}, {}, scene.grid_spacing, lines);
+      TypeFractions<dim> mine(box, n_types), all(box, n_types);
+      for (std::size_t i = 0; i < scene.founders.size(); ++i)
+        mine.add(scene.founders[i], scene.volumes[i], scene.types[i]);
+      for (const auto &sums : Utilities::MPI::all_gather(scene.comm, mine.sums))
+        {
+          TypeFractions<dim> part(box, n_types);
+          part.sums = sums;
+          all.add(part);
+        }
+      return all.largest();
+    }
+
     /** The volume and type of a cell, which ranks tell each other. */
     using VolumeAndType = std::tuple<double, unsigned int>;
 
@@ -203,6 +236,7 @@ namespace Morula
   TypeTension<dim>::TypeTension(const Parameters &parameters,
                                 const EffectSetting<dim> &)
     : tensions(parameters.matrix())
+    , types(parameters.types)
   {
     for (const Key<double> &key : parameters.between)
       if (key < 0.)
@@ -257,6 +291,37 @@ namespace Morula
     return std::make_unique<SurfaceEnergy<dim>>(std::move(points),
                                                 std::move(loads),
                                                 smoothing / positions.h);
+  }
+
+
+  template <int dim>
+  void
+  TypeTension<dim>::review(const Preview<dim> &scene, Review &review) const
+  {
+    // Exchanges of places make domains of a mixture, so that the founders tell
+    // nothing there. A type without founders may come later.
+    if (scene.scene->catalogue.template keys<RearrangementParameters>().is_on())
+      return;
+    const auto largest = largest_fractions(scene, tensions.size());
+    for (unsigned int a = 0; a < tensions.size(); ++a)
+      for (unsigned int b = 0; b < tensions.size(); ++b)
+        if (tensions[a][b] > 0. && largest[a] > 0. && largest[a] < of_a_domain)
+          {
+            std::ostringstream why, value;
+            value << tensions[a][b] << " kPa um";
+            why << "cells of type " << types[a] << " are at most "
+                << static_cast<int>(100. * largest[a])
+                << " % of the cells around a place at t = 0: their domains are "
+                   "narrower than 2 grid spacings, and the tension hardly acts "
+                   "on these (doc/theory.md, section 12.2).";
+            review.warn("Cell types/" + types[a] + "/Tension/With " + types[b],
+                        value.str(),
+                        why.str(),
+                        "Take a smaller " + scene.scene->grid.spacing.path() +
+                          ", at least 2.5 cells, or let cells change places "
+                          "(Rearrangement/Diffusion).");
+            break;
+          }
   }
 
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/rest_of_scene.h>
 
 namespace Morula
 {
@@ -59,10 +60,11 @@ namespace Morula
 
 
   std::vector<IdleKey>
-  RateGrowthParameters::idle_keys(const unsigned int dim) const
+  RateGrowthParameters::idle_keys(const RestOfScene &scene) const
   {
     // The predictor is for rates that can fall while a step lasts.
-    if (rate.differs_by_type() || rate.expression(dim).depends_on_state() ||
+    if (rate.differs_by_type() ||
+        rate.expression(scene.dim).depends_on_state() ||
         homeostasis.is_changed())
       return {};
     return {{predictor,

@@ -97,7 +97,7 @@ namespace Morula
 
 
   std::vector<IdleKey>
-  NeighbourParameters::idle_keys(const unsigned int) const
+  NeighbourParameters::idle_keys(const RestOfScene &) const
   {
     std::vector<IdleKey> idle;
     if (!is_on())

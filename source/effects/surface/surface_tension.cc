@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/catalogue.h>
+#include <morula/effects/rest_of_scene.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/surface_tension.h>
 
@@ -38,6 +40,16 @@ namespace Morula
     // The place has a default, everywhere. So the tension itself says whether
     // there is one.
     return !where.empty() && !tension.is_default();
+  }
+
+
+  void
+  SurfaceTensionParameters::check_with(const RestOfScene &scene) const
+  {
+    if (scene.catalogue.tensions().any_with_surface() && !tension.is_default())
+      tension.refuse("its default, as types of cells have tensions with the "
+                     "surface",
+                     "Remove this key, or each type's Tension/With surface.");
   }
 
 

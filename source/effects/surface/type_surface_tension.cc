@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
+#include <morula/effects/forces/type_tension.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/type_surface_tension.h>
 #include <morula/particles/nearest.h>
@@ -23,6 +25,13 @@ namespace Morula
           0.,
           "Tension of the free surface where cells of this type are nearest. "
           "Units: kPa um.");
+  }
+
+
+  void
+  TypeSurfaceTensionParameters::see_others(const Catalogue &catalogue)
+  {
+    pulls = catalogue.keys<TypeTensionParameters>().force;
   }
 
 

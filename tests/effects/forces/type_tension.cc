@@ -4,7 +4,6 @@
 #include <morula/effects/forces/type_fractions.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/surface/surface_energy.h>
-#include <morula/scene/tensions.h>
 
 #include <gtest/gtest.h>
 
@@ -193,7 +192,7 @@ TEST(TypeTension, StandsInOneOfTwoSections)
     "Cell types/b/Tension/With a=0.5",
     "Cell types/a/Tension/With c=2",
     "Cell types/c/Tension/With surface=3"};
-  const TypeTensions tensions = tensions_of(scene_of(settings));
+  const TypeTensions tensions = scene_of(settings).catalogue.tensions();
   const std::vector<std::vector<double>> expected = {{0., 0.5, 2.},
                                                      {0.5, 0., 0.},
                                                      {2., 0., 0.}};

@@ -4,14 +4,14 @@
 #ifndef morula_effects_contact_contact_parameters_h
 #define morula_effects_contact_contact_parameters_h
 
-#include <morula/base/key.h>
+#include <morula/effects/effect.h>
 
 #include <string>
 
 namespace Morula
 {
   /** Section "Contact": bodies that meet. */
-  struct ContactParameters : public Keys
+  struct ContactParameters : public EffectKeys
   {
     ContactParameters();
 
@@ -24,11 +24,20 @@ namespace Morula
 
     /** Whether bodies have contact with each other. */
     bool
-    is_on() const;
+    is_on() const override;
 
     /** Whether a body can touch itself, too. */
     bool
     is_of_all() const;
+
+    void
+    check_with(const RestOfScene &scene) const override;
+
+    /** How bodies act on each other, for --explain.
+     *  @param h        grid spacing, µm
+     *  @param thinnest thickness of the thinnest body, µm */
+    std::string
+    details_of_bodies(const double h, const double thinnest) const;
 
     using Keys::list;
     KeyList

@@ -28,7 +28,7 @@ namespace Morula
   class PresentCell;
 
   /** Section "Proliferation/Cell cycle". */
-  struct CellCycleParameters : public Keys
+  struct CellCycleParameters : public EffectKeys
   {
     CellCycleParameters();
 
@@ -42,6 +42,11 @@ namespace Morula
     ExpressionKey    least_anisotropy;
     Key<bool>        axis_follows_rotation;
     Key<bool>        stay_inside;
+
+    std::vector<const AnyKey *>
+    said_by_column(const std::string &column) const override;
+    std::vector<IdleKey>
+    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

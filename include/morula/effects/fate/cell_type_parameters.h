@@ -5,6 +5,7 @@
 #define morula_effects_fate_cell_type_parameters_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 
 #include <deque>
 #include <map>
@@ -13,12 +14,6 @@
 
 namespace Morula
 {
-  /** The names from which a type of cells may choose, separated by '|'. */
-  struct LawsOfCells
-  {
-    std::string growth, division_axes;
-  };
-
   /** Section "Cell types/NAME". */
   struct CellTypeKeys : public Keys
   {
@@ -27,12 +22,14 @@ namespace Morula
      * @param others names of the other types
      * @param of_cells keys of cells, for which the type may have values of its
      *        own
-     * @param laws that there are
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
      */
     CellTypeKeys(const std::string                        &name,
                  const std::vector<std::string>           &others,
                  const std::vector<const ExpressionKey *> &of_cells,
-                 const LawsOfCells                        &laws);
+                 const std::string                        &growth_laws,
+                 const std::string                        &division_axes);
 
     std::string      name;
     ExpressionKey    where;
@@ -55,19 +52,41 @@ namespace Morula
   };
 
   /** Section "Cell types": names first, then a section for each of them. */
-  struct CellTypesParameters : public Keys
+  struct CellTypesParameters : public EffectKeys
   {
     CellTypesParameters();
 
     Key<std::string>         names;
     std::deque<CellTypeKeys> types;
 
-    /** Whether the scene has types. */
     bool
-    present() const
+    is_on() const override
     {
       return !types.empty();
     }
+
+    /** The values of a key of cells that types have of their own. */
+    std::vector<const ExpressionKey *>
+    own_values_of(const AnyKey &key) const;
+
+    /** What the type number @p type has of its own: a line a key. */
+    std::string
+    details_of(const unsigned int type) const;
+
+    /** Refuses types whose Where holds at no founder. @param n numbers of
+     *  founders, over all ranks, by type. @throws InputError */
+    void
+    check_founders(const std::vector<dealii::types::particle_index> &n) const;
+
+    std::vector<const AnyKey *>
+    said_by_column(const std::string &column) const override;
+
+    /** Refuses laws that differ from type to type, and daughters of types that
+     *  there are not. */
+    void
+    check_with(const RestOfScene &scene) const override;
+    std::vector<IdleKey>
+    idle_keys(const RestOfScene &scene) const override;
 
     /** The names in the order of the types' numbers. */
     std::vector<std::string>
@@ -78,16 +97,18 @@ namespace Morula
      * @param names as `Names` has them
      * @param of_cells keys of cells, for which types may have values of their
      *        own
-     * @param laws that there are
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
      * @param fields names that are taken
      * @throws InputError for names that expressions cannot have, or that are
      *         given twice
      */
     void
-    declare_types(const std::string                        &names,
-                  const std::vector<const ExpressionKey *> &of_cells,
-                  const LawsOfCells                        &laws,
-                  const std::vector<std::string>           &fields);
+    make_types(const std::string                        &names,
+               const std::vector<const ExpressionKey *> &of_cells,
+               const std::string                        &growth_laws,
+               const std::string                        &division_axes,
+               const std::vector<std::string>           &fields);
 
     /** Tells the keys of cells the types and their own values. */
     void
@@ -101,6 +122,16 @@ namespace Morula
     KeyList
     list() override;
   };
+
+  /** Warns of types that no cell has and none can get, of daughters where no
+   *  cell divides, and of a first type that takes what no other one does.
+   *  Collective. @param of_file whether a file says the founders' types */
+  template <int dim>
+  void
+  review_types(const CellTypesParameters &parameters,
+               const Preview<dim>        &scene,
+               const bool                 of_file,
+               Review                    &review);
 } // namespace Morula
 
 #endif

@@ -32,10 +32,10 @@ namespace Morula
 
     /** Refuses dead cells that shrink with the stiffness of whole ones. */
     void
-    check_with(const MaterialParameters &material) const override;
+    check_with(const RestOfScene &scene) const override;
 
     std::vector<IdleKey>
-    idle_keys(const unsigned int dim) const override;
+    idle_keys(const RestOfScene &scene) const override;
 
     std::string
     details() const override;

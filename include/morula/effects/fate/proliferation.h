@@ -44,6 +44,9 @@ namespace Morula
     const DivisionRules<dim> *
     division_rules() const override;
 
+    void
+    check(const Preview<dim> &scene) const override;
+
     /** A cell's clock. */
     CycleState<dim>
     clock(const CellView<dim, const double> &cell) const

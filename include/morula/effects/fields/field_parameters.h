@@ -5,6 +5,7 @@
 #define morula_effects_fields_field_parameters_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 
 #include <deque>
 #include <string>
@@ -70,23 +71,28 @@ namespace Morula
   };
 
   /** Section "Fields": names first, then a section for each of them. */
-  struct FieldsParameters : public Keys
+  struct FieldsParameters : public EffectKeys
   {
     FieldsParameters();
 
     Key<std::string>      names;
     std::deque<FieldKeys> fields;
 
-    /** Whether the scene has fields. */
-    bool
-    present() const
-    {
-      return !fields.empty();
-    }
-
     /** Whether something is done to a field at the surface. */
     bool
     have_surface() const;
+
+    bool
+    is_on() const override
+    {
+      return !fields.empty();
+    }
+    void
+    check_with(const RestOfScene &scene) const override;
+    std::vector<const ExpressionKey *>
+    places() const override;
+    std::string
+    further_lines(const RestOfScene &) const override;
 
     /** The names in the order of the fields' numbers. */
     std::vector<std::string>
@@ -105,6 +111,15 @@ namespace Morula
     KeyList
     list() override;
   };
+
+  /** Warns of fields that stay zero, of conditions that others leave nothing to
+   *  or that act on few points, and of fields that hardly reach into the
+   *  tissue. Collective. */
+  template <int dim>
+  void
+  review_fields(const FieldsParameters &parameters,
+                const Preview<dim>     &scene,
+                Review                 &review);
 } // namespace Morula
 
 #endif

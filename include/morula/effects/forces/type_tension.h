@@ -37,7 +37,17 @@ namespace Morula
       return force && any();
     }
     std::vector<IdleKey>
-    idle_keys(const unsigned int dim) const override;
+    idle_keys(const RestOfScene &scene) const override;
+    void
+    check_with(const RestOfScene &) const override
+    {
+      matrix();
+    }
+    void
+    add_tensions(TypeTensions &tensions) const override
+    {
+      tensions.between = matrix();
+    }
     std::string
     topic() const override
     {
@@ -79,6 +89,11 @@ namespace Morula
          const double              t0,
          const double              t1) const override;
 
+    /** Warns of types whose domains are too narrow for their tension to be
+     *  felt, as the founders stand. */
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
     /** ε of doc/theory.md (12.2) times h. */
     static constexpr double smoothing = 0.05;
     /** What it leaves of the tension of a flat interface, ∫ |g|²/√(|g|² + ε²)
@@ -87,6 +102,7 @@ namespace Morula
 
   private:
     const std::vector<std::vector<double>> tensions;
+    const std::vector<std::string>         types;
   };
 } // namespace Morula
 

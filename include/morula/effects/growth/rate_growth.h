@@ -26,7 +26,7 @@ namespace Morula
     ExpressionKey    homeostatic_stress; // kPa
 
     std::vector<IdleKey>
-    idle_keys(const unsigned int dim) const override;
+    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

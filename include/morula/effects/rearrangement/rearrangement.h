@@ -9,6 +9,8 @@
 #include <morula/effects/step_effect.h>
 #include <morula/particles/neighbours.h>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -39,13 +41,25 @@ namespace Morula
       return "Set " + diffusion.path() + " > 0";
     }
     void
-    check_with(const MaterialParameters &material) const override;
+    check_with(const RestOfScene &scene) const override;
+    std::vector<IdleKey>
+    idle_keys(const RestOfScene &scene) const override;
+    void
+    review(const RestOfScene &scene, Review &review) const override;
+    std::string
+    further_lines(const RestOfScene &scene) const override;
     using Keys::list;
     KeyList
     list() override
     {
       return {&diffusion, &energy, &shear_released, &drive};
     }
+
+  private:
+    /** How often a cell takes part in an exchange per day, k = 2 d D/a², among
+     *  equal cells with the largest D that is a plain number. */
+    std::optional<double>
+    rate_of_exchange(const RestOfScene &scene) const;
   };
 
   /** Cells exchange their places with neighbours: doc/theory.md, section 12.3.
@@ -65,6 +79,8 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
     void
     settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
     void

@@ -17,6 +17,8 @@ namespace Morula
 
     bool
     is_on() const override;
+    void
+    check_with(const RestOfScene &scene) const override;
     using Keys::list;
     KeyList
     list() override
@@ -37,6 +39,12 @@ namespace Morula
 
     /** @throws InputError for expressions that cannot be parsed */
     explicit SurfaceTension(const Parameters &parameters);
+
+    bool
+    is_tension() const override
+    {
+      return true;
+    }
 
     /** @throws InputError if the tension has no value or is negative */
     std::unique_ptr<Term<dim>>

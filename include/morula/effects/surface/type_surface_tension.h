@@ -32,6 +32,13 @@ namespace Morula
     details() const override;
     void
     declare_types(const std::vector<std::string> &types) override;
+    void
+    see_others(const Catalogue &catalogue) override;
+    void
+    add_tensions(TypeTensions &all) const override
+    {
+      all.with_surface.assign(tensions.begin(), tensions.end());
+    }
     using Keys::list;
     KeyList
     list() override;
@@ -53,6 +60,11 @@ namespace Morula
     kind() const override
     {
       return SurfaceCondition::loaded;
+    }
+    bool
+    is_tension() const override
+    {
+      return true;
     }
     bool
     acts_on(const Point<dim> &, const Tensor<1, dim> &) const override

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_seeding_grid_warnings_h
-#define morula_seeding_grid_warnings_h
+#ifndef morula_seeding_reviews_h
+#define morula_seeding_reviews_h
 
 #include <morula/base/review.h>
 #include <morula/grid/grid_parameters.h>
@@ -26,6 +26,25 @@ namespace Morula
               const bool                 slips,
               const MPI_Comm             comm,
               Review                    &review);
+
+  /**
+   * Warns if the file of a tissue seems not to be in µm: the nearest neighbours
+   * of points are nearer or farther than cells are long, or a mesh holds few
+   * cells. Collective.
+   */
+  template <int dim>
+  void
+  review_units(const TissueParameters    &tissue,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review);
+
+  /** Warns of keys of Tissue that the chosen shape does not use. Those that
+   *  name files are refused; these are not, so that one scene serves several
+   *  shapes. */
+  void
+  review_unused(const TissueParameters &tissue, Review &review);
 } // namespace Morula
 
 #endif

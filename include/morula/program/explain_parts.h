@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_program_explain_effects_h
-#define morula_program_explain_effects_h
+#ifndef morula_program_explain_parts_h
+#define morula_program_explain_parts_h
 
+#include <morula/scene/free_growth.h>
+#include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
 
+#include <deal.II/particles/property_pool.h>
+
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -50,6 +55,31 @@ namespace Morula
               const std::vector<AppliedCondition> &applied,
               const types::particle_index          n_founders,
               const types::particle_index          n_proliferating);
+
+  /** Prints the types of cells, and for each type the keys that it sets
+   *  differently. Prints nothing without types. @param n_founders by type, on
+   *  all ranks */
+  void
+  print_types(std::ostream                             &out,
+              const Scene                              &scene,
+              const std::vector<types::particle_index> &n_founders);
+
+  /** Prints which expressions use variables of the present cell, which
+   *  variables these are, and when they are evaluated. Prints nothing if there
+   *  are none. */
+  void
+  print_cell_expressions(std::ostream &out, const Scene &scene);
+
+  /**
+   * Prints what may buckle or fold in the scene, what friction means there, and
+   * which volumetric strain goes with growth that differs from cell to cell.
+   * Prints nothing where none of it applies.
+   * @param growth of the founders, if there is a law
+   */
+  void
+  print_folds(std::ostream                    &out,
+              const Scene                     &scene,
+              const std::optional<FreeGrowth> &growth);
 } // namespace Morula
 
 #endif

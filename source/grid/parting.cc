@@ -136,7 +136,9 @@ namespace Morula
     };
     // The patches in front of each cell that are nearest and near: one for each
     // face of an edge or corner, as the surface of another side of the tissue
-    // may be nearer to a cell than the gap. Of several as near the first.
+    // may be nearer to a cell than the gap. Such a face is behind those that
+    // are nearer; what is before them is the gap around whose end the tissue
+    // goes on. Of several as near the first.
     constexpr unsigned int none = numbers::invalid_unsigned_int;
     std::vector<std::array<unsigned int, dim>> above(cells.size());
     for (unsigned int p = 0; p < cells.size(); ++p)
@@ -159,7 +161,9 @@ namespace Morula
                       &above[p][0],
                       &above[p][k],
                       [&](const unsigned int j) {
-                        return patches[i].n * patches[j].n > same_face;
+                        return patches[i].n * patches[j].n > same_face ||
+                               (patches[i].x - patches[j].x) * patches[j].n >=
+                                 0.;
                       }))
                   {
                     above[p][k] = i;

@@ -84,6 +84,60 @@ namespace Morula
         }
       return false;
     }
+
+    constexpr unsigned int no_patch = numbers::invalid_unsigned_int;
+
+    /** The patches in front of each cell that are nearest and near, for want of
+     *  one no_patch. There is one for each face of an edge or corner, as the
+     *  surface of another side of the tissue may be nearer to a cell than the
+     *  gap. */
+    template <int dim>
+    std::vector<std::array<unsigned int, dim>>
+    faces_above(const std::vector<PartedCell<dim>>  &cells,
+                const std::vector<double>           &lengths,
+                const std::vector<PartedPatch<dim>> &patches,
+                const PointBins<dim>                &bins_of_patches)
+    {
+      // The faces are found one after the other, from the nearest on; of
+      // several patches as near the first counts. A further face is behind
+      // those that are nearer: what is before them is the gap around whose end
+      // the tissue goes on.
+      std::vector<std::array<unsigned int, dim>> above(cells.size());
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          above[p].fill(no_patch);
+          const auto is_of_another_face = [&](const PartedPatch<dim> &patch,
+                                              const unsigned int      k) {
+            return std::all_of(
+              &above[p][0], &above[p][k], [&](const unsigned int j) {
+                return patch.n * patches[j].n <= same_face &&
+                       (patch.x - patches[j].x) * patches[j].n < 0.;
+              });
+          };
+          for (unsigned int k = 0;
+               k < dim && (k == 0 || above[p][k - 1] != no_patch);
+               ++k)
+            {
+              double nearest = 0.;
+              bins_of_patches.visit_within(
+                cells[p].x,
+                near_surface * lengths[p],
+                [&](const unsigned int i) {
+                  const double distance =
+                    cells[p].x.distance_square(patches[i].x);
+                  if ((cells[p].x - patches[i].x) * patches[i].n < 0. &&
+                      (above[p][k] == no_patch || distance < nearest ||
+                       (distance == nearest && i < above[p][k])) &&
+                      is_of_another_face(patches[i], k))
+                    {
+                      above[p][k] = i;
+                      nearest     = distance;
+                    }
+                });
+            }
+        }
+      return above;
+    }
   } // namespace
 
 
@@ -134,48 +188,12 @@ namespace Morula
                             const Tensor<1, dim>  &distance) {
       return (cell.from_edges * distance).norm() <= longest_bond;
     };
-    // The patches in front of each cell that are nearest and near: one for each
-    // face of an edge or corner, as the surface of another side of the tissue
-    // may be nearer to a cell than the gap. Such a face is behind those that
-    // are nearer; what is before them is the gap around whose end the tissue
-    // goes on. Of several as near the first.
-    constexpr unsigned int none = numbers::invalid_unsigned_int;
-    std::vector<std::array<unsigned int, dim>> above(cells.size());
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      {
-        above[p].fill(none);
-        for (unsigned int k = 0; k < dim && (k == 0 || above[p][k - 1] != none);
-             ++k)
-          {
-            double nearest = 0.;
-            bins_of_patches.visit_within(
-              positions[p],
-              near_surface * lengths[p],
-              [&](const unsigned int i) {
-                const double distance =
-                  positions[p].distance_square(patches[i].x);
-                if ((positions[p] - patches[i].x) * patches[i].n < 0. &&
-                    (above[p][k] == none || distance < nearest ||
-                     (distance == nearest && i < above[p][k])) &&
-                    std::none_of(
-                      &above[p][0],
-                      &above[p][k],
-                      [&](const unsigned int j) {
-                        return patches[i].n * patches[j].n > same_face ||
-                               (patches[i].x - patches[j].x) * patches[j].n >=
-                                 0.;
-                      }))
-                  {
-                    above[p][k] = i;
-                    nearest     = distance;
-                  }
-              });
-          }
-      }
+    const auto above = faces_above(cells, lengths, patches, bins_of_patches);
     const auto is_across = [&](const unsigned int p, const unsigned int q) {
       for (const unsigned int i : above[p])
         for (const unsigned int j : above[q])
-          if (i != none && j != none && patches[i].n * patches[j].n < facing &&
+          if (i != no_patch && j != no_patch &&
+              patches[i].n * patches[j].n < facing &&
               (cells[q].x - patches[i].x) * patches[i].n > 0. &&
               (cells[p].x - patches[j].x) * patches[j].n > 0.)
             return true;

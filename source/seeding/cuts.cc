@@ -9,6 +9,7 @@
 #include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/well_known_text.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/boost_adaptors/point.h>
 #include <deal.II/numerics/rtree.h>
@@ -126,8 +127,16 @@ namespace Morula
         : positions(of_all_ranks(surface.positions, comm))
         , normals(of_all_ranks(surface.normals, comm))
         , tree(pack_rtree_of_indices(positions))
+        , box_(positions)
         , tolerance(tolerance)
       {}
+
+      /** What is outside of it is outside of the surface. */
+      const BoundingBox<dim> &
+      box() const
+      {
+        return box_;
+      }
 
       /** Whether @p x is behind the patch that is nearest to it, or on its
        *  plane. */
@@ -159,8 +168,37 @@ namespace Morula
       const std::vector<Tensor<1, dim>>                   normals;
       const decltype(pack_rtree_of_indices(
         std::declval<const std::vector<Point<dim>> &>())) tree;
+      const BoundingBox<dim>                              box_;
       const double                                        tolerance; // µm
     };
+
+    /** Appends what of a piece overlaps a box, in pieces of about this area. */
+    template <int dim>
+    void
+    divide(const CutPiece<dim>        &piece,
+           const BoundingBox<dim>     &box,
+           const double                area,
+           std::vector<CutPiece<dim>> &pieces)
+    {
+      // A long piece is halved, in each direction, and what is off the tissue
+      // is dropped, so that few are left of one that reaches far beyond it.
+      constexpr double       large = 64.;
+      const BoundingBox<dim> own(
+        std::vector<Point<dim>>(piece.begin(), piece.end()));
+      for (unsigned int d = 0; d < dim; ++d)
+        if (own.lower_bound(d) > box.upper_bound(d) ||
+            own.upper_bound(d) < box.lower_bound(d))
+          return;
+      const double               n = vector_of(piece).norm() / area;
+      std::vector<CutPiece<dim>> parts;
+      if (n < large)
+        return cut_piece(piece,
+                         std::max<std::uint64_t>(1, std::llround(n)),
+                         pieces);
+      cut_piece(piece, Utilities::pow(2, dim - 1), parts);
+      for (const CutPiece<dim> &part : parts)
+        divide<dim>(part, box, area, pieces);
+    }
 
     template <int dim>
     Point<dim>
@@ -225,10 +263,7 @@ namespace Morula
     for (const CutPiece<dim> &whole : read_cuts(file, Point<dim>()))
       {
         std::vector<CutPiece<dim>> pieces;
-        cut_piece(whole,
-                  std::max<std::uint64_t>(
-                    1, std::llround(vector_of(whole).norm() / area)),
-                  pieces);
+        divide<dim>(whole, is_inside.box(), area, pieces);
         for (const CutPiece<dim> &piece : pieces)
           add_inside<dim>(piece, is_inside, halvings, patches);
       }

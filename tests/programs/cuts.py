@@ -3,6 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Cuts of no width: their faces press on each other and open."""
+import re
+
 import numpy as np
 
 from morula.run import Run
@@ -114,6 +116,14 @@ class Cuts(ProgramTest):
         explained = self.execute(self.scene(), "--explain").text
         self.assertRegex(explained, r"cuts +on +30 um in 12 patches on each side")
 
+    def test_far_ends_are_left_out(self):
+        explained = self.execute(
+            self.scene(cuts="LINESTRING(-1e9 30, 1e9 30)"), "--explain").text
+        found = re.search(r"cuts +on +([0-9.]+) um in (\d+) patches", explained)
+        # The piece at each end is halved three times.
+        self.assertAlmostEqual(float(found[1]), 60, delta=2.5 / 4)
+        self.assertLess(int(found[2]), 40)
+
     def test_what_is_refused(self):
         for cuts, keys, message in (
                 (LINE, {"Contact/Between": "none"},
@@ -122,6 +132,9 @@ class Cuts(ProgramTest):
                 ("LINESTRING(70 0, 70 60)", {}, "no place on them that has cells"),
                 ("LINESTRING(0 31.25, 30 31.25)", {}, "cells have their middle"),
                 ("LINE(0 30, 30 30)", {}, "LINESTRING or MULTILINESTRING"),
+                ("LINESTRING(0 30, nan 30)", {}, "there is no number"),
+                ("LINESTRING(0 30 0, 30 30 0)", {}, "are not two coordinates"),
+                ("LINESTRING(0 30, inf 30)", {}, "there is no number"),
                 (PLANE, {"Tissue/Cuts": "surface.off"}, "ends with .wkt")):
             with self.subTest(message):
                 self.assertRegex(self.execute(self.scene(cuts=cuts), "--explain",

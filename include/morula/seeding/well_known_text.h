@@ -13,11 +13,15 @@
 #include <boost/geometry/geometries/multi_polygon.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
+#include <boost/lexical_cast.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -45,6 +49,44 @@ namespace Morula
                   why + " Correct the file, or write it anew.");
     }
 
+    /** Refuses points without exactly two finite coordinates: Boost takes a
+     *  third one for the next point's first. */
+    inline void
+    check_points(const Key<std::string> &file,
+                 const std::string      &kind,
+                 const std::string      &text)
+    {
+      // What stands between two signs is a point, or words without numbers.
+      std::vector<std::string> points;
+      boost::split(points, text, boost::is_any_of("(),"));
+      for (std::string &point : points)
+        {
+          boost::trim(point);
+          std::vector<std::string> numbers;
+          boost::split(numbers,
+                       point,
+                       boost::is_space(),
+                       boost::token_compress_on);
+          const std::string wrong = "At '" + point.substr(0, 60) + "' ";
+          if (point.empty() || std::isalpha(point[0]) != 0)
+            {
+              if (boost::istarts_with(point, "nan") ||
+                  boost::istarts_with(point, "inf"))
+                refuse(file, kind, wrong + "there is no number.");
+              continue;
+            }
+          if (numbers.size() != 2)
+            refuse(file, kind, wrong + "there are not two coordinates.");
+          for (const std::string &number : numbers)
+            {
+              double value = 0.;
+              if (!boost::conversion::try_lexical_convert(number, value) ||
+                  !std::isfinite(value))
+                refuse(file, kind, wrong + "there is no number.");
+            }
+        }
+    }
+
     /** The shapes of a file, of which there may be one or many.
      *  @param kind POLYGON or LINESTRING
      *  @throws InputError if the text is none */
@@ -60,6 +102,7 @@ namespace Morula
       // Boost takes blanks for the ends of words, and no other white space.
       std::replace_if(text.begin(), text.end(), boost::is_space(), ' ');
       boost::trim(text);
+      check_points(file, kind, text);
       Many shapes;
       try
         {

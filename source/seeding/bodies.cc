@@ -4,6 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/seeding/bodies.h>
+#include <morula/seeding/of_all_ranks.h>
 
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/boost_adaptors/point.h>
@@ -21,18 +22,6 @@ namespace Morula
   namespace
   {
     namespace bgi = boost::geometry::index;
-
-    /** What all ranks have, in the order of the ranks, which is that of the
-     *  founders' numbers. Collective. */
-    template <typename T>
-    std::vector<T>
-    of_all(const std::vector<T> &mine, const MPI_Comm comm)
-    {
-      std::vector<T> all;
-      for (const auto &part : Utilities::MPI::all_gather(comm, mine))
-        all.insert(all.end(), part.begin(), part.end());
-      return all;
-    }
   } // namespace
 
 
@@ -44,9 +33,10 @@ namespace Morula
     // do later, and finds the same bodies: a tree gives the neighbours of each
     // founder, Boost's disjoint sets join them. A set gets its number when its
     // first founder comes along.
-    const std::vector<Point<dim>> positions = of_all(founders.positions, comm);
-    const std::vector<double>     volumes   = of_all(founders.volumes, comm);
-    std::vector<double>           lengths;
+    const std::vector<Point<dim>> positions =
+      of_all_ranks(founders.positions, comm);
+    const std::vector<double> volumes = of_all_ranks(founders.volumes, comm);
+    std::vector<double>       lengths;
     for (const double volume : volumes)
       lengths.push_back(std::pow(volume, 1. / dim));
     const double longest =
@@ -90,10 +80,12 @@ namespace Morula
   {
     // The nearest founder may stand on the other side of a narrow gap, but not
     // behind the patch. A patch without any behind it takes the nearest of all.
-    const std::vector<Point<dim>> positions = of_all(founders.positions, comm);
-    const std::vector<unsigned int> bodies  = of_all(founders.bodies, comm);
-    const auto                      tree    = pack_rtree_of_indices(positions);
-    std::vector<unsigned int>       list;
+    const std::vector<Point<dim>> positions =
+      of_all_ranks(founders.positions, comm);
+    const std::vector<unsigned int> bodies =
+      of_all_ranks(founders.bodies, comm);
+    const auto                tree = pack_rtree_of_indices(positions);
+    std::vector<unsigned int> list;
     for (std::size_t k = 0; k < patches.positions.size(); ++k)
       {
         const Point<dim>         &x = patches.positions[k];

@@ -7,6 +7,7 @@
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/cuts.h>
 #include <morula/seeding/mesh_patches.h>
+#include <morula/seeding/of_all_ranks.h>
 #include <morula/seeding/well_known_text.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -102,17 +103,6 @@ namespace Morula
           pieces.push_back(
             {{point(polygon[0]), point(polygon[i]), point(polygon[i + 1])}});
       return pieces;
-    }
-
-    /** What all ranks have, in their order. Collective. */
-    template <typename T>
-    std::vector<T>
-    of_all_ranks(const std::vector<T> &mine, const MPI_Comm comm)
-    {
-      std::vector<T> all;
-      for (const auto &list : Utilities::MPI::all_gather(comm, mine))
-        all.insert(all.end(), list.begin(), list.end());
-      return all;
     }
 
     /** The side of a surface's patches on which a place is. */

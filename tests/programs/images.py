@@ -227,7 +227,8 @@ end
                 (square.format(50), ["36 of 81 cells stand outside"]),
                 ("POLYGON((0 0, 90 90, 90 0, 0 90, 0 0))", ["has none that can"]),
                 ("POINT(1 2)", ["MULTIPOLYGON"]), ("", ["MULTIPOLYGON"]),
-                ("POLYGON((0 0, 9", ["It cannot be read as such"])):
+                ("POLYGON((0 0, 9 9", ["It cannot be read as such"]),
+                ("POLYGON((0 0, 9", ["At '9' there are not two"])):
             self.write("outline.wkt", text)
             said = self.execute(scene, code=1).stderr
             for word in ("Tissue/Points surface", *words):

@@ -12,9 +12,16 @@ set(commit "")
 find_program(git git)
 if(git AND EXISTS ${source}/.git)
   execute_process(
-    COMMAND ${git} -C ${source} describe --tags --match "v[0-9]*" --always --dirty
+    COMMAND ${git} -C ${source} describe --tags --match "v[0-9]*" --always
             --abbrev=10
     OUTPUT_VARIABLE commit ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+  # Pages and tables that a build does not see make no other program.
+  execute_process(
+    COMMAND ${git} -C ${source} status --porcelain -- CMakeLists.txt include source
+    OUTPUT_VARIABLE changes ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(commit AND changes)
+    string(APPEND commit "-dirty")
+  endif()
   if(commit STREQUAL "v${number}")
     set(commit "")
   endif()

@@ -7,6 +7,8 @@
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/extrusion.h>
+#include <morula/effects/fate/proliferation.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/type_tension.h>
@@ -55,9 +57,11 @@ namespace Morula
     add<RateGrowth>(growth_laws, "rate");
     add<Contraction>(growth_factors, "contraction");
     add<Relaxation>(flows, "relaxation");
+    add<Proliferation>(fates, "cell cycle");
     add<DivisionBySize>(fates, "division by size");
     add<Death>(fates, "death");
     add<Extrusion>(fates, "extrusion");
+    add<Fields>(equations, "fields");
     add<FixedAxis>(division_rules, "fixed");
     add<StretchAxis>(division_rules, "stretch");
     add<StressAxis>(division_rules, "stress");
@@ -118,6 +122,17 @@ namespace Morula
     for (const EffectKeys *const keys : all_keys())
       keys->add_tensions(tensions);
     return tensions;
+  }
+
+
+  std::vector<NamedField>
+  Catalogue::named_fields() const
+  {
+    std::vector<NamedField> all;
+    for (const EffectKeys *const keys : all_keys())
+      for (const NamedField &field : keys->named_fields())
+        all.push_back(field);
+    return all;
   }
 
 

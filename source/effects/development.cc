@@ -46,6 +46,19 @@ namespace Morula
 
 
   template <int dim>
+  void
+  DevelopmentEffects<dim>::add_fate(std::unique_ptr<const Fate<dim>> fate)
+  {
+    if (const auto *cycle =
+          dynamic_cast<const Proliferation<dim> *>(fate.get()))
+      proliferation = cycle;
+    if (const auto *of_types = dynamic_cast<const CellTypes<dim> *>(fate.get()))
+      types = of_types;
+    fates.push_back(std::move(fate));
+  }
+
+
+  template <int dim>
   CellDevelopment<dim>::CellDevelopment(
     std::unique_ptr<const GrowthLaw<dim>>    law,
     std::optional<CellCycle<dim>>            cycle,
@@ -69,8 +82,10 @@ namespace Morula
     DivisionRules<dim> rules;
     if (rule)
       rules.list.push_back(std::move(rule));
-    proliferation->set_rules(std::move(rules));
-    effects.proliferation = effects.add_fate(std::move(proliferation));
+    proliferation->set_axes(std::make_shared<const DivisionAxes<dim>>(
+      DivisionParameters(), state_, std::move(rules), 0));
+    effects.with_state.push_back(proliferation.get());
+    effects.add_fate(std::move(proliferation));
   }
 
 

@@ -80,8 +80,6 @@ namespace Morula
         expect(
           before, after, 0.5 * (t0 + t1), events.size() == n_events, around);
       }
-    if (effects.proliferation)
-      effects.proliferation->advance(before, after, t0, t1);
     for (const Effect<dim> *effect : effects.with_state)
       effect->advance(before, after, t0, t1);
     if (!grows())

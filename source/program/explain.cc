@@ -20,7 +20,6 @@
 #include <iomanip>
 #include <limits>
 #include <ostream>
-#include <set>
 #include <sstream>
 
 namespace Morula
@@ -41,32 +40,19 @@ namespace Morula
               << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
     }
 
-    /** @param used  the scene's
-     *  @param known those of all effects of the library */
     template <int dim>
     void
-    print_columns(std::ostream           &out,
-                  const CellColumns<dim> &used,
-                  const CellColumns<dim> &known)
+    print_columns(std::ostream &out, const CellColumns<dim> &columns)
     {
-      // The columns that the scene stores come first. Those that only other
-      // scenes have follow as off.
-      std::set<std::string> names;
-      out << "Slots of a cell: " << used.n_numbers() << '\n';
-      for (const auto *columns : {&used, &known})
-        for (const Columns::Entry &column : columns->entries())
-          {
-            if (!names.insert(column.name).second)
-              continue;
-            std::string name = column.name;
-            std::replace(name.begin(), name.end(), '_', ' ');
-            if (columns == &known)
-              print(out, {name, false, ""});
-            else
-              out << "  " << std::left << std::setw(24) << name << std::setw(5)
-                  << column.n << column.meaning
-                  << (column.unit.empty() ? "" : ", " + column.unit) << '\n';
-          }
+      out << "Slots of a cell: " << columns.n_numbers() << '\n';
+      for (const Columns::Entry &column : columns.entries())
+        {
+          std::string name = column.name;
+          std::replace(name.begin(), name.end(), '_', ' ');
+          out << "  " << std::left << std::setw(24) << name << std::setw(5)
+              << column.n << column.meaning
+              << (column.unit.empty() ? "" : ", " + column.unit) << '\n';
+        }
     }
 
     std::string
@@ -87,19 +73,11 @@ namespace Morula
     std::string
     bound_of_cells(const Scene &scene)
     {
-      if (scene.divides_by_fate())
-        return "about ";
-      if (!scene.has_proliferation())
-        return "";
-      // Only the run can tell times that depend on the cells' state: the sum
-      // over generations is then a bound.
-      const CellCycleParameters &cycle = scene.cell_cycle;
-      const unsigned int         dim   = scene.dimension;
-      return has_checkpoint(scene) || Scene::has_any(scene.catalogue.fates) ||
-                 depends_on_more_than_place(cycle.duration.expression(dim)) ||
-                 depends_on_more_than_place(cycle.exit_rate.expression(dim)) ?
-               "at least " :
-               "about ";
+      const RestOfScene rest = scene.rest_of_scene();
+      for (const EffectKeys *const keys : scene.keys_in_use())
+        if (const std::string bound = keys->counts_cells(rest); !bound.empty())
+          return bound;
+      return "";
     }
 
     /** What the size takes for growth that depends on the cells' state. */
@@ -235,9 +213,7 @@ namespace Morula
                                    comm,
                                    n_unknowns,
                                    result.growth,
-                                   result.free && scene.divides_by_fate() ?
-                                           result.free->cells :
-                                           0.);
+                                   result.free ? result.free->cells : 0.);
       result.memory     = physical_memory(comm);
       result.n_of_types = founders_of_types(scene,
                                             tissue.founders.positions,
@@ -281,9 +257,7 @@ namespace Morula
       print_types(text, scene, found.n_of_types);
       print_cell_expressions(text, scene);
       print_folds(text, scene, found.free);
-      CellColumns<dim> known;
-      CycleColumns<dim>{known}; // declares them
-      print_columns(text, effects_of<dim>(scene).columns, known);
+      print_columns(text, effects_of<dim>(scene).columns);
       print_size(
         text, scene, found.size, found.growth, found.memory, found.seeding);
       for (const std::string &warning : found.tissue.warnings)
@@ -316,7 +290,7 @@ namespace Morula
                                         {"unit", Json::text(column.unit)}}));
       for (std::size_t i = 0; i < found.n_of_types.size(); ++i)
         types.push_back(Json::object(
-          {{"name", Json::text(scene.cell_types.types[i].name)},
+          {{"name", Json::text(scene.type_names()[i])},
            {"founders", Json::number(double(found.n_of_types[i]))}}));
       std::vector<std::pair<std::string, std::string>> keys;
       for (const AnyKey *key : scene.list())

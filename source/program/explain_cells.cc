@@ -31,7 +31,7 @@ namespace Morula
               const Scene                              &scene,
               const std::vector<types::particle_index> &n_founders)
   {
-    const std::vector<std::string> names = scene.cell_types.name_list();
+    const std::vector<std::string> names = scene.type_names();
     if (!names.empty())
       out << "Cell types\n";
     for (unsigned int i = 0; i < names.size(); ++i)

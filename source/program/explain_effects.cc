@@ -25,16 +25,19 @@ namespace Morula
       return lines;
     }
 
-    /** Which founders proliferate. */
+    /** On which founders an effect acts, if it says so. */
     std::string
     of_founders(const types::particle_index n,
                 const types::particle_index n_founders,
-                const std::string          &where)
+                const EffectKeys           &keys)
     {
+      const ExpressionKey *const where = keys.founders_key();
+      if (where == nullptr)
+        return "";
       return n == n_founders ?
-               "all " + std::to_string(n) + " founders" :
-               std::to_string(n) + " of " + std::to_string(n_founders) +
-                 " founders, where " + where;
+               ", all " + std::to_string(n) + " founders" :
+               ", " + std::to_string(n) + " of " + std::to_string(n_founders) +
+                 " founders, where " + where->text();
     }
 
     /** What the chosen effect's keys say, if it is one of the catalogue. */
@@ -55,7 +58,29 @@ namespace Morula
       return topic.empty() ? choice.name() : topic;
     }
 
-    /** A row for each effect that its keys switch on. */
+    /** Rows for an effect that its keys switch on, and for its parts.
+     *  @param more behind its details */
+    template <template <int> class Interface>
+    void
+    add_choice(EffectRows              &rows,
+               const Choice<Interface> &choice,
+               const RestOfScene       &scene,
+               const std::string       &more = "")
+    {
+      // What has no keys is a part of others.
+      const EffectKeys &keys = choice.keys();
+      if (keys.list().empty())
+        return;
+      add_effect(rows,
+                 topic_of(choice),
+                 keys.is_on(),
+                 keys.details() + more,
+                 keys.is_on() ? keys.further_lines(scene) : "");
+      for (const PartOfEffect &part : keys.parts())
+        add_effect(rows, part.name, keys.is_on() && part.on, part.details);
+    }
+
+    /** Rows for all effects of a kind. */
     template <template <int> class Interface>
     void
     add_effects(EffectRows               &rows,
@@ -63,13 +88,7 @@ namespace Morula
                 const RestOfScene        &scene)
     {
       for (const auto &choice : choices)
-        // What has no keys is a part of others.
-        if (const EffectKeys &keys = choice.keys(); !keys.list().empty())
-          add_effect(rows,
-                     topic_of(choice),
-                     keys.is_on(),
-                     keys.details(),
-                     keys.is_on() ? keys.further_lines(scene) : "");
+        add_choice(rows, choice, scene);
     }
   } // namespace
 
@@ -94,14 +113,6 @@ namespace Morula
   }
 
 
-  bool
-  has_checkpoint(const Scene &scene)
-  {
-    return scene.has_proliferation() &&
-           !scene.cell_cycle.size_checkpoint.is_default();
-  }
-
-
   EffectRows
   effect_rows(const Scene                         &scene,
               const ConditionCounts               &counts,
@@ -109,13 +120,12 @@ namespace Morula
               const types::particle_index          n_founders,
               const types::particle_index          n_proliferating)
   {
-    const CellCycleParameters &cycle     = scene.cell_cycle;
-    const Catalogue           &catalogue = scene.catalogue;
-    const RestOfScene          rest      = scene.rest_of_scene();
-    const bool                 divides   = scene.has_proliferation();
+    const Catalogue          &catalogue = scene.catalogue;
+    const DivisionParameters &division  = scene.division;
+    const RestOfScene         rest      = scene.rest_of_scene();
 
     // The rows come in a fixed order: first what the library does to cells,
-    // then fields and the effects of the catalogue in its order, then
+    // then the effects of the catalogue in its order, then
     // properties of the material and of the numerical method. An effect that
     // is off has a row, too: a reader sees so what he has not asked for.
     std::ostringstream half_a_grid_cell;
@@ -127,30 +137,25 @@ namespace Morula
                scene.has_growth(),
                scene.law_of_growth() +
                  details_of(catalogue.growth_laws, scene.law_of_growth()));
-    add_effect(out,
-               "proliferation",
-               divides,
-               "cell cycle, T = " + cycle.duration.text() +
-                 " day, Lambda = " + cycle.exit_rate.text() + " /day, " +
-                 of_founders(n_proliferating, n_founders, cycle.where.text()));
-    add_effect(out,
-               "size checkpoint",
-               has_checkpoint(scene),
-               "J_th = " + cycle.size_checkpoint.text());
+    const auto add_fates = [&](const bool that_grow) {
+      for (const auto &choice : catalogue.fates)
+        if (choice.keys().grows_cells() == that_grow)
+          add_choice(out,
+                     choice,
+                     rest,
+                     of_founders(n_proliferating, n_founders, choice.keys()));
+    };
+    add_fates(true);
     add_effect(out,
                "division (Voronoi)",
-               divides || scene.divides_by_fate(),
+               scene.cells_divide(),
                "axis = " + scene.division_axis() +
                  details_of(catalogue.division_rules, scene.division_axis()) +
-                 (cycle.axis_follows_rotation ? ", follows rotation" : "") +
-                 (cycle.stay_inside ? ", inside the surface" : ""));
+                 (division.axis_follows_rotation ? ", follows rotation" : "") +
+                 (division.stay_inside ? ", inside the surface" : ""));
     add_effects(out, catalogue.growth_factors, rest);
-    add_effects(out, catalogue.fates, rest);
-    add_effect(out,
-               "fields",
-               scene.fields.is_on(),
-               scene.fields.names,
-               scene.fields.further_lines(rest));
+    add_fates(false);
+    add_effects(out, catalogue.equations, rest);
     add_effects(out, catalogue.traits, rest);
     add_effects(out, catalogue.step_effects, rest);
     for (const auto &choice : catalogue.boundary_conditions)

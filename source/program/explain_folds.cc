@@ -25,7 +25,7 @@ namespace Morula
       if (growth && growth->most > unequal * growth->least)
         text << "    founders grow unequally: by factors of " << growth->least
              << " to " << growth->most << " in volume until End time\n";
-      const bool grows = scene.has_growth() || scene.has_proliferation();
+      const bool grows = scene.has_growth() || scene.grows_by_fate();
       for (const EffectKeys *const keys : scene.keys_in_use())
         if (grows && !keys->lets_buckle().empty())
           text << "    tissue grows " << keys->lets_buckle() << '\n';
@@ -58,9 +58,9 @@ namespace Morula
   {
     // First comes what may buckle, then keys that unequal growth asks for.
     // Either may be missing, and without both nothing is printed. Cells that
-    // proliferate grow unequally because each has its own phase of the cycle.
+    // grow by a fate grow unequally because each has its own clock.
     const std::string what   = buckling(scene, growth);
-    const bool        uneven = scene.has_proliferation() ||
+    const bool        uneven = scene.grows_by_fate() ||
                         (growth && growth->most > unequal * growth->least);
     std::string advice;
     if (uneven &&

@@ -78,12 +78,12 @@ namespace Morula
               // The scene is small, but goes through seeding, cell cycle,
               // solver and output, whose libraries have work to do on their
               // first use. A program for one dimension warms up only that one.
-              scene.dimension         = dim;
-              scene.proliferation_law = "cell cycle";
-              scene.tissue.radius     = 40.;
-              scene.time.end_time     = 0.05;
-              scene.output.formats    = std::vector<std::string>{"csv"};
-              scene.output_directory  = place + "/" + std::to_string(dim);
+              scene.dimension                       = dim;
+              scene.keys<CellCycleParameters>().law = "cell cycle";
+              scene.tissue.radius                   = 40.;
+              scene.time.end_time                   = 0.05;
+              scene.output.formats   = std::vector<std::string>{"csv"};
+              scene.output_directory = place + "/" + std::to_string(dim);
               scene.check();
               simulate(scene, false);
             }

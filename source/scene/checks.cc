@@ -29,29 +29,39 @@ namespace Morula
         effect->check(at);
     }
 
-    /** Number of founders, over all ranks, that proliferate. Refuses a cell
-     *  cycle of nobody. */
+    /** Number of founders, over all ranks, that divide. Refuses an effect that
+     *  acts on no founder. */
     template <int dim>
     types::particle_index
-    count_proliferating(const Scene                   &scene,
-                        const std::vector<Point<dim>> &founders,
-                        const MPI_Comm                 comm)
+    count_dividing(const Scene                   &scene,
+                   const std::vector<Point<dim>> &founders,
+                   const MPI_Comm                 comm)
     {
-      if (!scene.has_proliferation())
-        return 0;
-      const Expression     &where = scene.cell_cycle.where.expression(dim);
-      types::particle_index n     = 0;
-      for (const Point<dim> &X : founders)
-        n += where.value(X, 0.) > 0.;
-      // The sum is collective, so that all ranks refuse or none does.
-      n = Utilities::MPI::sum(n, comm);
-      if (n == 0)
-        scene.cell_cycle.where.refuse(
-          "a condition that holds at some founder",
-          "It is positive at none: correct it, or set " +
-            scene.proliferation_law.path() +
-            " = none. Founders sit at centers of cells, inside of the tissue.");
-      return n;
+      types::particle_index n_dividing = 0;
+      for (const EffectKeys *const keys : scene.keys_in_use())
+        {
+          const ExpressionKey *const where = keys->founders_key();
+          const AnyKey *const        key   = keys->switch_key();
+          if (where == nullptr)
+            continue;
+          const Expression     &holds = where->expression(dim);
+          types::particle_index n     = 0;
+          for (const Point<dim> &X : founders)
+            n += holds.value(X, 0.) > 0.;
+          // The sum is collective, so that all ranks refuse or none does.
+          n = Utilities::MPI::sum(n, comm);
+          if (n == 0)
+            where->refuse("a condition that holds at some founder",
+                          "It is positive at none: correct it" +
+                            (key == nullptr ? "" :
+                                              ", or set " + key->path() +
+                                                " = " + key->default_text()) +
+                            ". Founders sit at centers of cells, inside of the "
+                            "tissue.");
+          if (keys->divides_cells())
+            n_dividing += n;
+        }
+      return n_dividing;
     }
 
     /** Where conditions act on the points of this rank, in their own order. */
@@ -129,7 +139,7 @@ namespace Morula
            const std::vector<Point<dim>>   &founders,
            const std::vector<unsigned int> &given)
   {
-    if (!scene.cell_types.is_on() || !given.empty())
+    if (scene.type_names().empty() || !given.empty())
       return given;
     const SceneEffects<dim>   effects = effects_of<dim>(scene);
     std::vector<unsigned int> list;
@@ -147,7 +157,7 @@ namespace Morula
                     const std::vector<unsigned int> &given)
   {
     // The sum is over all ranks.
-    std::vector<types::particle_index> n(scene.cell_types.types.size(), 0);
+    std::vector<types::particle_index> n(scene.type_names().size(), 0);
     if (n.empty())
       return n;
     for (const unsigned int type : types_of(scene, founders, given))
@@ -173,10 +183,10 @@ namespace Morula
       preview<dim>(scene, founders, no_points, no_normals, comm);
     everywhere(comm, [&] { check_founders(scene, at); });
     scene.cell_types.check_founders(founders_of_types(scene, founders, comm));
-    const types::particle_index n_proliferating =
-      count_proliferating(scene, founders, comm);
+    const types::particle_index n_dividing =
+      count_dividing(scene, founders, comm);
     check_memory(scene, expected_size(scene, founders, comm), comm);
-    return n_proliferating;
+    return n_dividing;
   }
 
 
@@ -188,8 +198,8 @@ namespace Morula
   {
     // Three checks follow one another: conditions at the points of this rank,
     // the surface as a whole, for which the patches of all ranks are needed,
-    // and fields at the surface. Then the counts are added up over the ranks,
-    // and a condition that holds nowhere is refused.
+    // and equations at the surface. Then the counts are added up over the
+    // ranks, and a condition that holds nowhere is refused.
     const BoundaryConditions<dim> conditions =
       boundary_conditions_of<dim>(scene);
     const std::vector<Point<dim>> no_founders;
@@ -202,9 +212,8 @@ namespace Morula
     for (const auto &[name, condition] : conditions.list())
       condition->check_surface(at, surface.areas);
 
-    effects_of<dim>(scene).fields.check_surface(scene.fields,
-                                                surface.positions,
-                                                comm);
+    for (const auto &[name, equation] : effects_of<dim>(scene).equations)
+      equation->check_surface(surface.positions, comm);
 
     ConditionCounts counts;
     counts.points =

@@ -47,16 +47,16 @@ namespace Morula
   template <int dim>
   std::vector<double>
   founder_row(const CellDevelopment<dim>          &development,
-              const Fields<dim>                   &fields,
+              const NamedEffects<Equation<dim>>   &equations,
               const Founders<dim>                 &founders,
               const std::vector<NearSurface<dim>> &surface,
               const std::size_t                    i,
               const double                         step)
   {
     // The row begins with the defaults of all columns. What the surface and the
-    // file tell is set first, then fields, since expressions of effects may
-    // read all of these; the development comes last. The file's ids are global:
-    // the first of this rank plus i.
+    // file tell is set first, then fields and what else equations give, since
+    // expressions of effects may read all of these; the development comes last.
+    // The file's ids are global: the first of this rank plus i.
     const CellColumns<dim>  &columns = development.columns();
     const StateColumns<dim> &state   = development.state();
     std::vector<double>      row =
@@ -72,7 +72,8 @@ namespace Morula
       cell.set(columns.generation, founders.generations[i]);
     if (columns.body.exists() && !founders.bodies.empty())
       cell.set(columns.body, founders.bodies[i]);
-    fields.begin(cell);
+    for (const auto &[name, equation] : equations)
+      equation->begin(cell);
     development.initialize(founders.first_id + i,
                            cell,
                            step,
@@ -103,7 +104,8 @@ namespace Morula
   FirstCells<dim>::row(const std::size_t i) const
   {
     // The step is 0, so that nothing is checked: that is done elsewhere.
-    return founder_row(development_, effects.fields, founders, surface, i, 0.);
+    return founder_row(
+      development_, effects.equations, founders, surface, i, 0.);
   }
 
 

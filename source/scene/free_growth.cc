@@ -48,6 +48,11 @@ namespace Morula
       std::min(most_steps, std::ceil(end / scene.time.step));
     const std::size_t every = std::max<std::size_t>(
       1, std::ceil(n_steps * founders.positions.size() / most_evaluations));
+    const auto &fates = cells.development().fates();
+    const bool  divides =
+      std::any_of(fates.begin(), fates.end(), [](const auto &fate) {
+        return fate->follows_growth();
+      });
     double n = 0., sum = 0., n_cells = 0.;
     for (std::size_t i = 0; i < founders.positions.size(); i += every)
       {
@@ -64,12 +69,13 @@ namespace Morula
           {}
         ++n;
         sum += ratio;
-        double n_of_founder = 1.;
-        if (scene.divides_by_fate())
+        double n_of_founder = 0.;
+        if (divides)
           {
+            n_of_founder                   = 1.;
             std::vector<double>    row     = cells.row(i);
             const PresentCell<dim> founder = cells.cell(row, i);
-            for (const auto &fate : cells.development().fates())
+            for (const auto &fate : fates)
               n_of_founder *= fate->expected_cells(founder, ratio);
           }
         n_cells += n_of_founder;

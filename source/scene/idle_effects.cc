@@ -113,17 +113,14 @@ namespace Morula
                      scene.growth_law,
                      {scene.law_of_growth()},
                      review);
-    if (scene.has_proliferation() || scene.divides_by_fate())
+    if (scene.cells_divide())
       review_not_named(scene,
                        scene.catalogue.division_rules,
-                       scene.cell_cycle.division_axis,
+                       scene.division.axis,
                        scene.division_axes(),
                        review);
-    else
-      review_switched_off(scene,
-                          scene.cell_cycle,
-                          scene.proliferation_law,
-                          review);
+    else if (const EffectKeys *const way = scene.first_way_to_divide())
+      review_switched_off(scene, scene.division, *way->switch_key(), review);
     std::vector<IdleKey> idle;
     if (scene.output.snapshot_interval > scene.time.end_time)
       idle.push_back({scene.output.snapshot_interval,

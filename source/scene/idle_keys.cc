@@ -116,13 +116,14 @@ namespace Morula
         return;
       const bool has_phases = has_column(founders.phases, comm),
                  has_types  = has_column(founders.types, comm);
-      if (has_phases && !scene.has_proliferation())
-        review.warn(scene.tissue.points_file.path(),
-                    scene.tissue.points_file,
-                    "nothing reads its column 'phase', as the cells have no "
-                    "cycle.",
-                    "Set " + scene.proliferation_law.path() +
-                      " = cell cycle, or drop the column.");
+      for (const EffectKeys *const keys : scene.effect_keys())
+        if (has_phases && !keys->is_on() &&
+            !keys->said_by_column("phase").empty())
+          review.warn(scene.tissue.points_file.path(),
+                      scene.tissue.points_file,
+                      "nothing reads its column 'phase', as the cells have no "
+                      "cycle.",
+                      keys->how_to_switch_on() + ", or drop the column.");
       for (const auto &[column, is_there] :
            {std::pair("phase", has_phases), std::pair("type", has_types)})
         for (const EffectKeys *const keys : scene.keys_in_use())

@@ -169,115 +169,94 @@ namespace Morula
         }
     }
 
-    /** Refuses what does not go with fates that divide cells, and what only a
-     *  cell cycle has. */
+    /** Refuses a second way of dividing: the lineage of a scene has one clock
+     *  or none. */
     void
-    check_division_by_fates(const Scene &scene)
+    check_one_way_to_divide(const Scene &scene)
     {
-      // A scene has one way of dividing cells, so its lineage has one clock or
-      // none. Without growth no cell ever gets to the size at which it divides.
+      const Choice<Fate> *first = nullptr;
       for (const auto &choice : scene.catalogue.fates)
         {
           const AnyKey *const key = choice.keys().switch_key();
           if (!choice.keys().is_on() || !choice.keys().divides_cells() ||
               key == nullptr)
             continue;
-          if (scene.has_proliferation())
-            key->refuse("its default, as cells divide by the cell cycle",
+          if (first != nullptr)
+            key->refuse("its default, as cells divide by the " + first->name(),
                         "Remove this key, or " +
-                          scene.proliferation_law.path() +
-                          " = cell cycle, also in the sections of types.");
-          if (!scene.has_growth())
-            key->refuse("its default, as no cell grows",
-                        "Set " + scene.growth_law.path() +
-                          ", or remove this key.");
-        }
-      if (!scene.divides_by_fate())
-        return;
-      const CellCycleParameters &cycle = scene.cell_cycle;
-      for (const AnyKey *key :
-           std::vector<const AnyKey *>{&cycle.start,
-                                       &cycle.duration,
-                                       &cycle.exit_rate,
-                                       &cycle.size_checkpoint,
-                                       &cycle.where})
-        {
-          const std::string allowed = "its default, as there is no cell cycle",
-                            remedy  = "Remove this key: only those about axes "
-                                      "and daughters hold for cells that divide "
-                                      "without a cycle.";
-          if (!key->is_default())
-            key->refuse(allowed, remedy);
-          refuse_for_types(scene, *key, allowed, remedy);
+                          first->keys().switch_key()->path() +
+                          ", also in the sections of types.");
+          first = &choice;
         }
     }
 
     template <int dim>
     void
-    check_proliferation(const Scene &scene)
+    check_division(const Scene &scene)
     {
-      // Without proliferation all its keys have to be at their defaults, those
-      // of rules and of types, too. With it, keys that shape an axis are
-      // refused where the axis is that by chance; then the cycle and the rules
-      // are made, for what they refuse.
-      const CellCycleParameters &cycle = scene.cell_cycle;
-      check_division_by_fates(scene);
-      if (!scene.has_proliferation() && !scene.divides_by_fate())
+      // Without division all its keys have to be at their defaults, those of
+      // rules and of types, too. With it, keys that shape an axis are refused
+      // where the axis is that by chance; then the rules are made, for what
+      // they refuse.
+      const DivisionParameters &division = scene.division;
+      const EffectKeys *const   way      = scene.first_way_to_divide();
+      check_one_way_to_divide(scene);
+      if (!scene.cells_divide() && way != nullptr)
         {
-          refuse_forgotten(scene,
-                           scene.proliferation_law,
-                           cycle,
-                           "Set " + scene.proliferation_law.path() +
-                             " = cell cycle");
+          const std::string remedy = way->how_to_switch_on();
+          refuse_forgotten(scene, *way->switch_key(), division, remedy);
           check_named<dim>(scene,
                            scene.catalogue.division_rules,
-                           cycle.division_axis,
+                           division.axis,
                            {});
           for (const CellTypeKeys &type : scene.cell_types.types)
             if (!type.division_axis.empty())
               type.division_axis.refuse("nothing, as no cell proliferates",
-                                        "Set " +
-                                          scene.proliferation_law.path() +
-                                          " = cell cycle, or remove this key.");
+                                        remedy + ", or remove this key.");
           return;
         }
-      cycle.check_each(dim);
-      for (const ExpressionKey *key :
-           {&cycle.axis_spread, &cycle.least_anisotropy})
-        if (!key->is_default() &&
+      division.check_each(dim);
+      for (const ExpressionKey *shaping :
+           {&division.axis_spread, &division.least_anisotropy})
+        if (!shaping->is_default() &&
             scene.division_axes() == std::set<std::string>{"random"} &&
-            !scene.has_set(cycle.division_axis))
-          key->refuse("its default, as " + cycle.division_axis.path() +
-                        " is not set",
-                      "Say by " + cycle.division_axis.path() +
-                        " along what cells divide, or remove this key.");
-      if (scene.has_proliferation())
-        CellCycle<dim>(cycle, scene.random_seed, scene.time.slack());
+            !scene.has_set(division.axis))
+          shaping->refuse("its default, as " + division.axis.path() +
+                            " is not set",
+                          "Say by " + division.axis.path() +
+                            " along what cells divide, or remove this key.");
       check_named<dim>(scene,
                        scene.catalogue.division_rules,
-                       cycle.division_axis,
+                       division.axis,
                        scene.division_axes());
     }
 
-    /** Refuses fields that contradict themselves, and those whose columns have
-     *  the names of others. */
+    /** Refuses equations that contradict themselves, and those whose columns
+     *  have the names of others. */
     template <int dim>
     void
-    check_fields(const Scene &scene)
+    check_equations(const Scene &scene)
     {
-      // The names are those of a table, which refuses two that are equal.
-      scene.fields.check_with(scene.rest_of_scene());
-      if (scene.fields.is_on())
-        try
-          {
-            CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
-          }
-        catch (const std::invalid_argument &error)
-          {
-            scene.fields.names.refuse(
-              "names that no other column of cells-NNNN.csv and snapshot.h5 has",
-              error.what() + std::string(" Choose another name."));
-          }
+      // What the keys of an equation contradict is said before it is made. The
+      // scene names the columns of some, and the table of all columns refuses
+      // two that are equal.
+      for (const auto &choice : scene.catalogue.equations)
+        choice.keys().check_with(scene.rest_of_scene());
+      check_switched<dim>(scene, scene.catalogue.equations);
+      for (const auto &choice : scene.catalogue.equations)
+        if (const AnyKey *const names = choice.keys().names_key();
+            names != nullptr && choice.keys().is_on())
+          try
+            {
+              CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
+            }
+          catch (const std::invalid_argument &error)
+            {
+              names->refuse("names that no other column of cells-NNNN.csv and "
+                            "snapshot.h5 has",
+                            error.what() +
+                              std::string(" Choose another name."));
+            }
     }
 
 
@@ -322,11 +301,11 @@ namespace Morula
                        scene.catalogue.growth_laws,
                        scene.growth_law,
                        {scene.law_of_growth()});
-      check_proliferation<dim>(scene);
+      check_division<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.growth_factors);
       check_switched<dim>(scene, scene.catalogue.flows);
       check_switched<dim>(scene, scene.catalogue.fates);
-      check_fields<dim>(scene);
+      check_equations<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.traits);
       check_switched<dim>(scene, scene.catalogue.step_effects);
       check_boundary_conditions<dim>(scene);

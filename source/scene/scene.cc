@@ -112,10 +112,6 @@ namespace Morula
                  "none",
                  "How cells grow without dividing.",
                  {"none"})
-    , proliferation_law("Proliferation/Law",
-                        "none",
-                        "How cells grow and divide.",
-                        {"none|cell cycle"})
     , catalogue(catalogue)
   {
     // The words that name effects are those of the catalogue, which a program
@@ -123,156 +119,11 @@ namespace Morula
     // declared.
     solver.largest_gap.needs(NitscheParameters::held_by());
     add_words(growth_law, catalogue.growth_laws);
-    add_words(cell_cycle.division_axis, catalogue.division_rules);
+    add_words(division.axis, catalogue.division_rules);
     if (std::any_of(catalogue.division_rules.begin(),
                     catalogue.division_rules.end(),
                     [](const auto &rule) { return rule.has_section(); }))
-      cell_cycle.division_axis.add_documentation(
-        " Others: by a rule of this program.");
-  }
-
-
-  std::string
-  Scene::law_of_growth() const
-  {
-    // A scene has one law. If it is not set for all cells, the first type that
-    // has one tells.
-    if (growth_law != "none")
-      return growth_law;
-    for (const CellTypeKeys &type : cell_types.types)
-      if (!type.growth_law.empty() && type.growth_law != "none")
-        return type.growth_law;
-    return "none";
-  }
-
-
-  const std::string &
-  Scene::division_axis() const
-  {
-    // A cell that divides without a clock may have grown along any axis, so it
-    // is the long one that is to be cut, unless the scene says otherwise.
-    static const std::string shape = "cell shape";
-    return divides_by_fate() && !has_set(cell_cycle.division_axis) ?
-             shape :
-             cell_cycle.division_axis.value();
-  }
-
-
-  const std::string &
-  Scene::division_axis(const unsigned int type) const
-  {
-    const bool has_own =
-      cell_types.is_on() && !cell_types.types[type].division_axis.empty();
-    return has_own ? cell_types.types[type].division_axis.value() :
-                     division_axis();
-  }
-
-
-  std::set<std::string>
-  Scene::division_axes() const
-  {
-    std::set<std::string> axes;
-    for (unsigned int type = 0;
-         type < std::max<std::size_t>(1, cell_types.types.size());
-         ++type)
-      axes.insert(division_axis(type));
-    return axes;
-  }
-
-
-  bool
-  Scene::grows(const unsigned int type) const
-  {
-    if (!cell_types.is_on() || cell_types.types[type].growth_law.empty())
-      return growth_law != "none";
-    return cell_types.types[type].growth_law != "none";
-  }
-
-
-  bool
-  Scene::has_proliferation() const
-  {
-    return proliferation_law != "none" ||
-           std::any_of(cell_types.types.begin(),
-                       cell_types.types.end(),
-                       [](const CellTypeKeys &type) {
-                         return type.proliferation_law == "cell cycle";
-                       });
-  }
-
-
-  RestOfScene
-  Scene::rest_of_scene() const
-  {
-    // Volumes differ where cells have grown, or were born, to different ones.
-    const bool volumes_differ =
-      has_active_tissue() || has_any(catalogue.fates) || tissue.is_points() ||
-      tissue.surface_cells == "trimmed";
-    return {dimension,
-            catalogue,
-            material,
-            grid,
-            time.step,
-            tissue.cell_spacing,
-            cell_types.name_list(),
-            law_of_growth(),
-            division_axes(),
-            has_proliferation() || divides_by_fate(),
-            has_active_tissue(),
-            volumes_differ,
-            tissue.has_no_surface() ? &tissue.points_surface : nullptr,
-            tissue.refine_surface,
-            tissue.cuts};
-  }
-
-
-  std::vector<const EffectKeys *>
-  Scene::effect_keys() const
-  {
-    std::vector<const EffectKeys *> list{&cell_cycle,
-                                         &cell_types,
-                                         &fields,
-                                         &contact};
-    append(list, catalogue.all_keys());
-    return list;
-  }
-
-
-  std::vector<const EffectKeys *>
-  Scene::keys_in_use() const
-  {
-    // Keys say whether their effect is on, but for those that others switch:
-    // laws and rules by their names, and the cell cycle.
-    std::set<const EffectKeys *> off;
-    const auto                   leave = [&off](const auto                  &choices,
-                              const std::set<std::string> &chosen) {
-      for (const auto &choice : choices)
-        if (chosen.count(choice.name()) == 0)
-          off.insert(&choice.keys());
-    };
-    const bool cells_divide = has_proliferation() || divides_by_fate();
-    leave(catalogue.growth_laws, {law_of_growth()});
-    leave(catalogue.division_rules,
-          cells_divide ? division_axes() : std::set<std::string>());
-    if (!cells_divide)
-      off.insert(&cell_cycle);
-    std::vector<const EffectKeys *> list;
-    for (const EffectKeys *const keys : effect_keys())
-      if (off.count(keys) == 0 && keys->is_on())
-        list.push_back(keys);
-    return list;
-  }
-
-
-  bool
-  Scene::divides_by_fate() const
-  {
-    return std::any_of(catalogue.fates.begin(),
-                       catalogue.fates.end(),
-                       [](const auto &choice) {
-                         return choice.keys().is_on() &&
-                                choice.keys().divides_cells();
-                       });
+      division.axis.add_documentation(" Others: by a rule of this program.");
   }
 
 
@@ -287,9 +138,15 @@ namespace Morula
       const auto found = names.find(key.path());
       return found == names.end() ? "" : found->second;
     };
-    fields.declare_fields(names_in(fields.names));
-    for (const std::string &field : fields.name_list())
-      cell_cycle.division_axis.add_word("gradient of " + field);
+    const auto declare_named = [&names_in](auto &choices) {
+      for (auto &choice : choices)
+        if (const AnyKey *key = choice.keys().names_key())
+          choice.keys().declare_sections(names_in(*key));
+    };
+    declare_named(catalogue.equations);
+    const std::vector<std::string> fields = field_names();
+    for (const std::string &field : fields)
+      division.axis.add_word("gradient of " + field);
     std::string growth_laws;
     for (const auto &law : catalogue.growth_laws)
       growth_laws += (growth_laws.empty() ? "" : "|") + law.name();
@@ -297,13 +154,11 @@ namespace Morula
     cell_types.make_types(names_in(cell_types.names),
                           {of_cells.begin(), of_cells.end()},
                           growth_laws,
-                          boost::join(cell_cycle.division_axis.choices(), "|"),
-                          fields.name_list());
+                          boost::join(division.axis.choices(), "|"),
+                          fields);
     if (cell_types.is_on())
       catalogue.declare_types(cell_types.name_list());
-    for (auto &condition : catalogue.boundary_conditions)
-      if (const AnyKey *key = condition.keys().names_key())
-        condition.keys().declare_sections(names_in(*key));
+    declare_named(catalogue.boundary_conditions);
   }
 
 
@@ -312,25 +167,20 @@ namespace Morula
   {
     // Expressions learn the names of fields in any case. With types, values
     // that a type overrides go into the keys of all cells.
+    const std::vector<std::string> fields = field_names();
     for (ExpressionKey *key : keys_of_cells(list()))
-      key->set_fields(fields.name_list());
+      key->set_fields(fields);
     catalogue.see_expressions(keys_of_cells(list()),
                               cell_types.name_list(),
-                              fields.name_list());
+                              fields);
     if (!cell_types.is_on())
       return;
     cell_types.apply(keys_of_cells(list_without_types()));
-    // Cells of a type that does not proliferate stay in G0: their rate of
-    // leaving it is set to 0, so that one cell cycle serves all types.
-    if (!has_proliferation())
-      return;
-    for (unsigned int i = 0; i < cell_types.types.size(); ++i)
-      {
-        const Key<std::string> &own = cell_types.types[i].proliferation_law;
-        const Key<std::string> &law = own.empty() ? proliferation_law : own;
-        if (law == "none")
-          cell_cycle.exit_rate.set_for_type(i, law.path(), "0");
-      }
+    std::vector<const Key<std::string> *> laws;
+    for (const CellTypeKeys &type : cell_types.types)
+      laws.push_back(&type.proliferation_law);
+    for (auto &choice : catalogue.fates)
+      choice.keys().take_laws_of_types(laws);
   }
 
 
@@ -358,12 +208,18 @@ namespace Morula
     append_all(catalogue.flows);
     list.push_back(&growth_law);
     append_all(catalogue.growth_laws);
-    list.push_back(&proliferation_law);
-    append(list, cell_cycle.list());
+    // A fate by which cells grow, too, comes before the keys about division.
+    const auto append_fates = [&](const bool that_grow) {
+      for (auto &choice : catalogue.fates)
+        if (choice.keys().grows_cells() == that_grow)
+          append(list, choice.keys().list());
+    };
+    append_fates(true);
+    append(list, division.list());
     append_all(catalogue.division_rules);
     append_all(catalogue.growth_factors);
-    append_all(catalogue.fates);
-    append(list, fields.list());
+    append_fates(false);
+    append_all(catalogue.equations);
     append_all(catalogue.traits);
     append_all(catalogue.step_effects);
     // Nitsche's keys follow the library's own conditions, to which they belong;

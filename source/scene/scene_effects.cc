@@ -80,11 +80,12 @@ namespace Morula
   StateColumns<dim>
   state_columns_of(const Scene &scene)
   {
-    StateColumns<dim> state(scene.cell_types.name_list(),
-                            scene.fields.name_list(),
+    StateColumns<dim>             state(scene.type_names(),
+                            scene.field_names(),
                             scene.catalogue.neighbour_variables());
-    for (unsigned int k = 0; k < scene.fields.fields.size(); ++k)
-      state.carried[k] = scene.fields.fields[k].exchanged;
+    const std::vector<NamedField> fields = scene.catalogue.named_fields();
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      state.carried[k] = fields[k].exchanged;
     return state;
   }
 
@@ -112,10 +113,10 @@ namespace Morula
   {
     // The order decides the columns of a cell, which snapshots and outputs
     // list, so it is fixed. Types come first, because expressions compare
-    // `type`; then the cycle, law, rules and factors; flows after them, since
-    // they need to know whether a cycle keeps what has relaxed. Columns of the
-    // state itself come last, when it is known which variables any expression
-    // reads.
+    // `type`; then fates that grow cells, law, rules and factors; flows after
+    // them, since they need to know whether a cycle keeps what has relaxed.
+    // Columns of the state itself come last, when it is known which variables
+    // any expression reads.
     SceneEffects<dim> effects;
     effects.state = state_columns_of<dim>(scene);
     effects.state.declare_types(effects.columns);
@@ -126,16 +127,7 @@ namespace Morula
       effects.columns.need_growth();
     if (scene.contact.is_on())
       effects.columns.need_bodies(scene.contact.is_of_all());
-    std::unique_ptr<Proliferation<dim>> proliferation;
-    if (scene.has_proliferation())
-      proliferation =
-        std::make_unique<Proliferation<dim>>(CellCycle<dim>(scene.cell_cycle,
-                                                            scene.random_seed,
-                                                            scene.time.slack(),
-                                                            effects.state),
-                                             effects.columns,
-                                             scene.random_seed);
-    EffectSetting<dim> setting =
+    const EffectSetting<dim> setting =
       effect_setting(scene, effects.columns, effects.state);
     // An effect that has declared columns is told of every cell's begin and
     // advance.
@@ -152,7 +144,14 @@ namespace Morula
           add(choice.name(), make(choice));
     };
 
-    const Catalogue                &catalogue = scene.catalogue;
+    const Catalogue                        &catalogue = scene.catalogue;
+    std::vector<std::unique_ptr<Fate<dim>>> fates;
+    const auto make_fates = [&](const bool that_grow) {
+      for (const auto &choice : catalogue.fates)
+        if (choice.keys().is_on() && choice.keys().grows_cells() == that_grow)
+          fates.push_back(make(choice));
+    };
+    make_fates(true);
     std::unique_ptr<CellTypes<dim>> types;
     if (scene.cell_types.is_on())
       {
@@ -168,14 +167,14 @@ namespace Morula
     if (scene.has_growth())
       development.law =
         make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
-    if (proliferation)
-      proliferation->set_rules(rules_of(scene, setting, make));
-    else if (scene.divides_by_fate())
-      setting.axes =
-        std::make_shared<DivisionAxes<dim>>(scene.cell_cycle,
-                                            effects.state,
-                                            rules_of(scene, setting, make),
-                                            scene.random_seed);
+    std::shared_ptr<const DivisionAxes<dim>> axes;
+    if (scene.cells_divide())
+      axes = std::make_shared<const DivisionAxes<dim>>(scene.division,
+                                                       effects.state,
+                                                       rules_of(scene,
+                                                                setting,
+                                                                make),
+                                                       scene.random_seed);
     make_all(catalogue.growth_factors, [&](const auto &, auto factor) {
       development.factors.push_back(std::move(factor));
     });
@@ -192,8 +191,8 @@ namespace Morula
     make_all(catalogue.flows, [&](const auto &, auto flow) {
       development.flows.push_back(std::move(flow));
     });
-    // With a cell cycle F_r is a factor of the growth before the cycle.
-    if (!development.flows.empty() && !proliferation)
+    // Where cells grow by a fate F_r is a factor of the growth before it.
+    if (!development.flows.empty() && !scene.grows_by_fate())
       development.relaxed = effects.columns.relaxed =
         effects.columns.template add<Tensor<2, dim>>(
           {"relaxed", "", "F_r, what has relaxed of F_g", identity});
@@ -201,14 +200,14 @@ namespace Morula
     // The order of fates decides between two events at the same time: that of
     // the later fate happens. So a change of type comes before a death, and
     // both before the division.
-    if (proliferation)
-      development.proliferation =
-        development.add_fate(std::move(proliferation));
-    make_all(catalogue.fates, [&](const auto &, auto fate) {
-      development.add_fate(std::move(fate));
-    });
+    make_fates(false);
     if (types)
-      development.types = development.add_fate(std::move(types));
+      fates.push_back(std::move(types));
+    for (std::unique_ptr<Fate<dim>> &fate : fates)
+      {
+        fate->set_axes(axes);
+        development.add_fate(std::move(fate));
+      }
     make_all(catalogue.traits, [&](const auto &, auto trait) {
       effects.traits.push_back(std::move(trait));
     });
@@ -222,8 +221,12 @@ namespace Morula
              [&](const auto &name, auto condition) {
                effects.conditions.push_back({name, std::move(condition)});
              });
-    if (scene.fields.is_on())
-      effects.fields = Fields<dim>(scene.fields, setting);
+    // Equations read their cells themselves, and give them their first values
+    // before all others.
+    for (const auto &choice : catalogue.equations)
+      if (choice.keys().is_on())
+        effects.equations.push_back(
+          {choice.name(), choice.template make<dim>(setting)});
     effects.state.declare(effects.columns);
     return effects;
   }
@@ -266,7 +269,8 @@ namespace Morula
       effect->declare(tables);
     for (const auto &[name, condition] : conditions)
       condition->declare(tables);
-    fields.declare(tables);
+    for (const auto &[name, equation] : equations)
+      equation->declare(tables);
     return tables;
   }
 

@@ -13,6 +13,8 @@
 #include <morula/seeding/near_bodies.h>
 #include <morula/seeding/points_surface.h>
 
+#include <algorithm>
+
 namespace Morula
 {
   template <int dim>
@@ -22,17 +24,17 @@ namespace Morula
     // Only cells from a file of points may lack a surface. Then one is made if
     // something acts on it or reads the distance to it; else it would be work
     // for nothing.
-    if (!scene.tissue.is_points() || scene.contact.is_on())
+    if (!scene.tissue.is_points())
+      return true;
+    const std::vector<const EffectKeys *> keys = scene.keys_in_use();
+    if (std::any_of(keys.begin(), keys.end(), [](const EffectKeys *const one) {
+          return one->needs_surface();
+        }))
       return true;
     if (scene.tissue.points_surface != "automatic")
       return !scene.tissue.has_no_surface();
-    if (effects_of<dim>(scene).state.needs_surface() ||
-        scene.fields.have_surface())
-      return true;
-    for (const auto &condition : scene.catalogue.boundary_conditions)
-      if (condition.keys().is_on())
-        return true;
-    return false;
+    return effects_of<dim>(scene).state.needs_surface() ||
+           Scene::has_any(scene.catalogue.boundary_conditions);
   }
 
 

@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/effects/fate/expected_cells.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
 #include <morula/seeding/limits.h>
@@ -13,9 +12,11 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace Morula
 {
@@ -59,22 +60,32 @@ namespace Morula
     // of its law. Sums are those of all ranks.
     const double t = scene.time.end_time;
     const double V = std::pow(scene.tissue.cell_spacing.value(), dim);
-    const SceneEffects<dim>         effects = effects_of<dim>(scene);
-    const GrowthLaw<dim> *const     law     = effects.development.law.get();
-    std::optional<Descendants<dim>> descendants;
-    // The number of cells that die is known only in the run; then divisions are
-    // not counted either.
-    if (scene.has_proliferation() && !Scene::has_any(scene.catalogue.fates))
-      descendants.emplace(scene.cell_cycle, t);
+    const SceneEffects<dim>     effects = effects_of<dim>(scene);
+    const GrowthLaw<dim> *const law     = effects.development.law.get();
+    // Cells that divide when they have grown share the volume that the law
+    // gives them. Others have as much as a founder each; the number of cells
+    // that die is known only in the run, and then these divisions are not
+    // counted either.
+    const auto &fates = effects.development.fates;
+    const bool  mortal =
+      std::any_of(fates.begin(), fates.end(), [](const auto &fate) {
+        return fate->is_deadly();
+      });
+    std::vector<ExpectedCells<dim>> in_volume, of_own_volume;
+    for (const auto &fate : fates)
+      if (auto expected = fate->expected_cells(t);
+          expected && (fate->follows_growth() || !mortal))
+        (fate->follows_growth() ? in_volume : of_own_volume)
+          .push_back(std::move(expected));
     SceneSize size;
     for (const Point<dim> &X : founders)
       {
-        const double n     = descendants ? descendants->expected(X) : 1.;
         const double ratio = law ? law->expected_volume_ratio(X, t) : 1.;
-        // Cells that divide by size share the volume that the law gives them.
-        double n_of_volume = 1.;
-        for (const auto &fate : effects.development.fates)
-          n_of_volume *= fate->expected_cells(X, V * ratio);
+        double       n = 1., n_of_volume = 1.;
+        for (const auto &expected : of_own_volume)
+          n *= expected(X, V * ratio);
+        for (const auto &expected : in_volume)
+          n_of_volume *= expected(X, V * ratio);
         size.cells += n * n_of_volume;
         size.volume += n * V * ratio;
       }
@@ -151,8 +162,7 @@ namespace Morula
        comm](const double cells, const double volume, const double grid_cells) {
         check_memory(scene, {cells, volume, grid_cells}, comm);
       });
-    if (scene.cell_types.is_on())
-      limits.types = scene.cell_types.name_list();
+    limits.types = scene.type_names();
     return limits;
   }
 

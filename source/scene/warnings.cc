@@ -113,12 +113,11 @@ namespace Morula
       at.stiffness = range->second;
     for (const Effect<dim> *const effect : effects.all())
       effect->review(at, review);
-    if (scene.has_proliferation())
-      review_cell_cycle(scene.cell_cycle, at, review);
     review_rates(scene, founders, surface, comm, review);
     for (const EffectKeys *const keys : scene.keys_in_use())
       keys->review(rest, review);
-    review_fields(scene.fields, at, review);
+    for (const auto &[name, equation] : effects.equations)
+      equation->review(at, review);
     review_unused(scene.tissue, review);
     review_idle_effects(scene, review);
     review_idle_keys(scene, founders, comm, review);

@@ -226,12 +226,12 @@ namespace Morula
     Tissue<dim> &tissue, const std::function<void()> &change) const
   {
     std::vector<double> before;
-    if (model.fields.present())
+    if (!model.densities.empty())
       for (unsigned int p = 0; p < tissue.cells().size(); ++p)
         before.push_back(tissue.cells().volume(p));
     change();
     for (std::size_t p = 0; p < before.size(); ++p)
-      model.fields.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
+      model.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
   }
 
 
@@ -354,7 +354,7 @@ namespace Morula
     const TimerOutput::Scope section(timer, "fusion");
     age_contact(tissue, dt);
     const Fusion fusion = find_fusion(tissue, model.scene.contact.fusion_time);
-    const bool   is_of_all = model.scene.contact.is_of_all();
+    const bool   is_of_all = tissue.cells().has_parts();
     if (is_of_all)
       remove_fused_surface(fusion, tissue);
     if (fusion.into.empty())
@@ -430,7 +430,7 @@ namespace Morula
                                           next_id,
                                           comm,
                                           b,
-                                          model.scene.contact.is_of_all());
+                                          cells.has_parts());
         if (!more)
           return false;
         list.append(*more);

@@ -27,7 +27,7 @@ namespace Morula
       const Point<dim>            X     = founders.positions[i];
       const types::particle_index id    = founders.first_id + i;
       std::vector<double>         row   = founder_row(model.development,
-                                            model.fields,
+                                            model.equations,
                                             founders,
                                             surface,
                                             i,
@@ -36,13 +36,14 @@ namespace Morula
       const CellView<dim, double> cell(make_array_view(row),
                                        model.development.columns());
       const PresentCell<dim>      founder(cell, id, X, reader);
-      model.fields.check_cell(founder);
+      for (const auto &named : model.equations)
+        named.effect->check_cell(founder, model.scene.time.step);
       for (const auto &trait : model.traits)
         trait->check_cell(founder, model.scene.time.step);
       for (const auto &named : model.step_effects)
         named.effect->check_cell(founder, model.scene.time.step);
       for (const auto &named : model.forces)
-        named.force->check_cell(founder, model.scene.time.step);
+        named.effect->check_cell(founder, model.scene.time.step);
       points.cells.add(id, X, make_array_view(row));
       points.births.push_back(
         {id,

@@ -75,7 +75,7 @@ namespace Morula
     : scene(scene)
     , comm(comm)
     , records_events(of_effects.records_events())
-    , contents{scene.cell_types.name_list(), of_effects.has_causes()}
+    , contents{scene.type_names(), of_effects.has_causes()}
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
     , next_output(

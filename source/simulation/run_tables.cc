@@ -57,7 +57,7 @@ namespace Morula
     // with a later version: they may begin later.
     std::vector<Table> tables = {
       {"statistics", statistics_columns(row_like(scene, of_effects))},
-      {"lineage", lineage_columns(scene.cell_types.is_on())}};
+      {"lineage", lineage_columns(!scene.type_names().empty())}};
     if (of_effects.records_events())
       tables.push_back(
         {"events", event_columns({{}, of_effects.has_causes()})});

@@ -65,16 +65,17 @@ namespace Morula
     births                    = {};
     events                    = {};
     ++run_state.n_steps;
-    fields.begin_step();
+    for (const auto &equation : equations)
+      equation->begin_step();
 
     // Contact changes the places of unknowns, so that it comes before all that
     // keeps them.
-    SplineSpace<dim>                      space     = splines();
-    const auto                            contact   = points_in_contact(space);
-    const std::optional<SplineSpace<dim>> apart     = splines_of_fields(space);
-    const SplineSpace<dim>               &of_fields = apart ? *apart : space;
+    SplineSpace<dim>                      space   = splines();
+    const auto                            contact = points_in_contact(space);
+    const std::optional<SplineSpace<dim>> apart   = splines_of_equations(space);
+    const SplineSpace<dim>               &of_equations = apart ? *apart : space;
     // Where folds have contact, tissue that comes near does not stick.
-    if (!model.scene.contact.is_of_all())
+    if (!tissue.cells().has_parts())
       {
         pieces.look(space, tissue.grid(), time_steps.time());
         gaps.look(tissue, space, time_steps.time());
@@ -82,8 +83,7 @@ namespace Morula
     // The fields of t = 0 are known already: begin() needs them for the first
     // row of statistics.csv.
     if (run_state.n_steps > 1)
-      find_fields(
-        [&]() { fields.set_steady(tissue, of_fields, time_steps.time()); });
+      settle_equations(of_equations);
     for_moments(&Moments<dim>::before, time_steps.time(), 0.);
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
@@ -98,7 +98,7 @@ namespace Morula
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
-    commit(space, of_fields, solution);
+    commit(space, of_equations, solution);
     if (model.development.states_error())
       {
         row.step_error = mu;
@@ -206,9 +206,9 @@ namespace Morula
 
   template <int dim>
   std::optional<SplineSpace<dim>>
-  Simulation<dim>::splines_of_fields(const SplineSpace<dim> &space) const
+  Simulation<dim>::splines_of_equations(const SplineSpace<dim> &space) const
   {
-    if (!space.is_parted() || !model.fields.present() ||
+    if (!space.is_parted() || equations.empty() ||
         !model.scene.contact.fields_pass)
       return {};
     return tissue.unparted_splines(model.material.volumetric_form() !=
@@ -222,13 +222,13 @@ namespace Morula
     // Within a step two points come nearer by a grid spacing at most, or the
     // step is halved. A fold that snaps shut moves farther, however short the
     // step is.
-    if (!model.scene.contact.is_on())
+    if (!tissue.cells().has_bodies())
       return {};
     const TimerOutput::Scope section(timer, "contact");
     const double             h = space.box().spacing();
     return ContactPoints<dim>(tissue,
                               space,
-                              model.scene.contact.is_of_all() ? 2. * h : h);
+                              tissue.cells().has_parts() ? 2. * h : h);
   }
 
   template <int dim>
@@ -271,7 +271,7 @@ namespace Morula
               // However short it is, a step through a snap moves the tissue
               // far. So where folds have contact it is held back.
               if (time_steps.state().level >= most_plain_halves &&
-                  model.scene.contact.is_of_all() && hold_back(run_state.drag))
+                  tissue.cells().has_parts() && hold_back(run_state.drag))
                 continue;
               if (!time_steps.reject())
                 give_up_step(failure.what());
@@ -317,7 +317,17 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::find_fields(const std::function<void()> &find)
+  Simulation<dim>::settle_equations(const SplineSpace<dim> &space)
+  {
+    solve_equations([&](EquationInRun<dim> &equation) {
+      equation.settle(tissue, space, time_steps.time());
+    });
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::solve_equations(
+    const std::function<void(EquationInRun<dim> &)> &solve)
   {
     // Before the first step no state is worth saving, and an invalid expression
     // is an error of the input. Later the last good state is saved before the
@@ -325,7 +335,8 @@ namespace Morula
     const bool has_begun = run_state.n_steps > 0;
     try
       {
-        find();
+        for (const auto &equation : equations)
+          solve(*equation);
       }
     catch (const InputError &error)
       {
@@ -392,8 +403,10 @@ namespace Morula
     };
     lost_conditions.begin(tissue);
     const std::uint64_t          n_before = n_points();
-    const std::vector<CellEvent> removals = remove_dead_cells(
-      tissue, model.development, time_steps.time(), model.fields.carried());
+    const std::vector<CellEvent> removals = remove_dead_cells(tissue,
+                                                              model.development,
+                                                              time_steps.time(),
+                                                              model.densities);
     events.insert(events.end(), removals.begin(), removals.end());
     // A cut surface stays open unless the scene renews it. What it encloses
     // is no measure any more.

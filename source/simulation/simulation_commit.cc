@@ -100,16 +100,16 @@ namespace Morula
   void
   Simulation<dim>::commit(
     const SplineSpace<dim>                        &space,
-    const SplineSpace<dim>                        &of_fields,
+    const SplineSpace<dim>                        &of_equations,
     const typename StepEquilibrium<dim>::Solution &solution)
   {
     // The first part only computes: the motions of cells and boundary points
     // and the check that they still fit on a grid, so that a run that gives up
     // saves the state at t. Then growth is committed, after it F (which needs
-    // the new F_g where volumes are means over grid cells), then transient
-    // fields, which are diluted by the new volumes. tissue.move() comes last:
-    // it sends points to the ranks that own their new grid cells and sorts
-    // them, so that p means another point behind it.
+    // the new F_g where volumes are means over grid cells), then
+    // equations, whose densities are diluted by the new volumes. tissue.move()
+    // comes last: it sends points to the ranks that own their new grid cells
+    // and sorts them, so that p means another point behind it.
     const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, solution.u, comm);
     const std::vector<double>    volumes =
@@ -139,17 +139,22 @@ namespace Morula
       give_up(reason + ".");
 
     const double t = time_steps.time(), t_next = time_steps.next();
-    const bool   has_transient = model.fields.any(FieldKind::transient);
-    // The equations of transient fields are solved with the new volumes on the
-    // splines of the step, so they can fail when the cells have changed
-    // already. The rows of the cells are kept to go back.
-    const Rows before = has_transient ? rows_of(tissue) : Rows();
+    const bool   dilutes  = !model.densities.empty();
+    const bool   may_fail = std::any_of(model.equations.begin(),
+                                      model.equations.end(),
+                                      [](const auto &named) {
+                                        return named.effect->is_transient();
+                                      });
+    // Equations are solved with the new volumes on the splines of the step, so
+    // they can fail when the cells have changed already. The rows of the cells
+    // are kept to go back.
+    const Rows before = may_fail ? rows_of(tissue) : Rows();
     model.development.commit(tissue, growth_of_step, t, t_next);
     std::vector<double> missed_flow(cells.positions.size(), 0.);
     for (unsigned int p = 0; p < cells.positions.size(); ++p)
       {
-        const CellView<dim, double> cell = tissue.cell(p);
-        const double volume = model.fields.present() ? cell.volume() : 0.;
+        const CellView<dim, double> cell   = tissue.cell(p);
+        const double                volume = dilutes ? cell.volume() : 0.;
         // F is carried on by doc/theory.md (1.1).
         Tensor<2, dim> F      = cells.motions[p].f * cell.F();
         double         factor = 1.;
@@ -169,17 +174,16 @@ namespace Morula
         missed_flow[p] =
           model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
         model.development.remember_motion(cell, f);
-        if (model.fields.present())
-          model.fields.dilute(cell, cell.volume() / volume);
+        if (dilutes)
+          model.dilute(cell, cell.volume() / volume);
       }
     // The concentrations are diluted before the equation is solved: a value
     // that is held at the surface would otherwise be too low by what grows in a
     // step (doc/theory.md, section 11.4).
-    FieldsOfStep<dim> of_step;
-    find_fields([&]() {
+    solve_equations([&](EquationInRun<dim> &equation) {
       try
         {
-          of_step = fields.transient(tissue, of_fields, t, t_next);
+          equation.advance(tissue, of_equations, t, t_next);
         }
       catch (...)
         {
@@ -188,7 +192,6 @@ namespace Morula
           throw;
         }
     });
-    model.fields.set(tissue, of_step);
     if (model.development.states_error())
       run_state.error.flow = mean_over_tissue<dim>(
         tissue,

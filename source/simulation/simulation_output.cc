@@ -57,7 +57,8 @@ namespace Morula
     for (const auto &[name, effect] : model.moments)
       effect->describe(
         tissue, {time_steps.time(), 0., reader, run_state.kept, of_step});
-    fields.describe(tissue, of_step);
+    for (const auto &equation : equations)
+      equation->describe(tissue, of_step);
     for (const auto &column : model.tables.columns())
       {
         if (column.counted)
@@ -80,7 +81,7 @@ namespace Morula
     // Steps in which tissue snaps take many iterations. So others are not
     // looked at, which costs nothing then.
     constexpr unsigned int many_iterations = 15;
-    if (told_of_turn || model.scene.contact.is_of_all() ||
+    if (told_of_turn || tissue.cells().has_parts() ||
         newton_report.newton_iterations < many_iterations ||
         !turns_too_far(tissue, displacement))
       return;

@@ -36,14 +36,15 @@ namespace Morula
     , gaps([this](const std::string &text) { files->message(text); })
     , lost_conditions(model,
                       [this](const std::string &text) { files->message(text); })
-    , fields(model.fields,
-             model.scene.fields,
-             model.development,
-             make_linear_solvers(model.scene.solver),
-             timer,
-             [this](const std::string &text) { files->message(text); })
     , surface(model, run_state.next_boundary_id, timer, comm)
-  {}
+  {
+    for (const auto &[name, equation] : model.equations)
+      equations.push_back(equation->in_run(
+        {[this](const double t) { return model.development.reader(t); },
+         make_linear_solvers(model.scene.solver),
+         timer,
+         [this](const std::string &text) { files->message(text); }}));
+  }
 
   template <int dim>
   Simulation<dim>::Simulation(const Scene   &scene,
@@ -208,19 +209,20 @@ namespace Morula
         const auto find_steady = [&]() {
           first_splines.emplace(splines());
           const std::optional<SplineSpace<dim>> apart =
-            splines_of_fields(*first_splines);
-          find_fields([&]() {
-            fields.set_steady(tissue,
-                              apart ? *apart : *first_splines,
-                              time_steps.time());
-          });
+            splines_of_equations(*first_splines);
+          settle_equations(apart ? *apart : *first_splines);
           // Carving or the first step makes the solver anew.
-          fields.forget_configuration();
+          for (const auto &equation : equations)
+            equation->forget_configuration();
         };
         find_steady();
         // Founders that are in a cycle have got their axes when no field was
         // known yet. An axis may depend on one.
-        if (model.fields.any(FieldKind::steady))
+        if (std::any_of(model.equations.begin(),
+                        model.equations.end(),
+                        [](const auto &named) {
+                          return named.effect->is_steady();
+                        }))
           for (unsigned int p = 0; p < tissue.cells().size(); ++p)
             model.development.choose_first_axis(
               present_cell(tissue, p, model.development.reader(0.)),

@@ -2,16 +2,17 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/effects/contact/contact_turn.h>
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/vectorized_internal_force.h>
-#include <morula/simulation/contact_of_step.h>
 #include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/solver/proximal_path.h>
+#include <morula/solver/turns.h>
 
 #include <algorithm>
 #include <utility>
@@ -193,7 +194,7 @@ namespace Morula
       throw StepFailed(
         "bodies pass through each other, so that the step is too "
         "long for their contact");
-    if (model.scene.contact.is_of_all() && turns_too_far(tissue, displacement))
+    if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
       throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
                        "so that the step is too long for its contact");
     report.proximal_paths += attempt.drag > 1.;
@@ -242,7 +243,7 @@ namespace Morula
     catch (const StepFailed &)
       {
         if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
-            model.scene.contact.is_of_all())
+            tissue.cells().has_parts())
           throw;
         // Newton's method may have left u anywhere. The path starts from the
         // last state that is known to be good.
@@ -266,7 +267,7 @@ namespace Morula
     // which terms() has added them: the stress of the cells, the forces on
     // cells, the held points.
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    if (conditions.list().empty() && !model.scene.contact.is_on())
+    if (conditions.list().empty() && !tissue.cells().has_bodies())
       return {};
     const TimerOutput::Scope section(timer, "forces");
     ForceSums<dim>           sums(tissue, space, solution.u, comm);
@@ -284,7 +285,7 @@ namespace Morula
     for (const auto &part : parts)
       if (const auto force = part->force())
         sums.add_part(*force);
-    if (model.scene.contact.is_on())
+    if (tissue.cells().has_bodies())
       sums.add_contact(of_contact);
     return sums.result();
   }
@@ -349,11 +350,11 @@ namespace Morula
     };
     for (const auto &named : model.forces)
       add(named.name, [&]() {
-        return named.force->term(tissue,
-                                 model.development.reader(attempt.t),
-                                 cell_positions(tissue, space),
-                                 attempt.t,
-                                 t);
+        return named.effect->term(tissue,
+                                  model.development.reader(attempt.t),
+                                  cell_positions(tissue, space),
+                                  attempt.t,
+                                  t);
       });
     for (const auto &part : parts)
       if (auto term = part->term())

@@ -28,7 +28,7 @@ namespace Morula
     for (const auto &named : model.forces)
       {
         const std::vector<double> friction =
-          named.force->friction(tissue, reader, t);
+          named.effect->friction(tissue, reader, t);
         // The list is empty for a force without friction.
         if (friction.empty())
           continue;

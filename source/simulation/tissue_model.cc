@@ -16,9 +16,8 @@ namespace Morula
     /** What has moments, with names. */
     template <int dim>
     std::vector<std::pair<std::string, const Moments<dim> *>>
-    moments_of(
-      const std::vector<typename SceneEffects<dim>::NamedStepEffect> &effects,
-      const BoundaryConditions<dim> &conditions)
+    moments_of(const NamedEffects<StepEffect<dim>> &effects,
+               const BoundaryConditions<dim>       &conditions)
     {
       std::vector<std::pair<std::string, const Moments<dim> *>> list;
       for (const auto &[name, effect] : effects)
@@ -27,6 +26,18 @@ namespace Morula
         if (const auto *moments =
               dynamic_cast<const Moments<dim> *>(condition.get()))
           list.emplace_back(name, moments);
+      return list;
+    }
+
+    /** The columns of amounts per volume of all equations. */
+    template <int dim>
+    std::vector<Column<double>>
+    densities_of(const NamedEffects<Equation<dim>> &equations)
+    {
+      std::vector<Column<double>> list;
+      for (const auto &[name, equation] : equations)
+        for (const Column<double> &column : equation->densities())
+          list.push_back(column);
       return list;
     }
   } // namespace
@@ -49,10 +60,11 @@ namespace Morula
                   effects.state,
                   material,
                   scene.random_seed)
-    , fields(std::move(effects.fields))
+    , equations(std::move(effects.equations))
     , traits(std::move(effects.traits))
     , step_effects(std::move(effects.step_effects))
     , forces(std::move(effects.forces))
+    , densities(densities_of<dim>(equations))
     , moments(moments_of<dim>(step_effects, boundary_conditions))
   {}
 

@@ -37,13 +37,15 @@ namespace Step5
   double
   duration(const Scene &scene)
   {
-    return scene.cell_cycle.duration.expression(dim).value(Point<dim>(), 0.);
+    return scene.keys<CellCycleParameters>().duration.expression(dim).value(
+      Point<dim>(), 0.);
   }
 
   double
   exit_rate(const Scene &scene)
   {
-    return scene.cell_cycle.exit_rate.expression(dim).value(Point<dim>(), 0.);
+    return scene.keys<CellCycleParameters>().exit_rate.expression(dim).value(
+      Point<dim>(), 0.);
   }
 
 
@@ -54,11 +56,12 @@ namespace Step5
   void
   divide_together(Scene scene, std::ostream &out)
   {
-    scene.cell_cycle.start         = "together";
-    scene.cell_cycle.exit_rate     = "0"; // and then wait for ever
-    scene.cell_cycle.division_axis = "fixed";
-    scene.catalogue.keys<FixedAxisParameters>().axis = "0; 0; 1";
-    scene.time.end_time                              = duration(scene);
+    CellCycleParameters &cycle             = scene.keys<CellCycleParameters>();
+    cycle.start                            = "together";
+    cycle.exit_rate                        = "0"; // and then wait for ever
+    scene.division.axis                    = "fixed";
+    scene.keys<FixedAxisParameters>().axis = "0; 0; 1";
+    scene.time.end_time                    = duration(scene);
     scene.output_directory += "/together";
     scene.check();
 

@@ -98,7 +98,7 @@ namespace Step6
   Outcome
   run_with_checkpoint(Scene scene, const std::string &threshold)
   {
-    scene.cell_cycle.size_checkpoint = threshold;
+    scene.keys<CellCycleParameters>().size_checkpoint = threshold;
     scene.output_directory += "/J-" + threshold;
     scene.check();
     Simulation<dim> simulation(scene, MPI_COMM_WORLD, false);

@@ -53,8 +53,8 @@ namespace
       }
     if (wanted.cycle)
       {
-        scene.proliferation_law = "cell cycle";
-        scene.cell_cycle.start  = "waiting";
+        scene.keys<CellCycleParameters>().law   = "cell cycle";
+        scene.keys<CellCycleParameters>().start = "waiting";
       }
     if (wanted.contraction)
       {

@@ -15,6 +15,7 @@
 #include "drag.h"
 #include "melting.h"
 #include "pull.h"
+#include "sharing.h"
 #include "swelling.h"
 #include "twofold.h"
 
@@ -30,6 +31,7 @@ main(int argc, char *argv[])
   program.catalogue.add_fate<Own::Anoikis>("anoikis");
   program.catalogue.add_step_effect<Own::Conversion>("conversion");
   program.catalogue.add_step_effect<Own::Census>("census");
+  program.catalogue.add_equation<Own::Sharing>("sharing");
   program.catalogue.add_force<Own::Pull>("pull");
   program.catalogue.add_boundary_condition<Own::Drag>("drag");
   program.catalogue.materials.add("twofold",

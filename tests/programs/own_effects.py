@@ -78,6 +78,15 @@ class OwnEffects(ProgramTest):
             numpy.testing.assert_allclose(
                 cells["made"] / (cells["raw"] + cells["made"]),
                 -numpy.expm1(-2 * time), rtol=1e-9)
+        # Its amount stays, whatever grows, divides and moves, but for that of
+        # lost cells, which stood where X > 0; cells of a grid cell share it.
+        numpy.testing.assert_allclose(
+            rows["amount_shared"] / 100,
+            numpy.where(t < DEATH, 1.5 * FOUNDERS, 1.5 * FOUNDERS - 2 * LOST),
+            rtol=1e-9)
+        first = read_csv(output / "cells-0000.csv")
+        self.assertLess(len(set(first["shared"])), FOUNDERS / 4)
+        self.assertGreater(first["shared"].max(), 1.5 * first["shared"].min())
         # every cell has divided along y
         cells = read_csv(output / "cells-0004.csv")
         self.assertEqual(len(set(cells["parent"])), FOUNDERS - LOST)

@@ -158,9 +158,9 @@ TEST(Scene, ReadsEveryKindOfKey)
                            "  set Offset = 1, 2.5\n"
                            "end");
   EXPECT_EQ(scene.dimension, 2u);
-  EXPECT_TRUE(scene.has_proliferation());
-  EXPECT_EQ(scene.cell_cycle.duration, "1 + 0.1*X");
-  EXPECT_TRUE(scene.cell_cycle.axis_follows_rotation);
+  EXPECT_TRUE(scene.cells_divide());
+  EXPECT_EQ(scene.keys<CellCycleParameters>().duration, "1 + 0.1*X");
+  EXPECT_TRUE(scene.division.axis_follows_rotation);
   EXPECT_EQ(scene.output.formats, (std::vector<std::string>{"vtu", "csv"}));
   EXPECT_EQ(scene.grid.offset, (std::vector<double>{1., 2.5}));
   EXPECT_NO_THROW(scene.check());

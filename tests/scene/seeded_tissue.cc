@@ -19,11 +19,11 @@ namespace
   block()
   {
     Scene scene;
-    scene.tissue.shape                  = "box";
-    scene.tissue.size                   = {100., 100., 50.};
-    scene.keys<FixedParameters>().where = "Z < -24";
-    scene.proliferation_law             = "cell cycle";
-    scene.cell_cycle.where              = "X > 0";
+    scene.tissue.shape                      = "box";
+    scene.tissue.size                       = {100., 100., 50.};
+    scene.keys<FixedParameters>().where     = "Z < -24";
+    scene.keys<CellCycleParameters>().law   = "cell cycle";
+    scene.keys<CellCycleParameters>().where = "X > 0";
     return scene;
   }
 } // namespace
@@ -42,7 +42,7 @@ TEST(SeededTissue, CountsAndWarns)
 
   scene.grid.spacing = 15.;
   EXPECT_EQ(seed_tissue<3>(scene, MPI_COMM_WORLD).warnings.size(), 1u);
-  scene.cell_cycle.where = "X > 50";
+  scene.keys<CellCycleParameters>().where = "X > 50";
   EXPECT_THROW(seed_tissue<3>(scene, MPI_COMM_WORLD), InputError);
   scene                               = block();
   scene.keys<FixedParameters>().where = "Z < -26";

@@ -121,16 +121,16 @@ TEST(SceneSize, CountsDescendants)
   scene.keys<IsotropicGrowthParameters>().stretch = "1 + t*(X > 0)";
   EXPECT_DOUBLE_EQ(size().volume, 9000. * n);
 
-  scene.growth_law        = "none";
-  scene.proliferation_law = "cell cycle";
-  scene.cell_cycle.where  = "X > 0";
-  scene.time.end_time     = 10.;
-  const double many       = 1. + expected_cells(1., 1., 10., false);
+  scene.growth_law                        = "none";
+  scene.keys<CellCycleParameters>().law   = "cell cycle";
+  scene.keys<CellCycleParameters>().where = "X > 0";
+  scene.time.end_time                     = 10.;
+  const double many = 1. + expected_cells(1., 1., 10., false);
   EXPECT_NEAR(size().cells, many * n, 1e-9 * many * n);
 
   scene.time.stop_at_cells = 10 * n_ranks();
   EXPECT_DOUBLE_EQ(size().cells, 20. * n);
-  scene.cell_cycle.size_checkpoint = "0.8";
+  scene.keys<CellCycleParameters>().size_checkpoint = "0.8";
   EXPECT_DOUBLE_EQ(size().cells, 2. * n);
 }
 
@@ -316,8 +316,8 @@ TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
   EXPECT_NE(check(scene).find("Body force/Force density"), std::string::npos);
   scene.keys<BodyForceParameters>().force_density = "0; 0; 0";
 
-  scene.proliferation_law   = "cell cycle";
-  scene.cell_cycle.duration = "1 - 0.95*(X == " + bad + ")";
+  scene.keys<CellCycleParameters>().law      = "cell cycle";
+  scene.keys<CellCycleParameters>().duration = "1 - 0.95*(X == " + bad + ")";
   EXPECT_NE(check(scene).find("Step"), std::string::npos) << check(scene);
 }
 

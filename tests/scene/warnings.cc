@@ -293,18 +293,18 @@ TEST(SceneWarnings, OfLongSteps)
 
 TEST(SceneWarnings, OfStepsOfTheCellCycle)
 {
-  Scene scene                             = good_scene();
-  scene.growth_law                        = "none";
-  scene.keys<IsotropicGrowthParameters>() = IsotropicGrowthParameters();
-  scene.proliferation_law                 = "cell cycle";
-  scene.cell_cycle.duration               = "if(X > 44, 4, 5)";
+  Scene scene                                = good_scene();
+  scene.growth_law                           = "none";
+  scene.keys<IsotropicGrowthParameters>()    = IsotropicGrowthParameters();
+  scene.keys<CellCycleParameters>().law      = "cell cycle";
+  scene.keys<CellCycleParameters>().duration = "if(X > 44, 4, 5)";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.cell_cycle.duration = "if(X > 44, 3, 5)";
+  scene.keys<CellCycleParameters>().duration = "if(X > 44, 3, 5)";
   expect_warning(scene,
                  {"Time/Step = '1 day'",
                   "0.333333 of the shortest cell cycle, 3 day",
                   "Shorten"});
-  scene.cell_cycle.where = "X < 44";
+  scene.keys<CellCycleParameters>().where = "X < 44";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 

@@ -6,6 +6,7 @@
 
 #include <morula/effects/choice.h>
 #include <morula/effects/division/division_rule.h>
+#include <morula/effects/equation.h>
 #include <morula/effects/fate/fate.h>
 #include <morula/effects/forces/force.h>
 #include <morula/effects/growth/flow.h>
@@ -107,6 +108,15 @@ namespace Morula
       add_in_section<AddedFate>(fates, "", name);
     }
 
+    /** Adds an equation, found after those before. A scene has it if its keys
+     *  say so; they stand in `<Name>`. */
+    template <template <int> class Added>
+    void
+    add_equation(const std::string &name)
+    {
+      add_in_section<Added>(equations, "", name);
+    }
+
     /** Adds a condition on the surface. A scene has it if its keys say so; they
      *  stand in `Boundary conditions/<Name>`. */
     template <template <int> class Condition>
@@ -154,6 +164,10 @@ namespace Morula
     TypeTensions
     tensions() const;
 
+    /** The fields of all effects, in the order of their numbers. */
+    std::vector<NamedField>
+    named_fields() const;
+
     /** How it is found out which cells touch, and what expressions ask of them.
      */
     NeighbourSearch
@@ -174,6 +188,7 @@ namespace Morula
     Choices<GrowthFactor>      growth_factors;
     Choices<Flow>              flows;
     Choices<Fate>              fates;
+    Choices<Equation>          equations;
     Choices<Trait>             traits;
     Choices<StepEffect>        step_effects;
     Choices<Force>             forces;
@@ -208,6 +223,7 @@ namespace Morula
       of_kind(self.growth_factors);
       of_kind(self.flows);
       of_kind(self.fates);
+      of_kind(self.equations);
       of_kind(self.traits);
       of_kind(self.step_effects);
       of_kind(self.forces);

@@ -81,19 +81,12 @@ namespace Morula
     /** How the cells beside one are found, if changes of type depend on their
      *  types. */
     std::optional<NeighbourSearch> neighbours = {};
-    /** All effects that have columns of their own, but for the proliferation;
-     *  others own these effects. */
+    /** All effects that have columns of their own. Others own these effects. */
     std::vector<const Effect<dim> *> with_state = {};
 
-    /** Adds a fate, behind those before. @return the fate */
-    template <typename OwnFate>
-    const OwnFate *
-    add_fate(std::unique_ptr<OwnFate> fate)
-    {
-      const OwnFate *const added = fate.get();
-      fates.push_back(std::move(fate));
-      return added;
-    }
+    /** Adds a fate, behind those before. */
+    void
+    add_fate(std::unique_ptr<const Fate<dim>> fate);
 
     /** Whether the law follows the cells' state, so that a step can miss some
      *  growth. */

@@ -39,6 +39,22 @@ namespace Morula
     std::string   remedy;
   };
 
+  /** A part of an effect that --explain names by itself. */
+  struct PartOfEffect
+  {
+    std::string name;
+    bool        on;
+    std::string details;
+  };
+
+  /** A field whose value at a cell expressions may read. */
+  struct NamedField
+  {
+    std::string name;
+    /** Whether cells that exchange their places take its amount along. */
+    bool exchanged;
+  };
+
   /**
    * The keys of an effect. Unless a scene chooses the effect by its name, they
    * say whether it is on.
@@ -68,6 +84,22 @@ namespace Morula
     virtual void
     declare_sections(const std::string &)
     {}
+
+    /** The fields that the effect gives to cells, in the order of their
+     *  numbers. */
+    virtual std::vector<NamedField>
+    named_fields() const
+    {
+      return {};
+    }
+
+    /** Whether the effect, if it is on, acts on the surface: tissue that needs
+     *  none gets one. */
+    virtual bool
+    needs_surface() const
+    {
+      return false;
+    }
 
     /** Makes the keys that stand in the sections of the cells' types, before
      * any key has its value: their names, in the order of their numbers
@@ -137,6 +169,35 @@ namespace Morula
       return false;
     }
 
+    /** Whether cells grow by the effect, besides the law of growth. */
+    virtual bool
+    grows_cells() const
+    {
+      return false;
+    }
+
+    /** The condition that chooses founders on which the effect acts, or null:
+     *  it acts on all. */
+    virtual const ExpressionKey *
+    founders_key() const
+    {
+      return nullptr;
+    }
+
+    /** Takes the laws of `Proliferation/Law` that types of cells have, by their
+     *  numbers, when all keys have their values; empty: that of all cells. */
+    virtual void
+    take_laws_of_types(const std::vector<const Key<std::string> *> & /*laws*/)
+    {}
+
+    /** What the number of cells is that --explain expects at the end, "about "
+     *  or "at least "; empty: the effect does not make cells. */
+    virtual std::string
+    counts_cells(const RestOfScene &) const
+    {
+      return "";
+    }
+
     /** Refuses what the keys contradict in the rest of the scene. Also called
      *  while the effect is off. @throws InputError */
     virtual void
@@ -159,6 +220,13 @@ namespace Morula
     /** What --explain says of its values: ", Key = value" for each. */
     virtual std::string
     details() const;
+
+    /** Its parts that --explain names by themselves. */
+    virtual std::vector<PartOfEffect>
+    parts() const
+    {
+      return {};
+    }
 
     /** Lines of --explain that follow from the keys and the rest of the scene,
      *  each with its end, if the effect is on. */
@@ -185,8 +253,6 @@ namespace Morula
     }
   };
 
-  template <int dim>
-  class DivisionAxes;
   template <int dim>
   class PresentCell;
   template <int dim>
@@ -216,8 +282,6 @@ namespace Morula
     /** Volume of a whole cell at t = 0 where those at the surface are cut by
      * it, µm^dim; 0: none is cut. */
     double whole_volume = 0.;
-    /** Along what cells divide, for fates that divide them; null: at random. */
-    std::shared_ptr<const DivisionAxes<dim>> axes = nullptr;
   };
 
   /**

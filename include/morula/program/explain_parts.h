@@ -41,10 +41,6 @@ namespace Morula
   void
   print(std::ostream &out, const EffectRow &row);
 
-  /** Whether the cycle has a size checkpoint. */
-  bool
-  has_checkpoint(const Scene &scene);
-
   /** All effects that the program knows, with what the scene makes of them.
    *  @param counts  of boundary points
    *  @param applied what the conditions apply

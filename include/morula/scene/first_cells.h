@@ -5,7 +5,6 @@
 #define morula_scene_first_cells_h
 
 #include <morula/effects/development.h>
-#include <morula/effects/fields/fields.h>
 #include <morula/effects/state/surface_distance.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
@@ -35,7 +34,7 @@ namespace Morula
   template <int dim>
   std::vector<double>
   founder_row(const CellDevelopment<dim>          &development,
-              const Fields<dim>                   &fields,
+              const NamedEffects<Equation<dim>>   &equations,
               const Founders<dim>                 &founders,
               const std::vector<NearSurface<dim>> &surface,
               const std::size_t                    i,

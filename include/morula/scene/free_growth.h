@@ -17,9 +17,9 @@ namespace Morula
   struct FreeGrowth
   {
     double mean = 1., least = 1., most = 1.;
-    /** Cells that descend from a founder, on average, where cells divide by
-     *  size. */
-    double cells = 1.;
+    /** Cells that descend from a founder, on average, where cells divide when
+     *  they have grown; else 0. */
+    double cells = 0.;
     /** Whether place and time alone tell growth, so that GrowthLaw's
      *  expected_volume_ratio() has it, too. */
     bool known_before = true;

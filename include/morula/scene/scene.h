@@ -8,9 +8,8 @@
 #include <morula/effects/catalogue.h>
 #include <morula/effects/contact/contact_parameters.h>
 #include <morula/effects/development.h>
-#include <morula/effects/fate/cell_cycle.h>
+#include <morula/effects/division/division_parameters.h>
 #include <morula/effects/fate/cell_type_parameters.h>
-#include <morula/effects/fields/fields.h>
 #include <morula/effects/rest_of_scene.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/grid/grid_parameters.h>
@@ -53,10 +52,8 @@ namespace Morula
     GridParameters      grid;
     MaterialParameters  material;
     Key<std::string>    growth_law;
-    Key<std::string>    proliferation_law;
-    CellCycleParameters cell_cycle;
+    DivisionParameters  division;
     CellTypesParameters cell_types;
-    FieldsParameters    fields;
     NitscheParameters   nitsche;
     ContactParameters   contact;
     SolverParameters    solver;
@@ -130,7 +127,7 @@ namespace Morula
     has_active_tissue() const
     {
       return has_growth() || has_any(catalogue.growth_factors) ||
-             has_proliferation();
+             grows_by_fate();
     }
 
     /** Whether the shear of some cells relaxes. */
@@ -140,16 +137,31 @@ namespace Morula
       return has_any(catalogue.flows);
     }
 
+    /** Whether cells divide, by one of the fates. */
     bool
-    has_proliferation() const;
+    cells_divide() const;
 
-    /** Whether cells divide without a cell cycle, by one of the fates. */
+    /** The keys of the first effect by which cells may divide, and which has a
+     *  switch; or null. */
+    const EffectKeys *
+    first_way_to_divide() const;
+
+    /** Whether cells grow by one of the fates. */
     bool
-    divides_by_fate() const;
+    grows_by_fate() const;
 
     /** What effects' keys may see of this, which must outlive it. */
     RestOfScene
     rest_of_scene() const;
+
+    /** The names of the types of cells, by their numbers; empty: all cells are
+     *  alike. */
+    std::vector<std::string>
+    type_names() const;
+
+    /** The names of the fields of cells, by their numbers. */
+    std::vector<std::string>
+    field_names() const;
 
     /** The keys of all effects: first those that are no entry of the catalogue.
      */
@@ -244,25 +256,23 @@ namespace Morula
     check() const;
   };
 
+  /** An effect of a scene, and what it is called. @tparam Kind Force<3>, ... */
+  template <typename Kind>
+  struct NamedEffect
+  {
+    std::string                 name;
+    std::unique_ptr<const Kind> effect;
+  };
+
+  /** Effects of a kind, in the order of the catalogue. */
+  template <typename Kind>
+  using NamedEffects = std::vector<NamedEffect<Kind>>;
+
   /** All effects of a scene. */
   template <int dim>
   struct SceneEffects
   {
-    /** A force, and what it is called. */
-    struct NamedForce
-    {
-      std::string                       name;
-      std::unique_ptr<const Force<dim>> force;
-    };
-
-    /** A step effect, and what it is called. */
-    struct NamedStepEffect
-    {
-      std::string                            name;
-      std::unique_ptr<const StepEffect<dim>> effect;
-    };
-
-    /** All of them but the conditions and fields. */
+    /** All of them but the conditions and equations. */
     std::vector<const Effect<dim> *>
     all() const;
 
@@ -276,10 +286,10 @@ namespace Morula
     StateColumns<dim> state;
 
     DevelopmentEffects<dim>                              development;
-    Fields<dim>                                          fields;
+    NamedEffects<Equation<dim>>                          equations;
     std::vector<std::unique_ptr<const Trait<dim>>>       traits;
-    std::vector<NamedStepEffect>                         step_effects;
-    std::vector<NamedForce>                              forces;
+    NamedEffects<StepEffect<dim>>                        step_effects;
+    NamedEffects<Force<dim>>                             forces;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;
   };
 

@@ -4,7 +4,7 @@
 #ifndef morula_simulation_simulation_h
 #define morula_simulation_simulation_h
 
-#include <morula/effects/fields/step_fields.h>
+#include <morula/effects/equation.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/condition_watch.h>
 #include <morula/simulation/failed_step.h>
@@ -20,6 +20,7 @@
 #include <deal.II/base/timer.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -132,14 +133,14 @@ namespace Morula
     std::optional<ContactPoints<dim>>
     points_in_contact(SplineSpace<dim> &space);
 
-    /** The splines of fields, if they pass from body to body. Collective. */
+    /** The splines of equations, if they pass from body to body. Collective. */
     std::optional<SplineSpace<dim>>
-    splines_of_fields(const SplineSpace<dim> &space) const;
+    splines_of_equations(const SplineSpace<dim> &space) const;
     typename StepEquilibrium<dim>::Solution
     try_step(const StepEquilibrium<dim> &equilibrium);
     void
     commit(const SplineSpace<dim>                        &space,
-           const SplineSpace<dim>                        &of_fields,
+           const SplineSpace<dim>                        &of_equations,
            const typename StepEquilibrium<dim>::Solution &solution);
     void
     divide();
@@ -176,9 +177,12 @@ namespace Morula
     void
     stop_if_asked(const StopSignals &signals); // StoppedBySignal
 
-    /** Calls @p find, and ends the run if it cannot find the fields. */
+    /** Gives cells the steady solutions of the configuration. Collective. */
     void
-    find_fields(const std::function<void()> &find);
+    settle_equations(const SplineSpace<dim> &space);
+    /** Calls @p solve for all equations, and ends the run if it cannot. */
+    void
+    solve_equations(const std::function<void(EquationInRun<dim> &)> &solve);
     /** The longest way that the present attempt asks of a held point, µm.
      *  Collective. */
     double
@@ -217,11 +221,11 @@ namespace Morula
       double force; // |R| where it began, kPa µm^(dim-1)
     } first_attempt = {0., 0.};
 
-    PieceWarnings<dim>    pieces;
-    GapWatch<dim>         gaps;
-    ConditionWatch<dim>   lost_conditions;
-    StepFields<dim>       fields;
-    FollowingSurface<dim> surface;
+    PieceWarnings<dim>                               pieces;
+    GapWatch<dim>                                    gaps;
+    ConditionWatch<dim>                              lost_conditions;
+    FollowingSurface<dim>                            surface;
+    std::vector<std::unique_ptr<EquationInRun<dim>>> equations;
     bool warned_of_long_cells = false; // once a run, or before it started
     bool told_of_path         = false;
     bool told_of_turn         = false; // once a run

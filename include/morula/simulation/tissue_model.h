@@ -5,7 +5,6 @@
 #define morula_simulation_tissue_model_h
 
 #include <morula/effects/development.h>
-#include <morula/effects/fields/fields.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
@@ -33,10 +32,12 @@ namespace Morula
     const TissueMaterial                                 material;
     const BoundaryConditions<dim>                        boundary_conditions;
     const CellDevelopment<dim>                           development;
-    const Fields<dim>                                    fields;
+    const NamedEffects<Equation<dim>>                    equations;
     const std::vector<std::unique_ptr<const Trait<dim>>> traits;
-    const std::vector<typename SceneEffects<dim>::NamedStepEffect> step_effects;
-    const std::vector<typename SceneEffects<dim>::NamedForce>      forces;
+    const NamedEffects<StepEffect<dim>>                  step_effects;
+    const NamedEffects<Force<dim>>                       forces;
+    /** Equation::densities() of all. */
+    const std::vector<Column<double>> densities;
     /** Of step effects, then of conditions, with the effects' names. */
     const std::vector<std::pair<std::string, const Moments<dim> *>> moments;
 
@@ -59,6 +60,15 @@ namespace Morula
     typical_stiffness(const Tissue<dim>            &tissue,
                       const DevelopmentOfStep<dim> &growth,
                       const MPI_Comm                comm) const;
+
+    /** Leaves a cell its amounts, doc/theory.md (11.4), when its volume has
+     *  changed by the factor @p ratio. */
+    void
+    dilute(const CellView<dim, double> &cell, const double ratio) const
+    {
+      for (const Column<double> &density : densities)
+        cell.set(density, cell.get(density) / ratio);
+    }
 
   private:
     TissueModel(const Scene &scene, SceneEffects<dim> &&effects);

@@ -34,10 +34,22 @@ namespace Morula
 
 
   template <int dim>
-  DivisionAxes<dim>::DivisionAxes(const CellCycleParameters &keys,
-                                  StateColumns<dim>         &state,
-                                  DivisionRules<dim>         rules,
-                                  const std::uint64_t        seed)
+  const DivisionRule<dim> *
+  DivisionRules<dim>::rule(const unsigned int type) const
+  {
+    // Without types of cells there is at most one rule; null stands for the
+    // random axis.
+    if (!of_type.empty())
+      return of_type[type];
+    return list.empty() ? nullptr : list.front().get();
+  }
+
+
+  template <int dim>
+  DivisionAxes<dim>::DivisionAxes(const DivisionParameters &keys,
+                                  StateColumns<dim>        &state,
+                                  DivisionRules<dim>        rules,
+                                  const std::uint64_t       seed)
     : spread(state.use(keys.axis_spread))
     , least_anisotropy(state.use(keys.least_anisotropy))
     , follows_rotation(keys.axis_follows_rotation)
@@ -59,12 +71,8 @@ namespace Morula
     const DivisionRule<dim> *const rule   = all.rule(cell.type());
     if (rule == nullptr)
       return random;
-    Tensor<1, dim> axis = axis_by_rule(
-      *rule,
-      cell,
-      t,
-      random,
-      {cell.value(spread, t), cell.value(least_anisotropy, t), seed, key});
+    Tensor<1, dim> axis =
+      axis_by_rule(*rule, cell, t, random, draw(cell, t, key));
     if (rule->frame() == AxisFrame::present)
       axis = invert(cell.cell().F()) * axis;
     return axis / axis.norm();
@@ -88,6 +96,8 @@ namespace Morula
 
 
   MORULA_INSTANTIATE(axis_by_rule);
+  template struct DivisionRules<2>;
+  template struct DivisionRules<3>;
   template class DivisionAxes<2>;
   template class DivisionAxes<3>;
 } // namespace Morula

@@ -243,21 +243,6 @@ namespace Morula
 
 
   template <int dim>
-  Tensor<1, dim>
-  CellCycle<dim>::placement_axis(const CycleState<dim> &state,
-                                 const Tensor<2, dim>  &F_e) const
-  {
-    // The axis is one of the reference configuration. It is taken along by the
-    // elastic part if the scene says so.
-    if (!axis_follows_rotation)
-      return state.axis;
-
-    const Tensor<1, dim> carried = F_e * state.axis;
-    return carried / carried.norm();
-  }
-
-
-  template <int dim>
   unsigned int
   CellCycle<dim>::phase_number(const CycleState<dim> &state,
                                const CellAt<dim>     &at,

@@ -122,11 +122,7 @@ namespace Morula
     , exit_rate(state.use(parameters.exit_rate))
     , size_checkpoint(state.use(parameters.size_checkpoint))
     , where(parameters.where.expression(dim))
-    , axis_spread_(state.use(parameters.axis_spread))
-    , least_anisotropy_(state.use(parameters.least_anisotropy))
     , start_together(parameters.start == "together")
-    , axis_follows_rotation(parameters.axis_follows_rotation)
-    , stay_inside(parameters.stay_inside)
     , seed(seed)
     , slack(slack)
     // The flags are kept, as they are asked for each cell in each step: whether
@@ -163,8 +159,6 @@ namespace Morula
     if (!(where.value(X, 0.) > 0.))
       return;
     check_step(checked_duration(founder, X, true), step);
-    axis_spread(*founder.present(), 0.);
-    least_anisotropy(*founder.present(), 0.);
   }
 
 

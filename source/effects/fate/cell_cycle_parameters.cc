@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/rest_of_scene.h>
+
+#include <algorithm>
 
 namespace Morula
 {
@@ -22,7 +25,11 @@ namespace Morula
 
 
   CellCycleParameters::CellCycleParameters()
-    : start(path("Start"),
+    : law("Proliferation/Law",
+          "none",
+          "How cells grow and divide.",
+          {"none|cell cycle"})
+    , start(path("Start"),
             "waiting",
             "State at t = 0: 'waiting': all cells in G0, with "
             "exponentially distributed waits; 'together': all cells "
@@ -52,67 +59,15 @@ namespace Morula
             "Founders for which this is > 0 proliferate." +
               std::string(of_founder),
             Evaluated::founder)
-    , division_axis(
-        path("Division axis"),
-        "random",
-        "n_s, chosen at every onset of S, or at a Division by size: 'random': uniform on the sphere "
-        "(2-D: circle); 'fixed': along Fixed axis; in the present "
-        "configuration, 'stretch': along the largest elastic stretch, "
-        "'stress': along the most tensile stress, 'radial': away from Radial "
-        "center, 'surface normal', 'tangential': across or along the surface "
-        "that was nearest to the founder at t = 0, 'cell shape': along which "
-        "the cell is longest; 'gradient of NAME': along "
-        "which a field rises fastest.",
-        {"random"})
-    , axis_spread(path("Axis spread"),
-                  "0",
-                  "kappa: concentration of the axes around what Division axis "
-                  "says, by the distribution of von Mises and Fisher. The "
-                  "larger, the nearer: the root of the mean square angle tends "
-                  "to sqrt(2/kappa), in 2-D sqrt(1/kappa). An expression; not "
-                  "negative; 0: no spread.",
-                  Evaluated::event)
-    , least_anisotropy(
-        path("Least anisotropy"),
-        "1.02",
-        "Ratio of the two largest elastic stretches below which Division axis "
-        "= stretch takes a random axis; for stress, of 1 + (sigma_1 - "
-        "sigma_2)/(2 mu). An expression; at least 1.",
-        Evaluated::event)
-    , axis_follows_rotation(
-        path("Axis follows rotation"),
-        false,
-        "false: daughters are placed along n_s, as in the paper; "
-        "true: along F_e n_s. For Division axis = random or fixed; others "
-        "place them along the direction that they name.")
-    , stay_inside(
-        path("Stay inside surface"),
-        false,
-        "true: daughters are placed inside the whole surface; false: only "
-        "inside what is held of it, as in the paper.")
   {
-    // By default the axis is random and there is no checkpoint. Where is
-    // evaluated once per founder; the others at an event of the clock, since a
-    // cell in its cycle keeps what it began with. The words for the axis come
-    // later: rules add their names, and fields their gradients.
+    // By default there is no checkpoint. Where is evaluated once per founder;
+    // the others at an event of the clock, since a cell in its cycle keeps what
+    // it began with.
 
     // The limits below hold for numbers and for expressions, whose values are
     // checked at cells.
     duration.positive("day", "Choose the duration of a cycle in days.");
     exit_rate.not_negative("1/day", "0 lets cells wait forever.");
-    // A concentration of zero is a uniform distribution in theory; here it
-    // means that there is none.
-    axis_spread.not_negative(
-      "(a concentration)",
-      "0 means no spread; otherwise, the larger the "
-      "number, the nearer are axes to what Division axis "
-      "says.");
-    // A ratio of the larger to the smaller stretch cannot be below 1.
-    least_anisotropy.require(
-      [](const double ratio) { return ratio >= 1.; },
-      "a ratio of at least 1",
-      "1 lets every cell follow its stretch; 1.02 leaves those to chance that "
-      "can hardly tell.");
     size_checkpoint.not_negative("(a ratio of volumes)",
                                  "0 means no checkpoint.");
   }
@@ -126,20 +81,73 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  CellCycleParameters::idle_keys(const RestOfScene &scene) const
+  bool
+  CellCycleParameters::is_on() const
   {
-    const std::string remedy =
-      "Set " + division_axis.path() + ", or remove this key.";
-    std::vector<IdleKey> idle;
-    if (scene.division_axes == std::set<std::string>{"random"})
-      idle.push_back({axis_spread, "all axes are random", remedy});
-    if (scene.division_axes.count("stretch") +
-          scene.division_axes.count("stress") ==
-        0)
-      idle.push_back(
-        {least_anisotropy, "no axis is that of stretch or stress", remedy});
-    return idle;
+    return law != "none" || is_law_of_types;
+  }
+
+
+  std::string
+  CellCycleParameters::how_to_switch_on() const
+  {
+    return "Set " + law.path() + " = cell cycle";
+  }
+
+
+  std::string
+  CellCycleParameters::details() const
+  {
+    return "cell cycle, T = " + duration.text() +
+           " day, Lambda = " + exit_rate.text() + " /day";
+  }
+
+
+  std::vector<PartOfEffect>
+  CellCycleParameters::parts() const
+  {
+    return {{"size checkpoint",
+             !size_checkpoint.is_default(),
+             "J_th = " + size_checkpoint.text()}};
+  }
+
+
+  std::string
+  CellCycleParameters::counts_cells(const RestOfScene &scene) const
+  {
+    // Only the run can tell times that depend on the cells' state, and which
+    // cells die: the sum over generations is then a bound.
+    const auto &fates = scene.catalogue.fates;
+    const bool  others =
+      std::any_of(fates.begin(), fates.end(), [this](const auto &choice) {
+        return &choice.keys() != this && choice.keys().is_on();
+      });
+    return others || !size_checkpoint.is_default() ||
+               depends_on_more_than_place(duration.expression(scene.dim)) ||
+               depends_on_more_than_place(exit_rate.expression(scene.dim)) ?
+             "at least " :
+             "about ";
+  }
+
+
+  void
+  CellCycleParameters::take_laws_of_types(
+    const std::vector<const Key<std::string> *> &laws)
+  {
+    // Cells of a type that does not proliferate stay in G0: their rate of
+    // leaving it is set to 0, so that one cell cycle serves all types.
+    is_law_of_types =
+      std::any_of(laws.begin(), laws.end(), [](const Key<std::string> *own) {
+        return !own->empty() && *own != "none";
+      });
+    if (!is_on())
+      return;
+    for (unsigned int i = 0; i < laws.size(); ++i)
+      {
+        const Key<std::string> &of_type = laws[i]->empty() ? law : *laws[i];
+        if (of_type == "none")
+          exit_rate.set_for_type(i, of_type.path(), "0");
+      }
   }
 
 
@@ -147,15 +155,6 @@ namespace Morula
   CellCycleParameters::list()
   {
     // The order is that of the printed parameters.
-    return {&start,
-            &duration,
-            &exit_rate,
-            &size_checkpoint,
-            &where,
-            &division_axis,
-            &axis_spread,
-            &least_anisotropy,
-            &axis_follows_rotation,
-            &stay_inside};
+    return {&law, &start, &duration, &exit_rate, &size_checkpoint, &where};
   }
 } // namespace Morula

@@ -8,22 +8,9 @@ namespace Morula
 {
   template <int dim>
   const DivisionRule<dim> *
-  DivisionRules<dim>::rule(const unsigned int type) const
-  {
-    // Without types of cells there is at most one rule; null stands for the
-    // random axis.
-    if (!of_type.empty())
-      return of_type[type];
-    return list.empty() ? nullptr : list.front().get();
-  }
-
-
-  template <int dim>
-  const DivisionRule<dim> *
   DividingFate<dim>::rule(const unsigned int type) const
   {
-    const DivisionRules<dim> *const rules = division_rules();
-    return rules != nullptr ? rules->rule(type) : nullptr;
+    return axes ? axes->rules().rule(type) : nullptr;
   }
 
 
@@ -31,8 +18,8 @@ namespace Morula
   void
   DividingFate<dim>::check(const Preview<dim> &scene) const
   {
-    if (const DivisionRules<dim> *const rules = division_rules())
-      for (const auto &rule : rules->list)
+    if (axes)
+      for (const auto &rule : axes->rules().list)
         rule->check(scene);
   }
 
@@ -41,8 +28,8 @@ namespace Morula
   void
   DividingFate<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    if (const DivisionRules<dim> *const rules = division_rules())
-      for (const auto &rule : rules->list)
+    if (axes)
+      for (const auto &rule : axes->rules().list)
         rule->review(scene, review);
   }
 
@@ -60,8 +47,6 @@ namespace Morula
   }
 
 
-  template struct DivisionRules<2>;
-  template struct DivisionRules<3>;
   template class DividingFate<2>;
   template class DividingFate<3>;
 } // namespace Morula

@@ -5,6 +5,7 @@
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/rest_of_scene.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <boost/math/special_functions/erf.hpp>
@@ -66,6 +67,15 @@ namespace Morula
   }
 
 
+  void
+  DivisionBySizeParameters::check_with(const RestOfScene &scene) const
+  {
+    if (is_on() && scene.growth_law == "none")
+      volume.refuse("its default, as no cell grows",
+                    "Set Growth/Law, or remove this key.");
+  }
+
+
   template <int dim>
   DivisionBySize<dim>::DivisionBySize(const Parameters         &parameters,
                                       const EffectSetting<dim> &setting)
@@ -74,7 +84,6 @@ namespace Morula
     , random_seed(setting.random_seed)
     , rounding(1024. * setting.slack)
     , whole_volume(setting.whole_volume)
-    , axes(setting.axes)
   {
     // With parent and generation a cell's box is that of F_e, doc/theory.md
     // (2.2b): F alone says nothing of the shape of cells that grow and divide.
@@ -114,14 +123,6 @@ namespace Morula
   {
     if (share.exists())
       cell.set(share, std::min(1., cell.initial_volume() / whole_volume));
-  }
-
-
-  template <int dim>
-  const DivisionRules<dim> *
-  DivisionBySize<dim>::division_rules() const
-  {
-    return axes ? &axes->rules() : nullptr;
   }
 
 
@@ -237,8 +238,9 @@ namespace Morula
   {
     row.set(time, s);
     row.set(axis,
-            axes ? axes->choose(cell, s) :
-                   Random::direction<dim>(random_seed, cell.lineage_key()));
+            this->axes ?
+              this->axes->choose(cell, s) :
+              Random::direction<dim>(random_seed, cell.lineage_key()));
     return LifeAfter::divides;
   }
 
@@ -254,13 +256,15 @@ namespace Morula
 
 
   template <int dim>
-  double
-  DivisionBySize<dim>::expected_cells(const Point<dim> &X, const double V) const
+  ExpectedCells<dim>
+  DivisionBySize<dim>::expected_cells(const double) const
   {
     if (depends_on_more_than_place(volume) || !volume.types().empty())
-      return 1.;
-    const double mean = volume.value(X, 0.);
-    return mean > 0. ? expected_cells_by_size(V / mean, 0.) : 1.;
+      return {};
+    return [this](const Point<dim> &X, const double V) {
+      const double mean = volume.value(X, 0.);
+      return mean > 0. ? expected_cells_by_size(V / mean, 0.) : 1.;
+    };
   }
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/division/division_axes.h>
+#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 
@@ -10,6 +10,20 @@
 
 namespace Morula
 {
+  template <int dim>
+  Proliferation<dim>::Proliferation(const Parameters         &parameters,
+                                    const EffectSetting<dim> &setting)
+    : Proliferation(CellCycle<dim>(parameters,
+                                   setting.random_seed,
+                                   setting.slack,
+                                   setting.state),
+                    setting.columns,
+                    setting.random_seed)
+  {
+    this->parameters = parameters;
+  }
+
+
   template <int dim>
   Proliferation<dim>::Proliferation(CellCycle<dim>      cycle,
                                     CellColumns<dim>   &columns,
@@ -26,26 +40,34 @@ namespace Morula
 
   template <int dim>
   void
-  Proliferation<dim>::set_rules(DivisionRules<dim> rules)
+  Proliferation<dim>::check(const Preview<dim> &scene) const
   {
-    this->rules = std::move(rules);
-  }
-
-
-  template <int dim>
-  const DivisionRules<dim> *
-  Proliferation<dim>::division_rules() const
-  {
-    return &rules;
+    DividingFate<dim>::check(scene);
+    cycle_.check(scene.founders, scene.step);
   }
 
 
   template <int dim>
   void
-  Proliferation<dim>::check(const Preview<dim> &scene) const
+  Proliferation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    DividingFate<dim>::check(scene);
-    cycle_.check(scene.founders, scene.step);
+    DividingFate<dim>::review(scene, review);
+    if (parameters)
+      review_cell_cycle(*parameters, scene, review);
+  }
+
+
+  template <int dim>
+  ExpectedCells<dim>
+  Proliferation<dim>::expected_cells(const double t) const
+  {
+    if (!parameters)
+      return {};
+    return
+      [descendants = Descendants<dim>(*parameters, t)](const Point<dim> &X,
+                                                       const double) mutable {
+        return descendants.expected(X);
+      };
   }
 
 
@@ -129,13 +151,15 @@ namespace Morula
     // configuration.
     const CycleState<dim>          state = clock(cell);
     const DivisionRule<dim> *const rule  = this->rule(type);
-    if (rule == nullptr || rule->frame() == AxisFrame::reference)
-      return cycle_.placement_axis(state, cell.elastic_deformation());
     // The running cycle stretches n_s along itself, so what is behind it in F_g
     // is taken off and the direction is F F_pre⁻¹ n_s.
-    const Tensor<1, dim> carried =
-      cell.F() * (invert(state.growth_pre) * state.axis);
-    return carried / carried.norm();
+    if (rule != nullptr && rule->frame() == AxisFrame::present)
+      return this->axes->placement(cell,
+                                   invert(state.growth_pre) * state.axis,
+                                   type);
+    return this->axes && this->axes->follow_rotation() ?
+             this->axes->placement(cell, state.axis, type) :
+             state.axis;
   }
 
 
@@ -277,8 +301,11 @@ namespace Morula
   Proliferation<dim>::check_cell(const PresentCell<dim> &founder,
                                  const double            step) const
   {
-    const DivisionRule<dim> *const rule = this->rule(founder.type());
-    if (rule != nullptr && clock(founder.cell()).phase != CyclePhase::never)
+    if (clock(founder.cell()).phase == CyclePhase::never)
+      return;
+    if (this->axes)
+      this->axes->draw(founder, 0., 0);
+    if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
       rule->check_cell(founder, step);
   }
 
@@ -327,11 +354,11 @@ namespace Morula
                    cell,
                    t,
                    after.axis,
-                   {cycle_.axis_spread(cell, t),
-                    cycle_.least_anisotropy(cell, t),
-                    random_seed,
-                    has_begun ? Random::past_key(random_seed, after.key) :
-                                after.key});
+                   this->axes->draw(cell,
+                                    t,
+                                    has_begun ?
+                                      Random::past_key(random_seed, after.key) :
+                                      after.key));
     // A present direction is pulled back through all growth but the cycle's,
     // doc/theory.md (6.3e), since the cycle's stretch acts before that.
     if (rule->frame() == AxisFrame::present)

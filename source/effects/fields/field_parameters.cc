@@ -202,7 +202,7 @@ namespace Morula
 
 
   bool
-  FieldsParameters::have_surface() const
+  FieldsParameters::needs_surface() const
   {
     return std::any_of(fields.begin(),
                        fields.end(),
@@ -217,7 +217,7 @@ namespace Morula
   {
     for (const FieldKeys &field : fields)
       field.check(scene.dim);
-    if (have_surface() && scene.no_surface != nullptr)
+    if (needs_surface() && scene.no_surface != nullptr)
       names.refuse("fields that nothing is done to at the surface, as " +
                      scene.no_surface->path() + " = none",
                    "Remove their Fixed where, Transfer and Flux where, or set "
@@ -248,15 +248,18 @@ namespace Morula
   }
 
 
-  std::vector<std::string>
-  FieldsParameters::name_list() const
+  std::vector<NamedField>
+  FieldsParameters::named_fields() const
   {
-    return names_of(fields);
+    std::vector<NamedField> list;
+    for (const FieldKeys &field : fields)
+      list.push_back({field.name, field.exchanged});
+    return list;
   }
 
 
   void
-  FieldsParameters::declare_fields(const std::string &text)
+  FieldsParameters::declare_sections(const std::string &text)
   {
     // Names become variables of expressions and columns of tables, so they must
     // be free for both.

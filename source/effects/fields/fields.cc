@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/tables.h>
+#include <morula/effects/fields/step_fields.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -46,6 +46,7 @@ namespace Morula
   template <int dim>
   Fields<dim>::Fields(const FieldsParameters   &parameters,
                       const EffectSetting<dim> &setting)
+    : parameters_(parameters)
   {
     // Numbers follow the order of the names; the order in which fields are
     // found is another one.
@@ -55,6 +56,14 @@ namespace Morula
     setting.state.declare_fields(setting.columns);
     columns   = setting.state.fields;
     gradients = setting.state.gradients;
+  }
+
+
+  template <int dim>
+  std::unique_ptr<EquationInRun<dim>>
+  Fields<dim>::in_run(const RunTools<dim> &tools) const
+  {
+    return std::make_unique<StepFields<dim>>(*this, tools);
   }
 
 
@@ -99,7 +108,7 @@ namespace Morula
 
   template <int dim>
   void
-  Fields<dim>::check_cell(const PresentCell<dim> &founder) const
+  Fields<dim>::check_cell(const PresentCell<dim> &founder, const double) const
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
@@ -116,8 +125,7 @@ namespace Morula
 
   template <int dim>
   void
-  Fields<dim>::check_surface(const FieldsParameters        &parameters,
-                             const std::vector<Point<dim>> &X,
+  Fields<dim>::check_surface(const std::vector<Point<dim>> &X,
                              const MPI_Comm                 comm) const
   {
     for (unsigned int k = 0; k < fields.size(); ++k)
@@ -136,8 +144,8 @@ namespace Morula
                 fields[k].flux(place, 0.);
               }
         });
-        check_holds(parameters.fields[k].fixed_where, n_fixed, comm);
-        check_holds(parameters.fields[k].flux_where, n_of_flux, comm);
+        check_holds(parameters_.fields[k].fixed_where, n_fixed, comm);
+        check_holds(parameters_.fields[k].flux_where, n_of_flux, comm);
       }
   }
 
@@ -257,18 +265,6 @@ namespace Morula
 
   template <int dim>
   void
-  Fields<dim>::dilute(const CellView<dim, double> &cell,
-                      const double                 ratio) const
-  {
-    for (unsigned int k = 0; k < fields.size(); ++k)
-      // The amount c V stays, doc/theory.md, section 11.4.
-      if (fields[k].is_diluted())
-        cell.set(columns[k], cell.get(columns[k]) / ratio);
-  }
-
-
-  template <int dim>
-  void
   Fields<dim>::declare(Tables<dim> &tables) const
   {
     for (const Field<dim> &field : fields)
@@ -279,11 +275,11 @@ namespace Morula
 
   template <int dim>
   std::vector<Column<double>>
-  Fields<dim>::carried() const
+  Fields<dim>::densities() const
   {
     std::vector<Column<double>> list;
     for (unsigned int k = 0; k < fields.size(); ++k)
-      if (fields[k].is_diluted() && fields[k].kind() == FieldKind::transient)
+      if (fields[k].is_diluted())
         list.push_back(columns[k]);
     return list;
   }

@@ -18,18 +18,11 @@ namespace Morula
 
 
   template <int dim>
-  StepFields<dim>::StepFields(const Fields<dim>          &fields,
-                              const FieldsParameters     &parameters,
-                              const CellDevelopment<dim> &development,
-                              const MakeLinearSolver     &make_solver,
-                              TimerOutput                &timer,
-                              const Announce             &announce)
+  StepFields<dim>::StepFields(const Fields<dim>   &fields,
+                              const RunTools<dim> &tools)
     : fields(fields)
-    , parameters(parameters)
-    , development(development)
-    , make_solver(make_solver)
-    , timer(timer)
-    , announce(announce)
+    , parameters(fields.parameters())
+    , tools(tools)
   {}
 
 
@@ -56,9 +49,9 @@ namespace Morula
     // the solution is equal on all ranks as far as these warnings ask.
     if (!fields.any(kind))
       return {};
-    const TimerOutput::Scope section(timer, "fields");
+    const TimerOutput::Scope section(tools.timer, "fields");
     if (!solver)
-      solver.emplace(tissue, space, development.reader(t), make_solver);
+      solver.emplace(tissue, space, tools.reader(t), tools.make_solver);
     FieldsOfStep<dim> found;
     try
       {
@@ -111,7 +104,7 @@ namespace Morula
          << " iterations, as what cells do to it depends on itself. The next "
             "step goes on from there; expressions without jumps converge "
             "better. Later ones are not told of.";
-    announce(text.str());
+    tools.announce(text.str());
   }
 
 
@@ -133,7 +126,7 @@ namespace Morula
          << "': its level there is not determined, and is set to 0. Give it a "
             "Consumption, a fixed value or a Transfer there. Later ones are "
             "not told of.";
-    announce(text.str());
+    tools.announce(text.str());
   }
 
 
@@ -154,15 +147,15 @@ namespace Morula
             "a smaller Grid/Spacing with smaller cells, or keep the surface "
             "smooth by Boundary conditions/Surface tension. Later times are "
             "not told of.";
-    announce(text.str());
+    tools.announce(text.str());
   }
 
 
   template <int dim>
   void
-  StepFields<dim>::set_steady(Tissue<dim>            &tissue,
-                              const SplineSpace<dim> &space,
-                              const double            t)
+  StepFields<dim>::settle(Tissue<dim>            &tissue,
+                          const SplineSpace<dim> &space,
+                          const double            t)
   {
     fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
     // The transient fields of this step use the same configuration, and then
@@ -173,18 +166,18 @@ namespace Morula
 
 
   template <int dim>
-  FieldsOfStep<dim>
-  StepFields<dim>::transient(const Tissue<dim>      &tissue,
-                             const SplineSpace<dim> &space,
-                             const double            t,
-                             const double            t_next)
+  void
+  StepFields<dim>::advance(Tissue<dim>            &tissue,
+                           const SplineSpace<dim> &space,
+                           const double            t,
+                           const double            t_next)
   {
     // The tissue moves after this call. What the solver has summed belongs to
     // the places before.
-    FieldsOfStep<dim> found =
+    const FieldsOfStep<dim> found =
       find(FieldKind::transient, tissue, space, t, t_next);
     forget_configuration();
-    return found;
+    fields.set(tissue, found);
   }
 
 

@@ -29,8 +29,8 @@ namespace
   {
   public:
     explicit OneCell(const typename Rule<dim>::Parameters &keys,
-                     const CellCycleParameters &cycle_keys = together())
-      : development(make(keys, cycle_keys))
+                     const DivisionParameters &division = DivisionParameters())
+      : development(make(keys, division))
       , row(development.columns().founder(X(), 100.))
     {
       view().set(development.columns().deformation, F());
@@ -103,7 +103,7 @@ namespace
   private:
     static CellDevelopment<dim>
     make(const typename Rule<dim>::Parameters &keys,
-         const CellCycleParameters            &cycle_keys)
+         const DivisionParameters             &division)
     {
       CellColumns<dim>         columns;
       StateColumns<dim>        state;
@@ -118,9 +118,10 @@ namespace
       else
         rules.list.push_back(std::make_unique<const Rule<dim>>(keys));
       auto proliferation = std::make_unique<Proliferation<dim>>(
-        CellCycle<dim>(cycle_keys, seed, slack, state), columns, seed);
-      proliferation->set_rules(std::move(rules));
-      effects.proliferation = effects.add_fate(std::move(proliferation));
+        CellCycle<dim>(together(), seed, slack, state), columns, seed);
+      proliferation->set_axes(std::make_shared<const DivisionAxes<dim>>(
+        division, state, std::move(rules), seed));
+      effects.add_fate(std::move(proliferation));
       state.declare(columns);
       return CellDevelopment<dim>(std::move(effects),
                                   columns,
@@ -206,8 +207,8 @@ namespace
   void
   check_fallback()
   {
-    CellCycleParameters keys = OneCell<dim, StretchAxis>::together();
-    keys.least_anisotropy    = "2 + 0*volume";
+    DivisionParameters keys;
+    keys.least_anisotropy = "2 + 0*volume";
     OneCell<dim, StretchAxis> stretched({}, keys);
     const auto                state = stretched.onset();
     EXPECT_LT((stretched.carried(state) - random_direction(state)).norm(),
@@ -230,8 +231,8 @@ namespace
   void
   check_spread()
   {
-    CellCycleParameters keys = OneCell<dim, SurfaceNormalAxis>::together();
-    keys.axis_spread         = "4 + 0*noise";
+    DivisionParameters keys;
+    keys.axis_spread = "4 + 0*noise";
     OneCell<dim, SurfaceNormalAxis> cell({}, keys);
     const auto normal = Directions::carried_normal(cell.F(), cell.normal());
     for (unsigned int id = 0; id < 100; ++id)

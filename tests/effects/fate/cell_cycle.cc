@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/random.h>
 
@@ -67,7 +68,10 @@ TEST(CellCycle, KeysAndDefaults)
 {
   ParameterHandler    prm;
   CellCycleParameters parameters;
+  DivisionParameters  division;
   parameters.declare(prm);
+  division.declare(prm);
+  EXPECT_FALSE(parameters.is_on());
   prm.enter_subsection("Proliferation");
   prm.enter_subsection("Cell cycle");
 
@@ -87,8 +91,8 @@ TEST(CellCycle, KeysAndDefaults)
   prm.set("Axis follows rotation", "true");
   EXPECT_EQ(parameters.start, "together");
   EXPECT_EQ(parameters.duration, "1 + X");
-  EXPECT_EQ(parameters.axis_spread, "10 + X");
-  EXPECT_TRUE(parameters.axis_follows_rotation);
+  EXPECT_EQ(division.axis_spread, "10 + X");
+  EXPECT_TRUE(division.axis_follows_rotation);
 }
 
 
@@ -392,20 +396,22 @@ TEST(CellCycle, SeveralPhaseChangesInOneStep)
 }
 
 
-TEST(CellCycle, PlacementAxis)
+TEST(DivisionAxes, FollowRotationOnRequest)
 {
-  Tensor<2, 3> F_e;
-  F_e[0][2]        = 2.;
-  F_e[1][0]        = 0.5;
-  F_e[2][1]        = 1.;
-  const auto state = in_phase<3>(CyclePhase::growing, 0.);
-
-  CellCycleParameters parameters;
-  EXPECT_EQ(CellCycle<3>(parameters, seed, slack).placement_axis(state, F_e),
-            state.axis);
-  parameters.axis_follows_rotation = true;
-  EXPECT_EQ(CellCycle<3>(parameters, seed, slack).placement_axis(state, F_e),
-            (Tensor<1, 3>({1., 0., 0.})));
+  CellColumns<3>            columns;
+  StateColumns<3>           state;
+  std::vector<double>       row = columns.founder(Point<3>(), 1.);
+  const CellView<3, double> cell(make_array_view(row), columns);
+  Tensor<2, 3>              F;
+  F[0][2] = 2.;
+  F[1][0] = 0.5;
+  F[2][1] = 1.;
+  cell.set(columns.deformation, F);
+  const Tensor<1, 3> z({0., 0., 1.}), x({1., 0., 0.});
+  DivisionParameters keys;
+  EXPECT_EQ(DivisionAxes<3>(keys, state, {}, seed).placement(cell, z, 0), z);
+  keys.axis_follows_rotation = true;
+  EXPECT_EQ(DivisionAxes<3>(keys, state, {}, seed).placement(cell, z, 0), x);
 }
 
 

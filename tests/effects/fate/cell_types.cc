@@ -142,10 +142,9 @@ TEST(CellTypes, HaveAxesOfTheirOwn)
     settings.push_back(setting);
   const Scene scene = scene_of(settings);
   EXPECT_NO_THROW(scene.check());
-  EXPECT_EQ(effects_of<2>(scene)
-              .development.proliferation->division_rules()
-              ->list.size(),
-            1u);
+  const SceneEffects<2> effects = effects_of<2>(scene);
+  EXPECT_EQ(effects.development.proliferation->rule(0), nullptr);
+  EXPECT_NE(effects.development.proliferation->rule(1), nullptr);
   const CellDevelopment<2> development = development_of(scene);
   for (const double X : {0., 80.})
     {

@@ -22,7 +22,7 @@ namespace
     const SceneEffects<2> effects = effects_of<2>(scene_of(settings));
     EXPECT_EQ(effects.forces.size(), 1u);
     std::mt19937 generator(1);
-    const auto   term = effects.forces.at(0).force->term(
+    const auto   term = effects.forces.at(0).effect->term(
       alone.tissue,
       alone.development.reader(0.),
       random_points_in_cell<2>(generator, positions.size()),

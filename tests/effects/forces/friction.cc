@@ -33,7 +33,7 @@ namespace
     const Alone           alone(settings, positions);
     const SceneEffects<2> effects = effects_of<2>(scene_of(settings));
     EXPECT_EQ(effects.forces.size(), 1u);
-    const Force<2>     &force  = *effects.forces.at(0).force;
+    const Force<2>     &force  = *effects.forces.at(0).effect;
     const CellReader<2> reader = alone.development.reader(1.);
     std::mt19937        generator(1);
     const auto          term =

@@ -30,6 +30,13 @@ namespace Morula
     bool
     is_of_all() const;
 
+    /** Bodies touch by their surfaces. */
+    bool
+    needs_surface() const override
+    {
+      return true;
+    }
+
     void
     check_with(const RestOfScene &scene) const override;
 

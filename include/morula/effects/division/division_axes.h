@@ -4,14 +4,31 @@
 #ifndef morula_effects_division_division_axes_h
 #define morula_effects_division_division_axes_h
 
-#include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/fate/dividing_fate.h>
+#include <morula/effects/division/division_parameters.h>
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace Morula
 {
   using namespace dealii;
+
+  /** The rules for the axes along which cells divide. */
+  template <int dim>
+  struct DivisionRules
+  {
+    std::vector<std::unique_ptr<const DivisionRule<dim>>> list;
+    /** The rule of each type of cells, one of these, or null for a random axis;
+     *  empty: all types have the first. */
+    std::vector<const DivisionRule<dim> *> of_type;
+
+    /** The rule of a type of cells, or null. */
+    const DivisionRule<dim> *
+    rule(const unsigned int type) const;
+  };
 
   /** What besides the rule decides about an axis. */
   struct AxisDraw
@@ -38,26 +55,36 @@ namespace Morula
                const Tensor<1, dim>    &random,
                const AxisDraw          &draw);
 
-  /**
-   * Along what the cells of a scene without a cell cycle divide: the rules of
-   * its types, and the keys of the cycle's section that concern axes. Axes are
-   * kept in the reference configuration.
-   */
+  /** Along what the cells of a scene divide: the rules of its types, and keys.
+   *  Axes are kept in the reference configuration. */
   template <int dim>
   class DivisionAxes
   {
   public:
     /** @throws InputError for expressions that cannot be parsed */
-    DivisionAxes(const CellCycleParameters &keys,
-                 StateColumns<dim>         &state,
-                 DivisionRules<dim>         rules,
-                 const std::uint64_t        seed);
+    DivisionAxes(const DivisionParameters &keys,
+                 StateColumns<dim>        &state,
+                 DivisionRules<dim>        rules,
+                 const std::uint64_t       seed);
 
     /** All rules. */
     const DivisionRules<dim> &
     rules() const
     {
       return all;
+    }
+
+    /** What decides about the axis of a cell in its state at @p t (day),
+     * besides its rule. @param key of the draw. @throws InputError */
+    AxisDraw
+    draw(const PresentCell<dim> &cell,
+         const double            t,
+         const std::uint64_t     key) const
+    {
+      return {cell.value(spread, t),
+              cell.value(least_anisotropy, t),
+              seed,
+              key};
     }
 
     /** The unit vector in the reference configuration along which a cell in its
@@ -71,6 +98,14 @@ namespace Morula
     placement(const CellView<dim, const double> &cell,
               const Tensor<1, dim>              &axis,
               const unsigned int                 type) const;
+
+    /** Whether an axis of the reference configuration is placed along F_e n_s,
+     *  not n_s. */
+    bool
+    follow_rotation() const
+    {
+      return follows_rotation;
+    }
 
     /** Whether daughters stay inside the whole surface. */
     bool

@@ -27,30 +27,73 @@ namespace Morula
   template <int dim>
   class PresentCell;
 
-  /** Section "Proliferation/Cell cycle". */
+  /** Section "Proliferation/Cell cycle", but for DivisionParameters. */
   struct CellCycleParameters : public EffectKeys
   {
     CellCycleParameters();
 
+    Key<std::string> law; // of all types that have none of their own
     Key<std::string> start;
     ExpressionKey    duration;        // day
     ExpressionKey    exit_rate;       // 1/day
     ExpressionKey    size_checkpoint; // J_th
     ExpressionKey    where;
-    Key<std::string> division_axis;
-    ExpressionKey    axis_spread; // κ
-    ExpressionKey    least_anisotropy;
-    Key<bool>        axis_follows_rotation;
-    Key<bool>        stay_inside;
 
+    bool
+    is_on() const override;
+
+    const AnyKey *
+    switch_key() const override
+    {
+      return &law;
+    }
+
+    std::string
+    how_to_switch_on() const override;
+
+    bool
+    divides_cells() const override
+    {
+      return true;
+    }
+
+    bool
+    grows_cells() const override
+    {
+      return true;
+    }
+
+    const ExpressionKey *
+    founders_key() const override
+    {
+      return &where;
+    }
+
+    void
+    take_laws_of_types(
+      const std::vector<const Key<std::string> *> &laws) override;
     std::vector<const AnyKey *>
     said_by_column(const std::string &column) const override;
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
+
+    std::string
+    topic() const override
+    {
+      return "proliferation";
+    }
+
+    std::string
+    details() const override;
+    std::vector<PartOfEffect>
+    parts() const override;
+    std::string
+    counts_cells(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList
     list() override;
+
+  private:
+    bool is_law_of_types = false; // of some
   };
 
   /** Warns of steps that are long beside the shortest cycle of a founder.
@@ -368,38 +411,6 @@ namespace Morula
     std::pair<CycleState<dim>, CycleState<dim>>
     daughters(const CycleState<dim> &mother) const;
 
-    /**
-     * Unit direction along which the daughters of a `growing` cell are placed:
-     * n_s, or F_e n_s normalised if the axis follows the rotation.
-     */
-    Tensor<1, dim>
-    placement_axis(const CycleState<dim> &state,
-                   const Tensor<2, dim>  &F_e) const;
-
-    /** Whether daughters stay inside the whole surface, not only inside its
-     *  held parts. */
-    bool
-    stays_inside() const
-    {
-      return stay_inside;
-    }
-
-    /** κ of (6.3d) of a cell, for division rules; 0: no spread.
-     *  @throws InputError */
-    double
-    axis_spread(const PresentCell<dim> &cell, const double t) const
-    {
-      return cell.value(axis_spread_, t);
-    }
-
-    /** Ratio of stretches, >= 1, below which a cell cannot tell them apart.
-     *  @throws InputError */
-    double
-    least_anisotropy(const PresentCell<dim> &cell, const double t) const
-    {
-      return cell.value(least_anisotropy_, t);
-    }
-
     /** Whether there is a size checkpoint at all. */
     bool
     has_checkpoint() const
@@ -478,10 +489,7 @@ namespace Morula
               StateColumns<dim>        &&own);
 
     Expression    duration, exit_rate, size_checkpoint, where;
-    Expression    axis_spread_, least_anisotropy_;
     bool          start_together;
-    bool          axis_follows_rotation;
-    bool          stay_inside;
     std::uint64_t seed;
     double        slack;
     bool          own_duration, own_hazard, exit_rate_follows_state;

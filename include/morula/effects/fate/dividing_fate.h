@@ -4,28 +4,14 @@
 #ifndef morula_effects_fate_dividing_fate_h
 #define morula_effects_fate_dividing_fate_h
 
-#include <morula/effects/division/division_rule.h>
+#include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/fate.h>
 
 #include <memory>
-#include <vector>
+#include <utility>
 
 namespace Morula
 {
-  /** The rules for the axes along which cells divide. */
-  template <int dim>
-  struct DivisionRules
-  {
-    std::vector<std::unique_ptr<const DivisionRule<dim>>> list;
-    /** The rule of each type of cells, one of these, or null for a random axis;
-     *  empty: all types have the first. */
-    std::vector<const DivisionRule<dim> *> of_type;
-
-    /** The rule of a type of cells, or null. */
-    const DivisionRule<dim> *
-    rule(const unsigned int type) const;
-  };
-
   /** A fate that divides cells. */
   template <int dim>
   class DividingFate : public Fate<dim>
@@ -37,9 +23,17 @@ namespace Morula
       return true;
     }
 
-    /** The rules, or null. */
-    virtual const DivisionRules<dim> *
-    division_rules() const = 0;
+    void
+    set_axes(std::shared_ptr<const DivisionAxes<dim>> axes) override
+    {
+      this->axes = std::move(axes);
+    }
+
+    bool
+    stays_inside() const override
+    {
+      return axes && axes->stay_inside();
+    }
 
     /** The rule of a type of cells, or null. */
     const DivisionRule<dim> *
@@ -56,6 +50,9 @@ namespace Morula
     void
     halve(const CellView<dim, double> &daughter,
           const StateColumns<dim>     &columns) const;
+
+    /** Null before a scene is complete. */
+    std::shared_ptr<const DivisionAxes<dim>> axes;
   };
 } // namespace Morula
 

@@ -5,7 +5,6 @@
 #define morula_effects_fate_division_by_size_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/dividing_fate.h>
 
 #include <memory>
@@ -37,6 +36,15 @@ namespace Morula
     divides_cells() const override
     {
       return true;
+    }
+
+    void
+    check_with(const RestOfScene &scene) const override;
+
+    std::string
+    counts_cells(const RestOfScene &) const override
+    {
+      return "about ";
     }
 
     std::string
@@ -74,9 +82,6 @@ namespace Morula
     /** Keeps which part of a whole cell a founder is. */
     void
     begin(const CellView<dim, double> &cell) const override;
-
-    const DivisionRules<dim> *
-    division_rules() const override;
 
     bool
     follows_growth() const override
@@ -117,19 +122,13 @@ namespace Morula
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const override
     {
-      return axes ? axes->placement(cell, cell.get(axis), type) :
-                    cell.get(axis);
-    }
-
-    bool
-    stays_inside() const override
-    {
-      return axes && axes->stay_inside();
+      return this->axes ? this->axes->placement(cell, cell.get(axis), type) :
+                          cell.get(axis);
     }
 
     /** A founder that the surface has cut counts as a whole cell here. */
-    double
-    expected_cells(const Point<dim> &X, const double V) const override;
+    ExpectedCells<dim>
+    expected_cells(const double t) const override;
 
     double
     expected_cells(const PresentCell<dim> &founder,
@@ -163,16 +162,14 @@ namespace Morula
                const CellView<dim, double> &row,
                const Stretch               &stretch) const;
 
-    Expression    volume, noise;
-    std::uint64_t random_seed;
-    double        rounding;     // of times, day
-    double        whole_volume; // µm^dim; 0: all founders are whole
-    /** Null before a scene is complete. */
-    std::shared_ptr<const DivisionAxes<dim>> axes;
-    Column<double>                           grown_volume; // µm^dim
-    Column<double>                           growth_rate;  // 1/day
-    Column<double>                           time;         // day
-    Column<Tensor<1, dim>>                   axis;
+    Expression             volume, noise;
+    std::uint64_t          random_seed;
+    double                 rounding;     // of times, day
+    double                 whole_volume; // µm^dim; 0: all founders are whole
+    Column<double>         grown_volume; // µm^dim
+    Column<double>         growth_rate;  // 1/day
+    Column<double>         time;         // day
+    Column<Tensor<1, dim>> axis;
     /** Which part of a whole cell a founder is, where the surface cuts some. */
     Column<double> share;
   };

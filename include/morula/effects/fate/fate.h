@@ -8,6 +8,11 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/cell_event.h>
 
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +23,15 @@ namespace Morula
   {
     double begin, end; // day
   };
+
+  template <int dim>
+  class DivisionAxes;
+
+  /** How many cells a founder at X (µm) becomes on average, if growth takes the
+   *  volume of all of them to V, µm^dim. Empty: one. */
+  template <int dim>
+  using ExpectedCells =
+    std::function<double(const Point<dim> & /*X*/, const double /*V*/)>;
 
   /** What an event leaves of a cell's life in the step. */
   enum class LifeAfter
@@ -122,6 +136,11 @@ namespace Morula
       return false;
     }
 
+    /** Tells along what cells divide; without it at random. */
+    virtual void
+    set_axes(std::shared_ptr<const DivisionAxes<dim>>)
+    {}
+
     /** Whether grow() is to be called. */
     virtual bool
     follows_growth() const
@@ -155,13 +174,12 @@ namespace Morula
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const;
 
-    /** How many cells a founder at @p X (µm) becomes on average, if growth
-     *  takes the volume of all of them to @p V, µm^dim; 1 where place alone
-     *  does not tell. For estimates before there are cells. */
-    virtual double
-    expected_cells(const Point<dim> & /*X*/, const double /*V*/) const
+    /** What founders become until @p t, day, as far as place alone tells. For
+     *  estimates before there are cells. */
+    virtual ExpectedCells<dim>
+    expected_cells(const double /*t*/) const
     {
-      return 1.;
+      return {};
     }
 
     /** The same of a founder in its state at t = 0, whose volume grows by the

@@ -7,6 +7,7 @@
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/dividing_fate.h>
 
+#include <cstdint>
 #include <optional>
 
 namespace Morula
@@ -20,14 +21,16 @@ namespace Morula
   class Proliferation : public DividingFate<dim>
   {
   public:
+    using Parameters = CellCycleParameters;
+
+    /** Declares the columns of the clock. @throws InputError */
+    Proliferation(const Parameters         &parameters,
+                  const EffectSetting<dim> &setting);
+
     /** Declares the columns of the clock. @param seed of the scene */
     Proliferation(CellCycle<dim>      cycle,
                   CellColumns<dim>   &columns,
                   const std::uint64_t seed);
-
-    /** Sets the rules for axes; without one the cycle draws the axis. */
-    void
-    set_rules(DivisionRules<dim> rules);
 
     const CellCycle<dim> &
     cycle() const
@@ -41,11 +44,15 @@ namespace Morula
       return columns_;
     }
 
-    const DivisionRules<dim> *
-    division_rules() const override;
-
     void
     check(const Preview<dim> &scene) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
+    using Fate<dim>::expected_cells;
+    ExpectedCells<dim>
+    expected_cells(const double t) const override;
 
     /** A cell's clock. */
     CycleState<dim>
@@ -110,12 +117,6 @@ namespace Morula
     double
     time_of_division(const CellView<dim, const double> &cell,
                      const double                       t) const override;
-
-    bool
-    stays_inside() const override
-    {
-      return cycle_.stays_inside();
-    }
 
     void
     inherit(const CellView<dim, double> &daughter,
@@ -185,10 +186,11 @@ namespace Morula
                 const double            t,
                 CycleState<dim>        &after) const;
 
-    CellCycle<dim>     cycle_;
-    CycleColumns<dim>  columns_;
-    std::uint64_t      random_seed;
-    DivisionRules<dim> rules;
+    CellCycle<dim>    cycle_;
+    CycleColumns<dim> columns_;
+    std::uint64_t     random_seed;
+    /** The keys, in a scene. */
+    std::optional<Parameters> parameters;
   };
 } // namespace Morula
 

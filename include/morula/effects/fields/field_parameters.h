@@ -78,10 +78,6 @@ namespace Morula
     Key<std::string>      names;
     std::deque<FieldKeys> fields;
 
-    /** Whether something is done to a field at the surface. */
-    bool
-    have_surface() const;
-
     bool
     is_on() const override
     {
@@ -89,23 +85,29 @@ namespace Morula
     }
     void
     check_with(const RestOfScene &scene) const override;
+    bool
+    needs_surface() const override;
     std::vector<const ExpressionKey *>
     places() const override;
     std::string
+    details() const override
+    {
+      return names;
+    }
+    std::string
     further_lines(const RestOfScene &) const override;
+    std::vector<NamedField>
+    named_fields() const override;
 
-    /** The names in the order of the fields' numbers. */
-    std::vector<std::string>
-    name_list() const;
-
-    /**
-     * Makes the sections of the fields.
-     * @param names as `Names` has them
-     * @throws InputError for names that expressions or tables cannot have, or
-     *         that are given twice
-     */
+    const AnyKey *
+    names_key() const override
+    {
+      return &names;
+    }
+    /** Refuses names that expressions or tables cannot have, or that are given
+     *  twice, as well. */
     void
-    declare_fields(const std::string &names);
+    declare_sections(const std::string &names) override;
 
     using Keys::list;
     KeyList

@@ -4,6 +4,7 @@
 #ifndef morula_effects_fields_fields_h
 #define morula_effects_fields_fields_h
 
+#include <morula/effects/equation.h>
 #include <morula/effects/fields/field.h>
 #include <morula/effects/fields/field_solve.h>
 #include <morula/particles/tissue.h>
@@ -26,46 +27,62 @@ namespace Morula
    * values in columns.
    */
   template <int dim>
-  class Fields
+  class Fields : public Equation<dim>
   {
   public:
-    /** No fields. */
-    Fields() = default;
+    using Parameters = FieldsParameters;
 
     /** Adds the columns of the fields. @throws InputError */
     Fields(const FieldsParameters   &parameters,
            const EffectSetting<dim> &setting);
 
-    /** Whether there are fields. */
-    bool
-    present() const
+    /** Their names and expressions. */
+    const FieldsParameters &
+    parameters() const
     {
-      return !fields.empty();
+      return parameters_;
     }
 
-    /** Whether some are of this kind. */
+    std::unique_ptr<EquationInRun<dim>>
+    in_run(const RunTools<dim> &tools) const override;
+
     bool
-    any(const FieldKind kind) const;
+    is_steady() const override
+    {
+      return any(FieldKind::steady);
+    }
+
+    bool
+    is_transient() const override
+    {
+      return any(FieldKind::transient);
+    }
 
     /** Gives a founder the initial values. @throws InputError */
     void
-    begin(const CellView<dim, double> &cell) const;
+    begin(const CellView<dim, double> &cell) const override;
 
-    /** Refuses expressions that a founder has no values for. @throws
-     *  InputError */
+    /** Refuses expressions that a founder has no values for. */
     void
-    check_cell(const PresentCell<dim> &founder) const;
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
 
-    /**
-     * Refuses values for the surface that it cannot have at t = 0, and
-     * conditions that hold nowhere. Collective.
-     * @param X of the boundary points of this rank, µm
-     * @throws InputError
-     */
+    /** Refuses values for the surface that it cannot have at t = 0, and
+     *  conditions that hold nowhere. */
     void
-    check_surface(const FieldsParameters        &parameters,
-                  const std::vector<Point<dim>> &X,
-                  const MPI_Comm                 comm) const;
+    check_surface(const std::vector<Point<dim>> &X,
+                  const MPI_Comm                 comm) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override
+    {
+      review_fields(parameters_, scene, review);
+    }
+
+    /** The columns of the fields that growth dilutes, doc/theory.md, section
+     *  11.4. */
+    std::vector<Column<double>>
+    densities() const override;
 
     /**
      * Finds the fields of one kind at the end @p t1 of a step that begins at @p
@@ -86,20 +103,14 @@ namespace Morula
     void
     set(Tissue<dim> &tissue, const FieldsOfStep<dim> &of_step) const;
 
-    /** Takes into account that a cell's volume has grown by the factor
-     *  @p ratio. */
-    void
-    dilute(const CellView<dim, double> &cell, const double ratio) const;
-
     /** Least, mean and largest values in statistics.csv, and how many were
      *  clipped. */
     void
-    declare(Tables<dim> &tables) const;
+    declare(Tables<dim> &tables) const override;
 
-    /** The columns of the transient fields whose amount goes with the cells'
-     *  volume. */
-    std::vector<Column<double>>
-    carried() const;
+    /** Whether some are of this kind. */
+    bool
+    any(const FieldKind kind) const;
 
     /** The totals of all fields, all 0 where there are no cells. Collective. */
     std::vector<FieldTotals>
@@ -117,6 +128,7 @@ namespace Morula
                const double                     t0,
                const double                     t1) const;
 
+    FieldsParameters parameters_;
     /** Numbers of fields that depend on each other, in the order in which they
      *  are found. */
     std::vector<std::vector<unsigned int>> groups;

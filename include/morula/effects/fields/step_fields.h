@@ -4,12 +4,7 @@
 #ifndef morula_effects_fields_step_fields_h
 #define morula_effects_fields_step_fields_h
 
-#include <morula/base/announce.h>
-#include <morula/effects/development.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/tables.h>
-
-#include <deal.II/base/timer.h>
 
 #include <cstdint>
 #include <optional>
@@ -23,44 +18,36 @@ namespace Morula
    * tissue moves. Keeps references to what it is made from.
    */
   template <int dim>
-  class StepFields
+  class StepFields : public EquationInRun<dim>
   {
   public:
-    StepFields(const Fields<dim>          &fields,
-               const FieldsParameters     &parameters,
-               const CellDevelopment<dim> &development,
-               const MakeLinearSolver     &make_solver,
-               TimerOutput                &timer,
-               const Announce             &announce);
+    StepFields(const Fields<dim> &fields, const RunTools<dim> &tools);
 
-    /** Resets the counts of clipped values for the next step. */
+    /** Resets the counts of clipped values. */
     void
-    begin_step();
+    begin_step() override;
 
-    /** Gives cells the steady fields of the configuration at @p t, day.
-     *  @throws InputError, StepFailed on all ranks */
+    /** Gives cells the steady fields. */
     void
-    set_steady(Tissue<dim>            &tissue,
-               const SplineSpace<dim> &space,
-               const double            t);
+    settle(Tissue<dim>            &tissue,
+           const SplineSpace<dim> &space,
+           const double            t) override;
 
-    /** Finds the transient fields at the end of the step that begins at @p t.
-     * The tissue is about to move, so the solver is forgotten. @throws
-     * InputError, StepFailed on all ranks */
-    FieldsOfStep<dim>
-    transient(const Tissue<dim>      &tissue,
-              const SplineSpace<dim> &space,
-              const double            t,
-              const double            t_next);
-
-    /** Forgets the solver of this configuration: the splines of the next one
-     * will stand elsewhere. */
+    /** Gives cells the transient fields. The tissue is about to move, so the
+     *  solver is forgotten. */
     void
-    forget_configuration();
+    advance(Tissue<dim>            &tissue,
+            const SplineSpace<dim> &space,
+            const double            t,
+            const double            t_next) override;
 
-    /** The fields' columns of statistics.csv. Collective. */
+    /** Forgets the solver. */
     void
-    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const;
+    forget_configuration() override;
+
+    /** The fields' columns of statistics.csv. */
+    void
+    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const override;
 
   private:
     /** The fields of one kind at @p t1. */
@@ -80,10 +67,7 @@ namespace Morula
 
     const Fields<dim>              &fields;
     const FieldsParameters         &parameters;
-    const CellDevelopment<dim>     &development;
-    const MakeLinearSolver          make_solver;
-    TimerOutput                    &timer;
-    const Announce                  announce;
+    const RunTools<dim>             tools;
     std::optional<FieldSolver<dim>> solver;         // of the configuration
     std::vector<std::uint64_t>      clipped;        // by field, in the step
     bool                            warned = false; // of one not converged

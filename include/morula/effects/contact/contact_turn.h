@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_contact_of_step_h
-#define morula_simulation_contact_of_step_h
+#ifndef morula_effects_contact_contact_turn_h
+#define morula_effects_contact_contact_turn_h
 
 #include <morula/effects/contact/contact_forces.h>
 #include <morula/effects/contact/contact_pairs.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
-#include <morula/solver/turns.h>
+#include <morula/mechanics/turn_participant.h>
 
 #include <deal.II/base/timer.h>
 

@@ -3,8 +3,8 @@
 
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
+#include <morula/effects/contact/contact_turn.h>
 #include <morula/particles/nearest.h>
-#include <morula/simulation/contact_of_step.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -25,7 +25,7 @@ namespace Morula
     /** The geometry follows a smaller part of the way, down to the least, after
      *  turns in which more than this part of the tangential forces has stayed.
      */
-    constexpr double staying = 0.8, least_part = 0.25;
+    constexpr double staying = 0.8, smallest_part = 0.25;
 
     /** Where more than this part has stayed, and at least this part of it goes
      *  on in one direction, the drag holds back a long slide. It gets so much
@@ -191,7 +191,7 @@ namespace Morula
         pairs.set_drag(drag_part);
       }
     else if (sums[1] > staying * before)
-      part = std::max(0.5 * part, least_part);
+      part = std::max(0.5 * part, smallest_part);
     const std::vector<double> values = balance.relevant_values(u);
     frozen.resize(values.size(), 0.);
     for (std::size_t i = 0; i < values.size(); ++i)

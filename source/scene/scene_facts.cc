@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#include <morula/scene/scene.h>
+
+#include <algorithm>
+
+// What follows from the keys of a scene.
+
+namespace Morula
+{
+  std::string
+  Scene::law_of_growth() const
+  {
+    // A scene has one law. If it is not set for all cells, the first type that
+    // has one tells.
+    if (growth_law != "none")
+      return growth_law;
+    for (const CellTypeKeys &type : cell_types.types)
+      if (!type.growth_law.empty() && type.growth_law != "none")
+        return type.growth_law;
+    return "none";
+  }
+
+
+  const std::string &
+  Scene::division_axis() const
+  {
+    // A cell that does not grow by the fate that divides it may have grown
+    // along any axis, so it is the long one that is to be cut, unless the scene
+    // says otherwise.
+    static const std::string shape = "cell shape";
+    return cells_divide() && !grows_by_fate() && !has_set(division.axis) ?
+             shape :
+             division.axis.value();
+  }
+
+
+  const std::string &
+  Scene::division_axis(const unsigned int type) const
+  {
+    const bool has_own =
+      cell_types.is_on() && !cell_types.types[type].division_axis.empty();
+    return has_own ? cell_types.types[type].division_axis.value() :
+                     division_axis();
+  }
+
+
+  std::set<std::string>
+  Scene::division_axes() const
+  {
+    std::set<std::string> axes;
+    for (unsigned int type = 0;
+         type < std::max<std::size_t>(1, cell_types.types.size());
+         ++type)
+      axes.insert(division_axis(type));
+    return axes;
+  }
+
+
+  bool
+  Scene::grows(const unsigned int type) const
+  {
+    if (!cell_types.is_on() || cell_types.types[type].growth_law.empty())
+      return growth_law != "none";
+    return cell_types.types[type].growth_law != "none";
+  }
+
+
+  RestOfScene
+  Scene::rest_of_scene() const
+  {
+    // Volumes differ where cells have grown, or were born, to different ones.
+    const bool volumes_differ =
+      has_active_tissue() || has_any(catalogue.fates) || tissue.is_points() ||
+      tissue.surface_cells == "trimmed";
+    return {dimension,
+            catalogue,
+            material,
+            grid,
+            time.step,
+            tissue.cell_spacing,
+            cell_types.name_list(),
+            law_of_growth(),
+            division_axes(),
+            cells_divide(),
+            has_active_tissue(),
+            volumes_differ,
+            tissue.has_no_surface() ? &tissue.points_surface : nullptr,
+            tissue.refine_surface,
+            tissue.cuts};
+  }
+
+
+  std::vector<std::string>
+  Scene::field_names() const
+  {
+    std::vector<std::string> names;
+    for (const NamedField &field : catalogue.named_fields())
+      names.push_back(field.name);
+    return names;
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::effect_keys() const
+  {
+    std::vector<const EffectKeys *> list{&division, &cell_types, &contact};
+    for (const EffectKeys *const keys : catalogue.all_keys())
+      list.push_back(keys);
+    return list;
+  }
+
+
+  std::vector<const EffectKeys *>
+  Scene::keys_in_use() const
+  {
+    // Keys say whether their effect is on, but for those that others switch:
+    // laws and rules by their names, and how cells divide.
+    std::set<const EffectKeys *> off;
+    const auto                   leave = [&off](const auto                  &choices,
+                              const std::set<std::string> &chosen) {
+      for (const auto &choice : choices)
+        if (chosen.count(choice.name()) == 0)
+          off.insert(&choice.keys());
+    };
+    leave(catalogue.growth_laws, {law_of_growth()});
+    leave(catalogue.division_rules,
+          cells_divide() ? division_axes() : std::set<std::string>());
+    if (!cells_divide())
+      off.insert(&division);
+    std::vector<const EffectKeys *> list;
+    for (const EffectKeys *const keys : effect_keys())
+      if (off.count(keys) == 0 && keys->is_on())
+        list.push_back(keys);
+    return list;
+  }
+
+
+  bool
+  Scene::cells_divide() const
+  {
+    return std::any_of(catalogue.fates.begin(),
+                       catalogue.fates.end(),
+                       [](const auto &choice) {
+                         return choice.keys().is_on() &&
+                                choice.keys().divides_cells();
+                       });
+  }
+
+
+  const EffectKeys *
+  Scene::first_way_to_divide() const
+  {
+    for (const auto &choice : catalogue.fates)
+      if (choice.keys().divides_cells() &&
+          choice.keys().switch_key() != nullptr)
+        return &choice.keys();
+    return nullptr;
+  }
+
+
+  bool
+  Scene::grows_by_fate() const
+  {
+    return std::any_of(catalogue.fates.begin(),
+                       catalogue.fates.end(),
+                       [](const auto &choice) {
+                         return choice.keys().is_on() &&
+                                choice.keys().grows_cells();
+                       });
+  }
+
+
+  std::vector<std::string>
+  Scene::type_names() const
+  {
+    return cell_types.name_list();
+  }
+} // namespace Morula

@@ -9,6 +9,22 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** Whether a fate is on that does something. */
+    bool
+    has_fate_that(const Catalogue &catalogue, bool (EffectKeys::*does)() const)
+    {
+      return std::any_of(catalogue.fates.begin(),
+                         catalogue.fates.end(),
+                         [does](const auto &choice) {
+                           return choice.keys().is_on() &&
+                                  (choice.keys().*does)();
+                         });
+    }
+  } // namespace
+
+
   std::string
   Scene::law_of_growth() const
   {
@@ -140,12 +156,14 @@ namespace Morula
   bool
   Scene::cells_divide() const
   {
-    return std::any_of(catalogue.fates.begin(),
-                       catalogue.fates.end(),
-                       [](const auto &choice) {
-                         return choice.keys().is_on() &&
-                                choice.keys().divides_cells();
-                       });
+    return has_fate_that(catalogue, &EffectKeys::divides_cells);
+  }
+
+
+  bool
+  Scene::grows_by_fate() const
+  {
+    return has_fate_that(catalogue, &EffectKeys::grows_cells);
   }
 
 
@@ -157,18 +175,6 @@ namespace Morula
           choice.keys().switch_key() != nullptr)
         return &choice.keys();
     return nullptr;
-  }
-
-
-  bool
-  Scene::grows_by_fate() const
-  {
-    return std::any_of(catalogue.fates.begin(),
-                       catalogue.fates.end(),
-                       [](const auto &choice) {
-                         return choice.keys().is_on() &&
-                                choice.keys().grows_cells();
-                       });
   }
 
 

@@ -212,7 +212,8 @@ namespace Morula
     for (const auto &[name, condition] : conditions.list())
       condition->check_surface(at, surface.areas);
 
-    for (const auto &[name, equation] : effects_of<dim>(scene).equations)
+    const SceneEffects<dim> effects = effects_of<dim>(scene);
+    for (const auto &[name, equation] : effects.equations)
       equation->check_surface(surface.positions, comm);
 
     ConditionCounts counts;

@@ -86,7 +86,7 @@ namespace Morula
     {}
 
     /** The fields that the effect gives to cells, in the order of their
-     *  numbers. */
+     *  numbers. One effect of a scene may have some. */
     virtual std::vector<NamedField>
     named_fields() const
     {

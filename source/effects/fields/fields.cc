@@ -29,11 +29,11 @@ namespace Morula
     /** Refuses a condition that holds at @p n boundary points of this rank, and
      *  at none of others. Collective. */
     void
-    // A condition that holds nowhere is most likely a mistake.
     check_holds(const ExpressionKey         &where,
                 const types::particle_index &n,
                 const MPI_Comm               comm)
     {
+      // A condition that holds nowhere is most likely a mistake.
       if (!where.empty() && Utilities::MPI::sum(n, comm) == 0)
         where.refuse("a condition that holds at some boundary point",
                      "It is positive at none: correct it, or leave it empty. "

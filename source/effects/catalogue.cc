@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/catalogue.h>
+#include <morula/effects/contact/contact.h>
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/cell_shape_axis.h>
 #include <morula/effects/fate/death.h>
@@ -83,6 +84,7 @@ namespace Morula
     add<Lumen>(boundary_conditions, "lumen");
     add<Obstacles>(boundary_conditions, "obstacles");
     add<TypeSurfaceTension>(boundary_conditions, "type surface tension");
+    add<Contact>(interactions, "contact");
   }
 
 

@@ -34,7 +34,7 @@ namespace Morula
 
   template <int dim>
   void
-  BoundaryColumns<dim>::need_contact(const bool fuses, const bool with_parts)
+  BoundaryColumns<dim>::need_bodies(const bool fuses, const bool with_parts)
   {
     // Body and pressure are columns of every scene with contact; the part and
     // the time of touch only of those that ask for them. Both halves of a point

@@ -9,7 +9,6 @@
 #include <morula/scene/free_growth.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
-#include <morula/seeding/bodies.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -132,33 +131,28 @@ namespace Morula
       EffectRows                         effects;
     };
 
-    /** The bodies that have contact, and how it acts. */
+    /** The bodies that interact, and how. */
     template <int dim>
     void
-    add_contact(EffectRows              &rows,
-                const Scene             &scene,
-                const SeededTissue<dim> &tissue,
-                const MPI_Comm           comm)
+    add_interaction(EffectRows                          &rows,
+                    const NamedEffect<Interaction<dim>> &interaction,
+                    const double                         h,
+                    const std::vector<BodyMeasures>     &bodies)
     {
-      const auto bodies =
-        measures_of_bodies(tissue.founders, tissue.surface, comm);
       std::ostringstream text;
       text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
-           << (scene.contact.is_of_all() ?
-                 ", whose folds and arms have contact, too" :
+           << (interaction.effect->acts_within_bodies() ?
+                 ", whose folds and arms have " + interaction.name + ", too" :
                  ", each with splines of its own");
-      double thinnest = std::numeric_limits<double>::infinity();
       for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
         text << "; body " << b << ": " << bodies[b].cells << " cells, "
              << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
              << ", surface " << bodies[b].area << (dim == 3 ? " um^2" : " um");
-      for (const BodyMeasures &body : bodies)
-        thinnest = std::min(thinnest, body.thickness());
       add_effect(rows, "bodies", true, text.str());
       add_effect(rows,
-                 "contact",
+                 interaction.name,
                  true,
-                 scene.contact.details_of_bodies(scene.grid.spacing, thinnest));
+                 interaction.effect->details_of_bodies(bodies, h));
     }
 
     /** How many bodies the tissue is, and which surfaces its mesh has. */
@@ -169,8 +163,11 @@ namespace Morula
                const SeededTissue<dim> &tissue,
                const MPI_Comm           comm)
     {
-      if (scene.contact.is_on())
-        add_contact(rows, scene, tissue, comm);
+      if (const auto interaction = interaction_of<dim>(scene))
+        add_interaction(rows,
+                        *interaction,
+                        scene.grid.spacing,
+                        tissue.measures);
       else
         add_effect(rows,
                    "bodies",

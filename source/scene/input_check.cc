@@ -260,6 +260,26 @@ namespace Morula
     }
 
 
+    /** Refuses a second interaction: a point has one force from each body. */
+    void
+    check_one_interaction(const Scene &scene)
+    {
+      const Choice<Interaction> *first = nullptr;
+      for (const auto &choice : scene.catalogue.interactions)
+        {
+          if (!choice.keys().is_on())
+            continue;
+          if (first != nullptr)
+            choice.keys().list().front()->refuse("such that there is no " +
+                                                   choice.name() +
+                                                   ", as bodies have " +
+                                                   first->name() + " already",
+                                                 "Do without one of the two.");
+          first = &choice;
+        }
+    }
+
+
     template <int dim>
     void
     check_boundary_conditions(const Scene &scene)
@@ -310,8 +330,8 @@ namespace Morula
       check_switched<dim>(scene, scene.catalogue.step_effects);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);
-      scene.contact.check_each(dim);
-      scene.contact.check_with(scene.rest_of_scene());
+      check_switched<dim>(scene, scene.catalogue.interactions);
+      check_one_interaction(scene);
       scene.solver.check_each(dim);
       check_kernel(scene.solver.kernel, scene.material);
       scene.output.check_each(dim);

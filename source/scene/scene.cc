@@ -232,7 +232,7 @@ namespace Morula
       if (condition.has_section())
         append(list, condition.keys().list());
     append_all(catalogue.forces);
-    append(list, contact.list());
+    append_all(catalogue.interactions);
     append(list, solver.list());
     append(list, output.list());
     return list;

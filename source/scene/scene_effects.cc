@@ -73,6 +73,17 @@ namespace Morula
         all.of_type.push_back(rules.at(scene.division_axis(type)));
       return all;
     }
+
+    template <int dim>
+    std::optional<NamedEffect<Interaction<dim>>>
+    make_interaction(const Scene &scene, const EffectSetting<dim> &setting)
+    {
+      for (const auto &choice : scene.catalogue.interactions)
+        if (choice.keys().is_on())
+          return NamedEffect<Interaction<dim>>{
+            choice.name(), choice.template make<dim>(setting)};
+      return {};
+    }
   } // namespace
 
 
@@ -125,10 +136,12 @@ namespace Morula
     DevelopmentEffects<dim> &development = effects.development;
     if (scene.has_growth())
       effects.columns.need_growth();
-    if (scene.contact.is_on())
-      effects.columns.need_bodies(scene.contact.is_of_all());
     const EffectSetting<dim> setting =
       effect_setting(scene, effects.columns, effects.state);
+    effects.interaction = make_interaction(scene, setting);
+    if (effects.interaction)
+      effects.columns.need_bodies(
+        effects.interaction->effect->acts_within_bodies());
     // An effect that has declared columns is told of every cell's begin and
     // advance.
     const auto make = [&](const auto &choice) {
@@ -256,6 +269,8 @@ namespace Morula
       list.push_back(effect.get());
     for (const auto &[name, force] : forces)
       list.push_back(force.get());
+    if (interaction)
+      list.push_back(interaction->effect.get());
     return list;
   }
 
@@ -276,6 +291,16 @@ namespace Morula
 
 
   template <int dim>
+  std::optional<NamedEffect<Interaction<dim>>>
+  interaction_of(const Scene &scene)
+  {
+    CellColumns<dim>  columns;
+    StateColumns<dim> state = state_columns_of<dim>(scene);
+    return make_interaction(scene, effect_setting(scene, columns, state));
+  }
+
+
+  template <int dim>
   BoundaryConditions<dim>
   boundary_conditions_of(const Scene &scene)
   {
@@ -286,6 +311,7 @@ namespace Morula
   MORULA_INSTANTIATE(state_columns_of);
   MORULA_INSTANTIATE(effect_setting);
   MORULA_INSTANTIATE(effects_of);
+  MORULA_INSTANTIATE(interaction_of);
   MORULA_INSTANTIATE(boundary_conditions_of);
   template struct SceneEffects<2>;
   template struct SceneEffects<3>;

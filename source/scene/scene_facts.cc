@@ -102,7 +102,8 @@ namespace Morula
             cells_divide(),
             has_active_tissue(),
             volumes_differ,
-            tissue.has_no_surface() ? &tissue.points_surface : nullptr,
+            tissue.points_surface,
+            tissue.has_no_surface(),
             tissue.refine_surface,
             tissue.cuts};
   }
@@ -121,7 +122,7 @@ namespace Morula
   std::vector<const EffectKeys *>
   Scene::effect_keys() const
   {
-    std::vector<const EffectKeys *> list{&division, &cell_types, &contact};
+    std::vector<const EffectKeys *> list{&division, &cell_types};
     for (const EffectKeys *const keys : catalogue.all_keys())
       list.push_back(keys);
     return list;

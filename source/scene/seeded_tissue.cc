@@ -43,11 +43,12 @@ namespace Morula
     /** The bodies of founders. Collective. @throws InputError */
     template <int dim>
     std::vector<unsigned int>
-    bodies(const Scene         &scene,
-           const Founders<dim> &founders,
-           const MPI_Comm       comm)
+    bodies(const Scene            &scene,
+           const Interaction<dim> &interaction,
+           const Founders<dim>    &founders,
+           const MPI_Comm          comm)
     {
-      if (scene.contact.bodies == "apart")
+      if (!interaction.takes_types_as_bodies())
         return bodies_apart(founders, comm);
       std::vector<unsigned int> list;
       everywhere(comm, [&]() {
@@ -56,19 +57,20 @@ namespace Morula
       return list;
     }
 
-    /** The surface of bodies that have contact: one around each of them. */
+    /** The surface of bodies that interact: one around each of them. */
     template <int dim>
     SurfacePatches<dim>
-    surface_of_bodies(const Scene         &scene,
-                      const Founders<dim> &founders,
-                      const MPI_Comm       comm)
+    surface_of_bodies(const Scene            &scene,
+                      const Interaction<dim> &interaction,
+                      const Founders<dim>    &founders,
+                      const MPI_Comm          comm)
     {
       // A surface from a file is that of all bodies, and so is that of a shape
       // whose bodies stand apart. Each patch learns its body from the cells
       // behind it. Otherwise each body's cells get a surface of their own.
       const bool is_of_all =
         scene.tissue.has_surface_file() || scene.tissue.is_mesh() ||
-        (!scene.tissue.is_points() && scene.contact.bodies == "apart");
+        (!scene.tissue.is_points() && !interaction.takes_types_as_bodies());
       if (!is_of_all)
         return seed_points_surface(scene.tissue, founders, comm);
       Founders<dim> as_one(founders);
@@ -81,50 +83,15 @@ namespace Morula
       return patches;
     }
 
-    /** Refuses bodies that contact cannot hold apart. Collective. @throws
-     *  InputError */
-    template <int dim>
-    void
-    check_bodies(const Scene             &scene,
-                 const SeededTissue<dim> &tissue,
-                 const MPI_Comm           comm)
-    {
-      // Two sheets on each other that together are thinner than the deepest
-      // overlap of a pair (0.4 h) would press with their outer faces.
-      const auto bodies =
-        measures_of_bodies(tissue.founders, tissue.surface, comm);
-      const double least = 0.4 * scene.grid.spacing;
-      for (std::size_t b = 0; b < bodies.size(); ++b)
-        if (bodies[b].cells > 0. && bodies[b].area == 0.)
-          scene.contact.between.refuse("none, as body " + std::to_string(b) +
-                                         " has no boundary points",
-                                       "Give it a surface of its own in " +
-                                         scene.tissue.points_surface.path() +
-                                         ".");
-        else if (bodies[b].opening > 0.05 * bodies[b].area)
-          scene.contact.between.refuse(
-            "none, as the surface of body " + std::to_string(b) + " is open",
-            "Boundary points have to go all around a body, also where it touches "
-            "another one: give each its own surface, or set " +
-              scene.tissue.points_surface.path() + " = automatic.");
-        else if (bodies[b].cells > 0. && bodies[b].thickness() < least)
-          scene.contact.between.refuse(
-            "none, as body " + std::to_string(b) + " is about " +
-              as_text(bodies[b].thickness()) +
-              " um thick, and contact holds bodies apart from 0.4 grid "
-              "spacings on",
-            "Choose " + scene.grid.spacing.path() + " below " +
-              as_text(2.5 * bodies[b].thickness()) + " um.");
-    }
-
     template <int dim>
     SurfacePatches<dim>
-    surface(const Scene         &scene,
-            const Founders<dim> &founders,
-            const MPI_Comm       comm)
+    surface(const Scene            &scene,
+            const Interaction<dim> *interaction,
+            const Founders<dim>    &founders,
+            const MPI_Comm          comm)
     {
-      if (scene.contact.is_on())
-        return surface_of_bodies(scene, founders, comm);
+      if (interaction != nullptr)
+        return surface_of_bodies(scene, *interaction, founders, comm);
       if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
       return has_surface<dim>(scene) ?
@@ -159,11 +126,19 @@ namespace Morula
     SeededTissue<dim> tissue;
     tissue.founders =
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
-    if (scene.contact.is_on())
-      tissue.founders.bodies = bodies(scene, tissue.founders, comm);
-    tissue.surface = surface(scene, tissue.founders, comm);
-    if (scene.contact.is_on())
-      check_bodies(scene, tissue, comm);
+    const auto                    named = interaction_of<dim>(scene);
+    const Interaction<dim> *const interaction =
+      named ? named->effect.get() : nullptr;
+    if (interaction != nullptr)
+      tissue.founders.bodies =
+        bodies(scene, *interaction, tissue.founders, comm);
+    tissue.surface = surface(scene, interaction, tissue.founders, comm);
+    if (interaction != nullptr)
+      {
+        tissue.measures =
+          measures_of_bodies(tissue.founders, tissue.surface, comm);
+        interaction->check_bodies(tissue.measures, scene.rest_of_scene());
+      }
     if (scene.tissue.has_cuts())
       tissue.cuts =
         add_cuts(scene.tissue.cuts, tissue.founders, comm, tissue.surface);
@@ -171,7 +146,7 @@ namespace Morula
       check_at_cells(scene, tissue.founders.positions, comm);
     tissue.counts  = check_at_surface(scene, tissue.surface, comm);
     tissue.applied = applied_conditions(scene, tissue.surface, comm);
-    if (scene.tissue.is_from_file() && !scene.contact.is_on())
+    if (scene.tissue.is_from_file() && interaction == nullptr)
       tissue.bodies = bodies_text(scene, tissue, comm);
     if (scene.tissue.is_mesh())
       tissue.mesh = surfaces_text(volumes_of_surfaces(
@@ -183,15 +158,8 @@ namespace Morula
     review_applied(
       scene, tissue.applied, tissue.founders.positions, comm, tissue.warnings);
     review_held(scene, tissue.pieces, tissue.warnings);
-    if (scene.contact.is_on() && !scene.contact.is_of_all() &&
-        measures_of_bodies(tissue.founders, tissue.surface, comm).size() < 2)
-      tissue.warnings.push_back(
-        "Warning: " + scene.contact.between.path() +
-        " = bodies does nothing, as "
-        "there is only one body: cells that stand nearer to each other than " +
-        as_text(widest_bond) + " of their lengths belong together (" +
-        scene.contact.bodies.path() +
-        "). Leave a wider gap, or tell bodies apart by the type of their cells.");
+    if (interaction != nullptr)
+      interaction->review_bodies(tissue.measures, tissue.warnings);
     return tissue;
   }
 

@@ -89,7 +89,7 @@ namespace Morula
       conditions.has(SurfaceCondition::slip) && scene.has_active_tissue();
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
-    if (!scene.contact.is_on())
+    if (!effects.interaction)
       review_bodies(scene.grid, scene.tissue, founders, surface, comm, review);
 
     Preview<dim> at = preview<dim>(

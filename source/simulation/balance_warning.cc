@@ -13,13 +13,13 @@ namespace Morula
                   const double                 t,
                   const double                 least)
   {
-    // Contact acts between bodies of the tissue, so it has no part in the sum.
+    // What acts between bodies of the tissue has no part in the sum.
     // A hundredth is more than Newton's method and patches leave.
     constexpr double largest_rest = 0.01;
     Tensor<1, 3>     sum;
     double           magnitude = 0.;
     for (const ForceRow &row : rows)
-      if (row.kind != "contact")
+      if (!row.is_internal)
         {
           sum += row.force;
           magnitude += row.force.norm();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/contact/fusion.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/even_fill.h>
@@ -215,7 +214,7 @@ namespace Morula
           }
         restore_fit(tissue, *share, is_torn);
       }
-    if (model.scene.contact.is_on() && model.scene.contact.fusion_time > 0.)
+    if (model.interaction && model.interaction->effect->fuses())
       fuse_what_touches(tissue, dt);
   }
 
@@ -352,8 +351,7 @@ namespace Morula
     // the rest stays. Otherwise a body that several go into gets its new
     // surface once, around all its cells.
     const TimerOutput::Scope section(timer, "fusion");
-    age_contact(tissue, dt);
-    const Fusion fusion = find_fusion(tissue, model.scene.contact.fusion_time);
+    const Fusion fusion    = model.interaction->effect->fusion(tissue, dt);
     const bool   is_of_all = tissue.cells().has_parts();
     if (is_of_all)
       remove_fused_surface(fusion, tissue);

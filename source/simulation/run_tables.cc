@@ -33,18 +33,6 @@ namespace Morula
         row.step_error = 0.;
       return row;
     }
-
-    /** Whether conditions act on the surface. */
-    bool
-    acts_on_surface(const Scene &scene)
-    {
-      const auto &choices = scene.catalogue.boundary_conditions;
-      return std::any_of(choices.begin(),
-                         choices.end(),
-                         [](const auto &choice) {
-                           return choice.keys().is_on();
-                         });
-    }
   } // namespace
 
 
@@ -61,7 +49,8 @@ namespace Morula
     if (of_effects.records_events())
       tables.push_back(
         {"events", event_columns({{}, of_effects.has_causes()})});
-    if (acts_on_surface(scene) || scene.contact.is_on())
+    if (Scene::has_any(scene.catalogue.boundary_conditions) ||
+        Scene::has_any(scene.catalogue.interactions))
       tables.push_back({"forces", force_columns(), true});
     if (scene.output.condition_estimate)
       tables.push_back({"condition", condition_columns(), true});

@@ -68,10 +68,10 @@ namespace Morula
     for (const auto &equation : equations)
       equation->begin_step();
 
-    // Contact changes the places of unknowns, so that it comes before all that
-    // keeps them.
+    // Encounters change the places of unknowns, so that they come before all
+    // that keeps these.
     SplineSpace<dim>                      space   = splines();
-    const auto                            contact = points_in_contact(space);
+    const auto                            meeting = encounters(space);
     const std::optional<SplineSpace<dim>> apart   = splines_of_equations(space);
     const SplineSpace<dim>               &of_equations = apart ? *apart : space;
     // Where folds have contact, tissue that comes near does not stick.
@@ -88,7 +88,7 @@ namespace Morula
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();
-    const auto solution = solve_step(space, contact ? &*contact : nullptr);
+    const auto solution = solve_step(space, meeting.get());
     warn_of_turn(DisplacementField<dim>(space, solution.u, comm));
     const bool is_slow = run_state.drag > 1.;
     if (is_slow)
@@ -209,32 +209,26 @@ namespace Morula
   Simulation<dim>::splines_of_equations(const SplineSpace<dim> &space) const
   {
     if (!space.is_parted() || equations.empty() ||
-        !model.scene.contact.fields_pass)
+        !model.interaction->effect->lets_equations_pass())
       return {};
     return tissue.unparted_splines(model.material.volumetric_form() !=
                                    VolumetricStrain::pointwise);
   }
 
   template <int dim>
-  std::optional<ContactPoints<dim>>
-  Simulation<dim>::points_in_contact(SplineSpace<dim> &space)
+  std::unique_ptr<const Encounters<dim>>
+  Simulation<dim>::encounters(SplineSpace<dim> &space)
   {
-    // Within a step two points come nearer by a grid spacing at most, or the
-    // step is halved. A fold that snaps shut moves farther, however short the
-    // step is.
-    if (!tissue.cells().has_bodies())
-      return {};
-    const TimerOutput::Scope section(timer, "contact");
-    const double             h = space.box().spacing();
-    return ContactPoints<dim>(tissue,
-                              space,
-                              tissue.cells().has_parts() ? 2. * h : h);
+    if (!model.interaction)
+      return nullptr;
+    const TimerOutput::Scope section(timer, model.interaction->name);
+    return model.interaction->effect->encounters(tissue, space);
   }
 
   template <int dim>
   typename StepEquilibrium<dim>::Solution
-  Simulation<dim>::solve_step(const SplineSpace<dim>   &space,
-                              const ContactPoints<dim> *contact)
+  Simulation<dim>::solve_step(const SplineSpace<dim> &space,
+                              const Encounters<dim>  *encounters)
   {
     // The loop halves the step until an attempt succeeds. What does not depend
     // on the step's length (the supports of rigid motions, the splines) is made
@@ -250,7 +244,7 @@ namespace Morula
             model, tissue, space, time_steps.time(), time_steps.next());
         });
         const StepEquilibrium<dim> equilibrium(
-          model, tissue, space, supports, timer, comm, contact);
+          model, tissue, space, supports, timer, comm, encounters);
         while (true)
           try
             {

@@ -65,13 +65,8 @@ namespace Morula
          double                       &drag)
   {
     double longest = 0.;
-    displacement.at_points(tissue.cells(),
-                           [&](const unsigned int,
-                               const LocalField<dim>   &field,
-                               const SplineValues<dim> &splines) {
-                             longest =
-                               std::max(longest, field.value(splines).norm());
-                           });
+    for (const Tensor<1, dim> &way : displacement.values_at(tissue.cells()))
+      longest = std::max(longest, way.norm());
     if (Utilities::MPI::max(longest, tissue.communicator()) <=
         short_way * tissue.grid().box().spacing())
       drag = std::max(1., weaker * drag);

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/contact/contact_turn.h>
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/mechanics/drag.h>
@@ -40,20 +39,20 @@ namespace Morula
 
 
   template <int dim>
-  StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim>   &model,
-                                        const Tissue<dim>        &tissue,
-                                        const SplineSpace<dim>   &space,
-                                        const Supports           &supports,
-                                        TimerOutput              &timer,
-                                        const MPI_Comm            comm,
-                                        const ContactPoints<dim> *contact)
+  StepEquilibrium<dim>::StepEquilibrium(const TissueModel<dim> &model,
+                                        const Tissue<dim>      &tissue,
+                                        const SplineSpace<dim> &space,
+                                        const Supports         &supports,
+                                        TimerOutput            &timer,
+                                        const MPI_Comm          comm,
+                                        const Encounters<dim>  *encounters)
     : model(model)
     , tissue(tissue)
     , space(space)
     , timer(timer)
     , comm(comm)
     , rigid_modes(space, masses(), supports, comm)
-    , contact(contact)
+    , encounters(encounters)
   {}
 
 
@@ -109,37 +108,32 @@ namespace Morula
                                       attempt.kept,
                                       timer,
                                       comm};
-    const Parts     parts = model.boundary_conditions.parts_of_step(of_parts);
-    TermList        list  = terms(attempt, points, parts);
+    Parts parts = model.boundary_conditions.parts_of_step(of_parts);
+    if (may_meet())
+      parts.push_back(encounters->part_of_step(of_parts));
+    TermList        list      = terms(attempt, points, parts);
     Enclosure<dim> *enclosure = nullptr;
+    PairTerm       *pairs     = nullptr;
     bool            is_exact  = false;
     for (const auto &part : parts)
       {
         if (enclosure == nullptr)
           enclosure = part->enclosure();
+        if (pairs == nullptr)
+          pairs = part->pairs();
         is_exact = is_exact || part->is_exact();
       }
-    std::optional<ContactPairs<dim>> pairs;
-    Drag<dim>                       *drag = nullptr;
-    const double                     h    = space.box().spacing();
-    const ContactLaw law{model.scene.contact.stiffness * stiffness / h,
-                         stiffness,
-                         h,
-                         model.scene.contact.friction /
-                           (attempt.t_next - attempt.t)};
-    if (has_contact() || attempt.drag > 1.)
+    if (pairs != nullptr || attempt.drag > 1.)
       {
-        const TimerOutput::Scope section(timer, "contact");
-        if (has_contact())
-          pairs.emplace(*contact, law);
-        auto weak = weak_drag(stiffness);
-        drag      = weak.get();
+        const TimerOutput::Scope section(timer, "drag");
+        auto                     drag = weak_drag(stiffness);
         drag->set_strength(attempt.drag);
-        list.push_back(std::move(weak));
+        for (const auto &part : parts)
+          part->take_drag(*drag, attempt.drag == 1.);
+        list.push_back(std::move(drag));
       }
-    MomentumBalance<dim> balance(
-      space, list, timer, comm, enclosure, pairs ? &*pairs : nullptr);
-    const LinearProblem linear =
+    MomentumBalance<dim> balance(space, list, timer, comm, enclosure, pairs);
+    const LinearProblem  linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
     Solution solution{start(attempt).value_or(balance.rest()), {}, {}};
@@ -151,18 +145,6 @@ namespace Morula
         part->begin(balance, solution.u);
         participants.push_back(part.get());
       }
-    std::optional<ContactTurn<dim>> touching;
-    if (pairs)
-      participants.push_back(&touching.emplace(tissue,
-                                               space,
-                                               *contact,
-                                               law,
-                                               *pairs,
-                                               *drag,
-                                               attempt.drag == 1.,
-                                               balance,
-                                               timer,
-                                               comm));
     Equilibrium::Evaluation evaluation;
     const std::size_t       n_traced = report.trace.size();
     try
@@ -189,11 +171,8 @@ namespace Morula
                          (". " + balance.describe(solution.u)));
       }
     const DisplacementField<dim> displacement(space, solution.u, comm);
-    if (contact != nullptr && !contact->any() &&
-        has_crossed_from_afar(tissue, *contact, displacement, h))
-      throw StepFailed(
-        "bodies pass through each other, so that the step is too "
-        "long for their contact");
+    if (encounters != nullptr && !encounters->any())
+      encounters->check(displacement);
     if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
       throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
                        "so that the step is too long for its contact");
@@ -201,10 +180,7 @@ namespace Morula
     // The next step sees what belongs to the equilibrium that was found last.
     for (const auto &part : parts)
       part->keep(solution.kept);
-    std::vector<ContactForce<dim>> of_contact;
-    if (touching)
-      of_contact = touching->forces(solution.u);
-    solution.forces = forces(attempt, list, parts, of_contact, solution);
+    solution.forces = forces(attempt, list, parts, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -256,10 +232,9 @@ namespace Morula
 
   template <int dim>
   SurfaceForces<dim>
-  StepEquilibrium<dim>::forces(const Attempt                        &attempt,
-                               const TermList                       &list,
-                               const Parts                          &parts,
-                               const std::vector<ContactForce<dim>> &of_contact,
+  StepEquilibrium<dim>::forces(const Attempt  &attempt,
+                               const TermList &list,
+                               const Parts    &parts,
                                const Solution &solution) const
   {
     // The terms of conditions that load are made anew, since each of them gets
@@ -267,7 +242,7 @@ namespace Morula
     // which terms() has added them: the stress of the cells, the forces on
     // cells, the held points.
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    if (conditions.list().empty() && !tissue.cells().has_bodies())
+    if (conditions.list().empty() && encounters == nullptr)
       return {};
     const TimerOutput::Scope section(timer, "forces");
     ForceSums<dim>           sums(tissue, space, solution.u, comm);
@@ -285,8 +260,10 @@ namespace Morula
     for (const auto &part : parts)
       if (const auto force = part->force())
         sums.add_part(*force);
-    if (tissue.cells().has_bodies())
-      sums.add_contact(of_contact);
+    for (const auto &part : parts)
+      if (part->pairs() != nullptr)
+        sums.add_between(model.interaction->name,
+                         part->forces_between(solution.u));
     return sums.result();
   }
 
@@ -401,7 +378,7 @@ namespace Morula
               list.push_back(std::move(term));
           });
         }
-    if (conditions.has_pushing() && !has_contact())
+    if (conditions.has_pushing() && !may_meet())
       list.push_back(weak_drag(attempt.typical_stiffness));
   }
 
@@ -448,7 +425,7 @@ namespace Morula
     // before the step. With them nothing is projected out, and the weak drag
     // (4.8f) decides instead of (4.10).
     if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
-        has_contact())
+        may_meet())
       return {};
     const TimerOutput::Scope section(timer, "rigid motion");
     return rigid_modes.inertia(masses());

@@ -2,12 +2,15 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/particles/nearest.h>
 #include <morula/simulation/surface_forces.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -49,6 +52,67 @@ namespace Morula
               (BSpline<dim>::offset(a, d) + 0.5) * space.box().spacing();
         }
       return centers;
+    }
+
+    /** See SurfaceForces::contact_pressures. Collective. */
+    template <int dim>
+    std::vector<double>
+    pressures_between(const Tissue<dim>                    &tissue,
+                      const std::vector<ForceBetween<dim>> &forces)
+    {
+      // Every point tells its area and the normal force on it. A tree finds
+      // those around a point, which are summed by id, so that nothing depends
+      // on ranks. The areas are those at t, which a step of growth changes:
+      // what the point's own patch has become since then stands for its
+      // surroundings.
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      std::vector<double>        of_points(store.size(), 0.);
+      for (const ForceBetween<dim> &one : forces)
+        of_points[one.p] -= one.force * one.area / one.area.norm();
+      std::vector<Point<dim>>   queries;
+      std::vector<unsigned int> loaded;
+      std::vector<double>       widening;
+      for (const ForceBetween<dim> &one : forces)
+        if (loaded.empty() || loaded.back() != one.p)
+          {
+            loaded.push_back(one.p);
+            widening.push_back(one.area.norm() /
+                               store.area_vector(one.p).norm());
+            queries.push_back(store.position(one.p));
+          }
+      const auto numbers = [&](const unsigned int   p,
+                               std::vector<double> &list) {
+        list.push_back(of_points[p]);
+        append_flat(list, store.area_vector(p));
+        list.push_back(store.body(p));
+      };
+      const PointList<dim> near = near_points(
+        queries, store, {2 + dim, numbers, Ties::lowest_id}, tissue.grid(), 1);
+      const NearTree<dim> tree(near.positions);
+      const double        radius = 0.5 * tissue.grid().box().spacing();
+
+      std::vector<double> pressures(store.size(), 0.);
+      for (std::size_t k = 0; k < loaded.size(); ++k)
+        {
+          std::vector<unsigned int> around = tree.within(queries[k], radius);
+          std::sort(around.begin(),
+                    around.end(),
+                    [&](const unsigned int i, const unsigned int j) {
+                      return near.ids[i] < near.ids[j];
+                    });
+          double force = 0., area = 0.;
+          for (const unsigned int i : around)
+            if (const auto around = Flat<Tensor<1, dim>>::read(&near.row(i)[1]);
+                near.row(i)[1 + dim] == store.body(loaded[k]) &&
+                (!store.has_parts() ||
+                 around * store.area_vector(loaded[k]) > 0.))
+              {
+                force += near.row(i)[0];
+                area += around.norm();
+              }
+          pressures[loaded[k]] = force / (area * widening[k]);
+        }
+      return pressures;
     }
   } // namespace
 
@@ -258,14 +322,15 @@ namespace Morula
 
   template <int dim>
   void
-  ForceSums<dim>::add_contact(const std::vector<ContactForce<dim>> &forces)
+  ForceSums<dim>::add_between(const std::string                    &kind,
+                              const std::vector<ForceBetween<dim>> &forces)
   {
     // Which bodies touch is known only from the forces of all ranks. All of
     // them make the same rows, also where they have no points in them.
     using Bodies = std::pair<unsigned int, unsigned int>;
     std::set<Bodies>          touching;
     std::vector<unsigned int> numbers;
-    for (const ContactForce<dim> &one : forces)
+    for (const ForceBetween<dim> &one : forces)
       if (one.touches && one.other <= one.body)
         touching.emplace(one.other, one.body);
     for (const Bodies &bodies : touching)
@@ -281,12 +346,13 @@ namespace Morula
     for (const Bodies &bodies : touching)
       {
         ForceRow row;
-        row.kind = "contact";
-        row.name = "body " + std::to_string(bodies.first) +
+        row.kind        = kind;
+        row.is_internal = true;
+        row.name        = "body " + std::to_string(bodies.first) +
                    (bodies.first == bodies.second ?
                       " on itself" :
                       " on body " + std::to_string(bodies.second));
-        for (const ContactForce<dim> &one : forces)
+        for (const ForceBetween<dim> &one : forces)
           if (Bodies(one.other, one.body) == bodies)
             {
               row.points += one.touches ? 1 : 0;
@@ -299,9 +365,9 @@ namespace Morula
             }
         mine.rows.push_back(row);
       }
-    for (const ContactForce<dim> &one : forces)
+    for (const ForceBetween<dim> &one : forces)
       mine.of_points[one.p] += one.force;
-    mine.contact_pressures = contact_pressures(tissue, forces);
+    mine.contact_pressures = pressures_between(tissue, forces);
   }
 
 

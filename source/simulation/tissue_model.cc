@@ -64,6 +64,7 @@ namespace Morula
     , traits(std::move(effects.traits))
     , step_effects(std::move(effects.step_effects))
     , forces(std::move(effects.forces))
+    , interaction(std::move(effects.interaction))
     , densities(densities_of<dim>(equations))
     , moments(moments_of<dim>(step_effects, boundary_conditions))
   {}
@@ -79,10 +80,10 @@ namespace Morula
     BoundaryColumns<dim> columns(scene.tissue.refine_surface,
                                  scene.tissue.coarsen_surface,
                                  !boundary_conditions.list().empty() ||
-                                   scene.contact.is_on());
-    if (scene.contact.is_on())
-      columns.need_contact(scene.contact.fusion_time > 0.,
-                           scene.contact.is_of_all());
+                                   interaction);
+    if (interaction)
+      columns.need_bodies(interaction->effect->fuses(),
+                          interaction->effect->acts_within_bodies());
     // Nitsche's term (4.2) needs F_g of a carrier. The bounded form needs none,
     // as its traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&

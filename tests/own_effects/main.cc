@@ -17,6 +17,7 @@
 #include "pull.h"
 #include "sharing.h"
 #include "swelling.h"
+#include "tethers.h"
 #include "twofold.h"
 
 int
@@ -34,6 +35,7 @@ main(int argc, char *argv[])
   program.catalogue.add_equation<Own::Sharing>("sharing");
   program.catalogue.add_force<Own::Pull>("pull");
   program.catalogue.add_boundary_condition<Own::Drag>("drag");
+  program.catalogue.add_interaction<Own::Tethers>("tethers");
   program.catalogue.materials.add("twofold",
                                   Morula::own_material(Own::Twofold()));
   return program.run(argc, argv);

@@ -8,7 +8,10 @@ on two, and resumed.
 from pathlib import Path
 
 import numpy
-from program import ProgramTest, main, overrides, read_csv, without_wall_time
+
+from morula.run import Run
+from bodies import SCENE as BODIES, BodiesTest, block, rectangle
+from program import main, overrides, read_csv, without_wall_time
 
 SCENE = Path(__file__).resolve().parents[1] / "own_effects" / "own.prm"
 LIBRARY = overrides({
@@ -31,19 +34,24 @@ FOUNDERS, LOST = 100, 9
 STEP = 0.125  # day
 
 
-class OwnEffects(ProgramTest):
+class OwnProgram(BodiesTest):
+    """Runs the program of tests/own_effects."""
     def setUp(self):
         super().setUp()
         library = Path(self.options.morula)
         self.program = library.parent / "tests" / "own-effects"
 
-    def execute(self, *arguments, ranks=1, output=None, code=0):
+    def execute(self, *arguments, **options):
         library, self.options.morula = self.options.morula, str(self.program)
         try:
-            return super().execute(SCENE, *arguments, ranks=ranks,
-                                   output=output, code=code)
+            return super().execute(*arguments, **options)
         finally:
             self.options.morula = library
+
+
+class OwnEffects(OwnProgram):
+    def execute(self, *arguments, **options):
+        return super().execute(SCENE, *arguments, **options)
 
     def check_closed_forms(self, output):
         rows = read_csv(output / "statistics.csv")
@@ -179,6 +187,61 @@ class OwnEffects(ProgramTest):
             self.assertIn("a finite value", text)
         text = self.execute("-s", "Growth/Dose/Uptake=t", code=1).text
         self.assertIn("Growth/Dose/Uptake = 't'", text)
+
+
+class OwnInteraction(OwnProgram):
+    def test_springs_between_blocks(self):
+        """Springs hold a block at another one: against its load, and summed up
+        over the points; on any ranks, and resumed."""
+        k, reach, load = 1e-3, 8.0, 0.05
+        scene = self.scene(
+            block(0, 30, "a") + block(33, 63, "b"),
+            [[rectangle(0, 30)], [rectangle(33, 63)]],
+            BODIES.replace("""subsection Contact
+  set Between = bodies
+  set Bodies  = cell type
+""", f"""subsection Tethers
+  set Stiffness = {k}
+  set Reach     = {reach}
+"""))
+        keys = {"Boundary conditions/Fixed where": "Y < 0.001",
+                "Boundary conditions/Traction where": "Y > 62.999",
+                "Boundary conditions/Traction": f"0; 0.02 + {load}*t",
+                "Tissue/Boundary points": "144",
+                "Output/Snapshot interval": "0.2",
+                "Solver/Newton tolerance": "1e-10"}
+        output, found = self.work / "output", []
+        for ranks in (1, 2, 3):
+            self.run_scene(scene, keys, ranks)
+            rows = Run(output).forces
+            rows = rows[rows["kind"] == "tethers"]
+            self.assertEqual(set(rows["name"]), {"body 0 on body 1"})
+            numpy.testing.assert_allclose(
+                rows["force_y"], -60 * (0.02 + load * rows["time"]), rtol=1e-6)
+            found.append(rows["force_y"].iloc[-1])
+            before, after = (read_csv(output / f"surface-000{i}.csv")
+                             for i in (3, 4))
+            force = 0.0
+            lower, upper = (before["body"] == body for body in (0, 1))
+            for b in numpy.flatnonzero(upper):
+                d = numpy.hypot(before["x"][b] - before["x"],
+                                before["y"][b] - before["y"])
+                faces = (before["nx"][b] * before["nx"]
+                         + before["ny"][b] * before["ny"]) < 0
+                for c in numpy.flatnonzero(lower & faces & (d <= reach)):
+                    force -= (k * before["area"][b] * before["area"][c]
+                              * (after["y"][b] - after["y"][c]))
+            self.assertAlmostEqual(force / found[-1], 1, delta=1e-5)
+        numpy.testing.assert_allclose(found, found[0], rtol=1e-8)
+        whole = without_wall_time(output)
+        self.run_scene(scene, {**keys, "Time/End time": "0.2"}, 3)
+        self.execute(scene, "--resume", *overrides(keys), ranks=3)
+        self.assertEqual(whole, without_wall_time(output))
+        self.assertIn("tethers", (output / "timings.csv").read_text())
+        text = self.execute(
+            scene, "-s", "Contact/Between=bodies", code=1).text
+        self.assertIn("Tethers/Stiffness = '0.001'", text)
+        self.assertIn("bodies have contact already", text)
 
 
 if __name__ == "__main__":

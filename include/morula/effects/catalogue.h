@@ -12,6 +12,7 @@
 #include <morula/effects/growth/flow.h>
 #include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/growth/growth_law.h>
+#include <morula/effects/interaction.h>
 #include <morula/effects/state/trait.h>
 #include <morula/effects/step_effect.h>
 #include <morula/effects/surface/boundary_condition.h>
@@ -117,6 +118,15 @@ namespace Morula
       add_in_section<Added>(equations, "", name);
     }
 
+    /** Adds an interaction of bodies. A scene has it if its keys say so; they
+     *  stand in `<Name>`. */
+    template <template <int> class Added>
+    void
+    add_interaction(const std::string &name)
+    {
+      add_in_section<Added>(interactions, "", name);
+    }
+
     /** Adds a condition on the surface. A scene has it if its keys say so; they
      *  stand in `Boundary conditions/<Name>`. */
     template <template <int> class Condition>
@@ -193,6 +203,7 @@ namespace Morula
     Choices<StepEffect>        step_effects;
     Choices<Force>             forces;
     Choices<BoundaryCondition> boundary_conditions;
+    Choices<Interaction>       interactions;
 
   private:
     /** Adds an effect whose keys stand in @p around and a section of its own.
@@ -228,6 +239,7 @@ namespace Morula
       of_kind(self.step_effects);
       of_kind(self.forces);
       of_kind(self.boundary_conditions);
+      of_kind(self.interactions);
     }
 
     /** The first keys of a type. */

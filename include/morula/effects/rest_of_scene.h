@@ -40,8 +40,10 @@ namespace Morula
     bool is_active;
     /** Whether volumes of cells may differ. */
     bool volumes_differ;
-    /** The key that leaves the tissue without boundary points, or null. */
-    const AnyKey *no_surface;
+    /** The key that says what surface cells from a file get, and whether it
+     *  leaves them without boundary points. */
+    const AnyKey &points_surface;
+    bool          has_no_surface;
     /** Whether patches that grow long are split. */
     const Key<bool> &refine_surface;
     /** The file of cuts at t = 0; empty: there are none. */

@@ -49,6 +49,20 @@ namespace Morula
     void
     at_points(const PointStore<dim> &store, const Action &action) const;
 
+    /** The values at the points of a store, in order. */
+    std::vector<Tensor<1, n_components>>
+    values_at(const PointStore<dim> &store) const
+    {
+      std::vector<Tensor<1, n_components>> list(store.size());
+      at_points(store,
+                [&list](const unsigned int                   p,
+                        const LocalField<dim, n_components> &field,
+                        const SplineValues<dim>             &splines) {
+                  list[p] = field.value(splines);
+                });
+      return list;
+    }
+
     /** Calls action(grid_cell, field, index) for each grid cell of a store that
      *  holds points, in order. */
     template <typename Action>

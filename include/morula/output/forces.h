@@ -18,7 +18,8 @@ namespace Morula
    *  ranks. In 2-D forces are per µm of thickness. */
   struct ForceRow
   {
-    /** "condition", "obstacle", "lumen" or, on cells, "force". */
+    /** "condition", "obstacle", "lumen", on cells "force", or the name of an
+     *  interaction. */
     std::string kind;
     /** As in the scene. */
     std::string name;
@@ -33,6 +34,8 @@ namespace Morula
     /** Sum of the points' forces along their inward normals, kPa µm^(dim-1):
      *  it does not cancel where the tissue is pressed from both sides. */
     double inward = 0.;
+    /** Whether it acts between bodies of the tissue. */
+    bool is_internal = false;
   };
 
   /** The columns of forces.csv. */

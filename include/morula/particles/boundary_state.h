@@ -38,9 +38,9 @@ namespace Morula
   {
   public:
     /** Declares the body and the pressure of contact, and its time where bodies
-     *  fuse. Contact calls it. */
+     *  fuse: for bodies that interact. */
     void
-    need_contact(const bool fuses = false, const bool with_parts = false);
+    need_bodies(const bool fuses = false, const bool with_parts = false);
 
     /** @param with_patch whether the scene refines the surface
      *  @param coarsens whether it also merges patches that shrink

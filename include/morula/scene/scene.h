@@ -6,7 +6,6 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/contact/contact_parameters.h>
 #include <morula/effects/development.h>
 #include <morula/effects/division/division_parameters.h>
 #include <morula/effects/fate/cell_type_parameters.h>
@@ -55,7 +54,6 @@ namespace Morula
     DivisionParameters  division;
     CellTypesParameters cell_types;
     NitscheParameters   nitsche;
-    ContactParameters   contact;
     SolverParameters    solver;
     OutputParameters    output;
 
@@ -290,6 +288,7 @@ namespace Morula
     std::vector<std::unique_ptr<const Trait<dim>>>       traits;
     NamedEffects<StepEffect<dim>>                        step_effects;
     NamedEffects<Force<dim>>                             forces;
+    std::optional<NamedEffect<Interaction<dim>>>         interaction;
     std::vector<typename BoundaryConditions<dim>::Named> conditions;
   };
 
@@ -310,6 +309,11 @@ namespace Morula
   template <int dim>
   SceneEffects<dim>
   effects_of(const Scene &scene);
+
+  /** The scene's interaction, with columns of its own. @throws InputError */
+  template <int dim>
+  std::optional<NamedEffect<Interaction<dim>>>
+  interaction_of(const Scene &scene);
 
   /** The scene's conditions on the surface. @throws InputError */
   template <int dim>

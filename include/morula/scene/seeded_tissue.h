@@ -29,6 +29,8 @@ namespace Morula
     ConditionCounts       counts;
     /** See applied_conditions(). */
     std::vector<AppliedCondition> applied;
+    /** What bodies are that interact, by their numbers. */
+    std::vector<BodyMeasures> measures;
     /** Of how many bodies and pieces tissue from a file is, and which closed
      *  surfaces its mesh has; empty otherwise. */
     std::string bodies, mesh;

@@ -4,6 +4,7 @@
 #ifndef morula_seeding_bodies_h
 #define morula_seeding_bodies_h
 
+#include <morula/particles/body_measures.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -12,10 +13,6 @@
 
 namespace Morula
 {
-  /** How far two cells of one body stand apart at most, in units of their mean
-   *  length V^(1/dim). Diagonal neighbours on a cubic lattice are at 1.73. */
-  constexpr double widest_bond = 1.8;
-
   /**
    * The body of each of this rank's founders: founders that stand together,
    * each at most widest_bond lengths from some other. Bodies have the numbers
@@ -35,25 +32,6 @@ namespace Morula
   template <int dim>
   void
   part_bodies(SurfacePatches<dim> &patches);
-
-  /** What a body is at t = 0. */
-  struct BodyMeasures
-  {
-    double cells = 0.; // their number
-    /** Of its cells, µm^dim. */
-    double volume = 0.;
-    /** Of its patches, µm^(dim-1). */
-    double area = 0.;
-    /** |Σ a n| of its patches: 0 if its surface is closed, µm^(dim-1). */
-    double opening = 0.;
-
-    /** The thickness of a sheet with this volume and area, µm. */
-    double
-    thickness() const
-    {
-      return area > 0. ? 2. * volume / area : 0.;
-    }
-  };
 
   /** The measures of all bodies, by their numbers. Collective. */
   template <int dim>

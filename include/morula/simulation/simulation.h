@@ -125,13 +125,13 @@ namespace Morula
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution
-    solve_step(const SplineSpace<dim>   &space,
-               const ContactPoints<dim> *contact);
+    solve_step(const SplineSpace<dim> &space,
+               const Encounters<dim>  *encounters);
 
-    /** The boundary points that may touch another body in the step; nothing
-     *  without contact. Unknowns of others become relevant. Collective. */
-    std::optional<ContactPoints<dim>>
-    points_in_contact(SplineSpace<dim> &space);
+    /** What may meet in the step; null without an interaction. Unknowns of
+     *  others become relevant. Collective. */
+    std::unique_ptr<const Encounters<dim>>
+    encounters(SplineSpace<dim> &space);
 
     /** The splines of equations, if they pass from body to body. Collective. */
     std::optional<SplineSpace<dim>>

@@ -4,8 +4,7 @@
 #ifndef morula_simulation_step_equilibrium_h
 #define morula_simulation_step_equilibrium_h
 
-#include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/part_of_step.h>
+#include <morula/effects/interaction.h>
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
@@ -55,15 +54,14 @@ namespace Morula
     using Supports = std::vector<typename RigidModes<dim>::Support>;
 
     /** @param supports what holds this rank's pieces
-     *  @param contact points that may touch another body, or null. Collective.
-     */
-    StepEquilibrium(const TissueModel<dim>   &model,
-                    const Tissue<dim>        &tissue,
-                    const SplineSpace<dim>   &space,
-                    const Supports           &supports,
-                    TimerOutput              &timer,
-                    const MPI_Comm            comm,
-                    const ContactPoints<dim> *contact = nullptr);
+     *  @param encounters what may meet, or null. Collective. */
+    StepEquilibrium(const TissueModel<dim> &model,
+                    const Tissue<dim>      &tissue,
+                    const SplineSpace<dim> &space,
+                    const Supports         &supports,
+                    TimerOutput            &timer,
+                    const MPI_Comm          comm,
+                    const Encounters<dim>  *encounters = nullptr);
 
     /**
      * Solves for the end of a step. Collective.
@@ -98,11 +96,10 @@ namespace Morula
          NewtonReport         &report) const;
     /** The forces on the surface, if conditions act on it. Collective. */
     SurfaceForces<dim>
-    forces(const Attempt                        &attempt,
-           const TermList                       &list,
-           const Parts                          &parts,
-           const std::vector<ContactForce<dim>> &of_contact,
-           const Solution                       &solution) const;
+    forces(const Attempt  &attempt,
+           const TermList &list,
+           const Parts    &parts,
+           const Solution &solution) const;
     /** Where Newton's iterations begin; nothing if they begin at u = 0. */
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const;
@@ -122,11 +119,11 @@ namespace Morula
      *  StepFailed on all ranks if a condition finds the step too long */
     void
     add_loads(const Attempt &attempt, TermList &list) const;
-    /** Whether some bodies may touch in the step. */
+    /** Whether something may meet in the step. */
     bool
-    has_contact() const
+    may_meet() const
     {
-      return contact != nullptr && contact->any();
+      return encounters != nullptr && encounters->any();
     }
 
     /** A drag that is too weak to matter elsewhere. It decides where pieces go
@@ -143,7 +140,7 @@ namespace Morula
     const MPI_Comm          comm;
     const RigidModes<dim>   rigid_modes;
 
-    const ContactPoints<dim> *const contact;
+    const Encounters<dim> *const encounters;
   };
 } // namespace Morula
 

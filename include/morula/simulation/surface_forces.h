@@ -4,7 +4,6 @@
 #ifndef morula_simulation_surface_forces_h
 #define morula_simulation_surface_forces_h
 
-#include <morula/effects/contact/contact_forces.h>
 #include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/spline_field.h>
@@ -27,8 +26,10 @@ namespace Morula
     /** The sum of all conditions' forces on each of this rank's boundary
      * points, in the order of the store, kPa µm^(dim-1). */
     std::vector<Tensor<1, dim>> of_points;
-    /** The pressure of contact there, see contact_pressures(), kPa; empty where
-     *  nothing touches. */
+    /** The pressure there of what touches, kPa: the normal force on the points
+     *  of their body within half a grid spacing over the area of these. The
+     *  pressure of single points is no measure of accuracy, as facets of two
+     *  surfaces do not match. Empty where nothing touches. */
     std::vector<double> contact_pressures;
   };
 
@@ -75,11 +76,12 @@ namespace Morula
     void
     add_part(const ForceOnPoints<dim> &force);
 
-    /** Adds a row for each two bodies that touch, with the force of the one
-     * with the lower number on the other, and the pressure at all points.
-     *  Collective. */
+    /** Adds a row of this kind for each two bodies that touch, with the force
+     *  of the one with the lower number on the other, and the pressure at all
+     *  points. Collective. */
     void
-    add_contact(const std::vector<ContactForce<dim>> &forces);
+    add_between(const std::string                    &kind,
+                const std::vector<ForceBetween<dim>> &forces);
 
     /** The rows as sums over all ranks, and this rank's forces of points.
      *  Collective. */

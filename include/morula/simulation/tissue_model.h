@@ -36,6 +36,7 @@ namespace Morula
     const std::vector<std::unique_ptr<const Trait<dim>>> traits;
     const NamedEffects<StepEffect<dim>>                  step_effects;
     const NamedEffects<Force<dim>>                       forces;
+    const std::optional<NamedEffect<Interaction<dim>>>   interaction;
     /** Equation::densities() of all. */
     const std::vector<Column<double>> densities;
     /** Of step effects, then of conditions, with the effects' names. */

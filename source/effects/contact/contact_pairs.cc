@@ -385,7 +385,7 @@ namespace Morula
 
 
   template <int dim>
-  std::vector<ContactForce<dim>>
+  std::vector<ForceBetween<dim>>
   ContactPairs<dim>::forces(const std::vector<double> &u) const
   {
     // Each pair that touches adds its force to both points, apart for each body
@@ -405,7 +405,7 @@ namespace Morula
     for (const Pair &pair : pairs)
       {
         const double g = gap(pair, ways);
-        if (g >= ContactForce<dim>::reach * law.h && pair.slow == 0.)
+        if (g >= ContactPairs<dim>::reach * law.h && pair.slow == 0.)
           continue;
         Sum &of_b = sums[{pair.b, points.points()[pair.c].body}];
         Sum &of_c = sums[{pair.c, points.points()[pair.b].body}];
@@ -416,7 +416,7 @@ namespace Morula
         of_c.force -= t;
         of_b.touches = of_c.touches = true;
       }
-    std::vector<ContactForce<dim>> list;
+    std::vector<ForceBetween<dim>> list;
     for (const auto &[key, sum] : sums)
       list.push_back({key.first,
                       points.points()[key.first].body,

@@ -217,9 +217,9 @@ namespace Morula
   {
     for (const FieldKeys &field : fields)
       field.check(scene.dim);
-    if (needs_surface() && scene.no_surface != nullptr)
+    if (needs_surface() && scene.has_no_surface)
       names.refuse("fields that nothing is done to at the surface, as " +
-                     scene.no_surface->path() + " = none",
+                     scene.points_surface.path() + " = none",
                    "Remove their Fixed where, Transfer and Flux where, or set "
                    "Points surface = automatic.");
   }

@@ -122,8 +122,7 @@ namespace Morula
 
   template <int dim>
   void
-  HeldTraction<dim>::begin(const MomentumBalance<dim> &,
-                           const Equilibrium::Vector &u)
+  HeldTraction<dim>::begin(MomentumBalance<dim> &, const Equilibrium::Vector &u)
   {
     T = tractions_of(u);
   }

@@ -129,7 +129,7 @@ namespace Morula
 
   template <int dim>
   void
-  LumenPressure<dim>::begin(const MomentumBalance<dim> &of_step,
+  LumenPressure<dim>::begin(MomentumBalance<dim> &of_step,
                             const Equilibrium::Vector &)
   {
     balance = &of_step;

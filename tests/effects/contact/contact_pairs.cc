@@ -31,7 +31,7 @@ namespace
     CellColumns<dim> cells;
     cells.need_bodies();
     BoundaryColumns<dim> surface;
-    surface.need_contact();
+    surface.need_bodies();
     auto tissue =
       std::make_unique<Tissue<dim>>(grid, cells, MPI_COMM_WORLD, surface);
     PointList<dim> all_cells(cells.n_numbers()),
@@ -173,7 +173,8 @@ namespace
     const ContactPairs<dim>   term(points, {kappa, 1., h, 0.});
     const std::vector<double> rest(dim * space.relevant().n_elements(), 0.);
     Tensor<1, dim>            on_upper, on_lower;
-    for (const auto &one : contact_forces(points, term, rest, MPI_COMM_WORLD))
+    for (const auto &one :
+         contact_forces(points, term.forces(rest), MPI_COMM_WORLD))
       (one.body == 0 ? on_lower : on_upper) += one.force;
     EXPECT_NEAR((on_upper + on_lower).norm(), 0., 1e-12);
     // At the edges of the faces the kernel reaches beyond the partner.

@@ -5,31 +5,13 @@
 #define morula_effects_contact_contact_pairs_h
 
 #include <morula/effects/contact/contact_points.h>
-#include <morula/mechanics/pair_term.h>
+#include <morula/effects/part_of_step.h>
 
 #include <map>
 #include <vector>
 
 namespace Morula
 {
-  /** What another body does to a boundary point. */
-  template <int dim>
-  struct ContactForce
-  {
-    unsigned int   p;       // number of the point
-    unsigned int   body;    // of the point
-    unsigned int   other;   // body
-    bool           touches; // or only all but does, without a force
-    Tensor<1, dim> force;   // on the point, kPa µm^(dim-1)
-    Point<dim>     place;   // where it acts, µm
-    Tensor<1, dim> area;    // a n there, µm^(dim-1)
-
-    /** Points are in contact up to this gap, in grid spacings: facets of two
-     *  surfaces do not match, so that within a contact some have a little gap.
-     */
-    static constexpr double reach = 0.005;
-  };
-
   /** How stiff contact is. */
   struct ContactLaw
   {
@@ -51,6 +33,11 @@ namespace Morula
   class ContactPairs : public PairTerm
   {
   public:
+    /** Points are in contact up to this gap, in grid spacings: facets of two
+     *  surfaces do not match, so that within a contact some have a little gap.
+     */
+    static constexpr double reach = 0.005;
+
     /** Freezes the configuration at t. Keeps a reference to the points. */
     ContactPairs(const ContactPoints<dim> &points, const ContactLaw &law);
 
@@ -99,7 +86,7 @@ namespace Morula
 
     /** The force on each point that another body touches, by the points'
      *  numbers in points(). */
-    std::vector<ContactForce<dim>>
+    std::vector<ForceBetween<dim>>
     forces(const std::vector<double> &u) const;
 
   private:

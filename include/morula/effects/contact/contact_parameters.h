@@ -40,12 +40,6 @@ namespace Morula
     void
     check_with(const RestOfScene &scene) const override;
 
-    /** How bodies act on each other, for --explain.
-     *  @param h        grid spacing, µm
-     *  @param thinnest thickness of the thinnest body, µm */
-    std::string
-    details_of_bodies(const double h, const double thinnest) const;
-
     using Keys::list;
     KeyList
     list() override;

@@ -4,23 +4,10 @@
 #ifndef morula_effects_contact_fusion_h
 #define morula_effects_contact_fusion_h
 
-#include <morula/particles/tissue.h>
-
-#include <map>
-#include <vector>
+#include <morula/particles/fusion.h>
 
 namespace Morula
 {
-  /** What fuses after a step. */
-  struct Fusion
-  {
-    /** Into which body a body goes that fuses, by its number; of all ranks. */
-    std::map<unsigned int, unsigned int> into;
-    /** This rank's boundary points that others face which are to fuse with
-     *  them, by their numbers in the store, increasing. */
-    std::vector<unsigned int> points;
-  };
-
   /** Adds @p dt (day) to the time for which boundary points have been touched
    *  without a break; those that nothing touches begin anew. */
   template <int dim>
@@ -35,18 +22,6 @@ namespace Morula
   template <int dim>
   Fusion
   find_fusion(const Tissue<dim> &tissue, const double time);
-
-  /** Takes the surface away that two strands have had between them, so that
-   *  bonds form there: doc/theory.md, section 4.3a. Collective. */
-  template <int dim>
-  void
-  remove_fused_surface(const Fusion &fusion, Tissue<dim> &tissue);
-
-  /** Gives cells and boundary points of bodies that fuse their new body. The
-   *  surface between them is still there. Collective. */
-  template <int dim>
-  void
-  fuse_bodies(const Fusion &fusion, Tissue<dim> &tissue);
 } // namespace Morula
 
 #endif

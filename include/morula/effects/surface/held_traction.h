@@ -40,8 +40,7 @@ namespace Morula
      *  of its start, µm, with the growth at t + dt. Tissue that cannot move has
      *  it at the end. Collective. */
     void
-    begin(const MomentumBalance<dim> &balance,
-          const Equilibrium::Vector  &u) override;
+    begin(MomentumBalance<dim> &balance, const Equilibrium::Vector &u) override;
 
     bool
     renew(const Equilibrium::Vector &u) override;

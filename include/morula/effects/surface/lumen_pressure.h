@@ -40,8 +40,7 @@ namespace Morula
     }
 
     void
-    begin(const MomentumBalance<dim> &balance,
-          const Equilibrium::Vector  &u) override;
+    begin(MomentumBalance<dim> &balance, const Equilibrium::Vector &u) override;
 
     bool
     renew(const Equilibrium::Vector &u) override;

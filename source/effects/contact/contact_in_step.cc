@@ -3,7 +3,8 @@
 
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
-#include <morula/effects/contact/contact_turn.h>
+#include <morula/effects/contact/contact_forces.h>
+#include <morula/effects/contact/contact_in_step.h>
 #include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
@@ -54,16 +55,12 @@ namespace Morula
     // point that faces another one of another body, near along the surface, has
     // crossed it if it is behind it now but was before it at t. Candidates at t
     // are left out, as the energy and its limits are for them.
-    const BoundaryPoints<dim>  &store = tissue.boundary_points();
-    std::vector<Tensor<1, dim>> ways(store.size());
-    double                      longest = 0.;
-    displacement.at_points(store,
-                           [&](const unsigned int       p,
-                               const LocalField<dim>   &field,
-                               const SplineValues<dim> &splines) {
-                             ways[p] = field.value(splines);
-                             longest = std::max(longest, ways[p].norm());
-                           });
+    const BoundaryPoints<dim>        &store = tissue.boundary_points();
+    const std::vector<Tensor<1, dim>> ways  = displacement.values_at(store);
+
+    double longest = 0.;
+    for (const Tensor<1, dim> &way : ways)
+      longest = std::max(longest, way.norm());
     longest = Utilities::MPI::max(longest, tissue.communicator());
     if (2. * longest <= points.way())
       return false;
@@ -114,48 +111,53 @@ namespace Morula
 
 
   template <int dim>
-  ContactTurn<dim>::ContactTurn(const Tissue<dim>        &tissue,
-                                const SplineSpace<dim>   &space,
-                                const ContactPoints<dim> &points,
-                                const ContactLaw         &law,
-                                ContactPairs<dim>        &pairs,
-                                Drag<dim>                &drag,
-                                const bool                recentres,
-                                MomentumBalance<dim>     &balance,
-                                TimerOutput              &timer,
-                                const MPI_Comm            comm)
-    : tissue(tissue)
-    , space(space)
+  ContactInStep<dim>::ContactInStep(const AttemptAtStep<dim> &attempt,
+                                    const ContactPoints<dim> &points,
+                                    const ContactLaw         &law)
+    : attempt(attempt)
     , points(points)
     , law(law)
-    , pairs(pairs)
-    , drag(drag)
-    , balance(balance)
-    , timer(timer)
-    , comm(comm)
-    , recentres(recentres)
+    , pairs_(points, law)
   {}
 
 
   template <int dim>
+  void
+  ContactInStep<dim>::take_drag(Drag<dim> &of_step, const bool is_weak)
+  {
+    drag      = &of_step;
+    recentres = is_weak;
+  }
+
+
+  template <int dim>
+  void
+  ContactInStep<dim>::begin(MomentumBalance<dim> &of_step,
+                            const Equilibrium::Vector &)
+  {
+    balance = &of_step;
+  }
+
+
+  template <int dim>
   bool
-  ContactTurn<dim>::renew(const Equilibrium::Vector &u)
+  ContactInStep<dim>::renew(const Equilibrium::Vector &u)
   {
     // All ranks get the sums and extremes of all pairs, so that they decide
     // alike. Where the equilibrium is good enough, the frozen geometry stays:
     // forces are read from the state that was solved for. Otherwise the pairs
     // take their new geometry, and the weak drag a new centre.
-    const TimerOutput::Scope section(timer, "contact");
-    const auto               renewal = pairs.look(balance.relevant_values(u));
+    const TimerOutput::Scope section(attempt.timer, "contact");
+    const auto               renewal = pairs_.look(balance->relevant_values(u));
     double                   sums[5] = {renewal.normal,
                                         renewal.tangential,
                                         renewal.of_new_pairs,
                                         1. * renewal.has_new_links,
                                         renewal.onward};
-    Utilities::MPI::sum(sums, comm, sums);
-    const double crossed = Utilities::MPI::max(renewal.crossed, comm),
-                 slid    = Utilities::MPI::max(renewal.slid, comm);
-    const DisplacementField<dim> displacement(space, u, comm);
+    Utilities::MPI::sum(sums, attempt.comm, sums);
+    const double crossed = Utilities::MPI::max(renewal.crossed, attempt.comm),
+                 slid    = Utilities::MPI::max(renewal.slid, attempt.comm);
+    const DisplacementField<dim> displacement(attempt.space, u, attempt.comm);
     std::ostringstream           text;
     if (crossed > 0.)
       text << "two bodies overlap by " << crossed
@@ -164,7 +166,7 @@ namespace Morula
       text << "bodies in contact slide by " << slid
            << " um along each other, more than " << points.way()
            << " um: the step is too long for their contact";
-    else if (has_crossed_from_afar(tissue, points, displacement, law.h))
+    else if (has_crossed_from_afar(attempt.tissue, points, displacement, law.h))
       text << "bodies pass through each other, so that the step is too long "
               "for their contact";
     if (!text.str().empty())
@@ -188,49 +190,43 @@ namespace Morula
       {
         drag_part *= softer;
         left_over *= softer;
-        pairs.set_drag(drag_part);
+        pairs_.set_drag(drag_part);
       }
     else if (sums[1] > staying * before)
       part = std::max(0.5 * part, smallest_part);
-    const std::vector<double> values = balance.relevant_values(u);
+    const std::vector<double> values = balance->relevant_values(u);
     frozen.resize(values.size(), 0.);
     for (std::size_t i = 0; i < values.size(); ++i)
       frozen[i] += part * (values[i] - frozen[i]);
     if (part < 1. || slides_far)
-      sums[3] = pairs.look(frozen).has_new_links;
-    pairs.adopt();
-    if (Utilities::MPI::max(sums[3], comm) > 0.)
-      balance.renew_links();
-    if (!recentres)
-      return true;
-    std::vector<Tensor<1, dim>> ways(tissue.cells().size());
-    displacement.at_points(tissue.cells(),
-                           [&](const unsigned int       p,
-                               const LocalField<dim>   &field,
-                               const SplineValues<dim> &splines) {
-                             ways[p] = field.value(splines);
-                           });
-    drag.set_centre(std::move(ways));
+      sums[3] = pairs_.look(frozen).has_new_links;
+    pairs_.adopt();
+    if (Utilities::MPI::max(sums[3], attempt.comm) > 0.)
+      balance->renew_links();
+    if (recentres)
+      drag->set_centre(displacement.values_at(attempt.tissue.cells()));
     return true;
   }
 
 
   template <int dim>
   std::string
-  ContactTurn<dim>::unfinished() const
+  ContactInStep<dim>::unfinished() const
   {
     return "the contact of two bodies is still changing after twenty turns";
   }
 
 
   template <int dim>
-  std::vector<ContactForce<dim>>
-  ContactTurn<dim>::forces(const Equilibrium::Vector &u) const
+  std::vector<ForceBetween<dim>>
+  ContactInStep<dim>::forces_between(const Equilibrium::Vector &u) const
   {
-    return contact_forces(points, pairs, balance.relevant_values(u), comm);
+    return contact_forces(points,
+                          pairs_.forces(balance->relevant_values(u)),
+                          attempt.comm);
   }
 
 
-  template class ContactTurn<2>;
-  template class ContactTurn<3>;
+  template class ContactInStep<2>;
+  template class ContactInStep<3>;
 } // namespace Morula

@@ -92,7 +92,9 @@ namespace Morula
     // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
     // turn by turn (5.6), and reads the forces out of the terms. The parts of
     // effects come before the terms, which may keep references to them, and
-    // begin after them, before the first residual needs them. The report is
+    // begin after them, before the first residual needs them. What may meet has
+    // a term between grid cells, and a weak drag, which decides where pieces go
+    // that nothing else holds (4.8f). The report is
     // completed in both outcomes, as the diagnosis of a failed step reads it.
     const double             stiffness = attempt.typical_stiffness;
     const AttemptAtStep<dim> of_parts{tissue,
@@ -109,30 +111,38 @@ namespace Morula
                                       timer,
                                       comm};
     Parts parts = model.boundary_conditions.parts_of_step(of_parts);
+    InteractionInStep<dim> *meeting = nullptr;
     if (may_meet())
-      parts.push_back(encounters->part_of_step(of_parts));
+      {
+        auto part = encounters->part_of_step(of_parts);
+        meeting   = part.get();
+        parts.push_back(std::move(part));
+      }
     TermList        list      = terms(attempt, points, parts);
     Enclosure<dim> *enclosure = nullptr;
-    PairTerm       *pairs     = nullptr;
     bool            is_exact  = false;
     for (const auto &part : parts)
       {
         if (enclosure == nullptr)
           enclosure = part->enclosure();
-        if (pairs == nullptr)
-          pairs = part->pairs();
         is_exact = is_exact || part->is_exact();
       }
-    if (pairs != nullptr || attempt.drag > 1.)
+    if (meeting != nullptr || attempt.drag > 1.)
       {
-        const TimerOutput::Scope section(timer, "drag");
+        const TimerOutput::Scope section(timer, model.interaction->name);
         auto                     drag = weak_drag(stiffness);
         drag->set_strength(attempt.drag);
-        for (const auto &part : parts)
-          part->take_drag(*drag, attempt.drag == 1.);
+        if (meeting != nullptr)
+          meeting->take_drag(*drag, attempt.drag == 1.);
         list.push_back(std::move(drag));
       }
-    MomentumBalance<dim> balance(space, list, timer, comm, enclosure, pairs);
+    MomentumBalance<dim> balance(space,
+                                 list,
+                                 timer,
+                                 comm,
+                                 enclosure,
+                                 meeting != nullptr ? &meeting->pairs() :
+                                                      nullptr);
     const LinearProblem  linear =
       balance.linear_problem(stiffness, inertia(), tissue.cells().size());
     estimate_condition(balance, linear, condition);
@@ -180,7 +190,7 @@ namespace Morula
     // The next step sees what belongs to the equilibrium that was found last.
     for (const auto &part : parts)
       part->keep(solution.kept);
-    solution.forces = forces(attempt, list, parts, solution);
+    solution.forces = forces(attempt, list, parts, meeting, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -232,10 +242,11 @@ namespace Morula
 
   template <int dim>
   SurfaceForces<dim>
-  StepEquilibrium<dim>::forces(const Attempt  &attempt,
-                               const TermList &list,
-                               const Parts    &parts,
-                               const Solution &solution) const
+  StepEquilibrium<dim>::forces(const Attempt                &attempt,
+                               const TermList               &list,
+                               const Parts                  &parts,
+                               const InteractionInStep<dim> *meeting,
+                               const Solution               &solution) const
   {
     // The terms of conditions that load are made anew, since each of them gets
     // a row of its own. The other terms are found in the list in the order in
@@ -260,10 +271,8 @@ namespace Morula
     for (const auto &part : parts)
       if (const auto force = part->force())
         sums.add_part(*force);
-    for (const auto &part : parts)
-      if (part->pairs() != nullptr)
-        sums.add_between(model.interaction->name,
-                         part->forces_between(solution.u));
+    if (meeting != nullptr)
+      sums.add_between(model.interaction->name, meeting->forces(solution.u));
     return sums.result();
   }
 

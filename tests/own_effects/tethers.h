@@ -46,7 +46,7 @@ namespace Own
 
   /** The springs of an attempt: the energy is k a_b a_c |x_b - x_c|²/2 each. */
   template <int dim>
-  class TethersInStep : public PartOfStep<dim>, public PairTerm
+  class TethersInStep : public InteractionInStep<dim>, public PairTerm
   {
   public:
     TethersInStep(const AttemptAtStep<dim> &attempt,
@@ -78,10 +78,10 @@ namespace Own
         }
     }
 
-    PairTerm *
+    PairTerm &
     pairs() override
     {
-      return this;
+      return *this;
     }
 
     void
@@ -116,7 +116,7 @@ namespace Own
     }
 
     std::vector<ForceBetween<dim>>
-    forces_between(const Equilibrium::Vector &u) const override
+    forces(const Equilibrium::Vector &u) const override
     {
       const std::vector<double>      values = balance->relevant_values(u);
       std::vector<ForceBetween<dim>> list;
@@ -234,7 +234,7 @@ namespace Own
       return points.any();
     }
 
-    std::unique_ptr<PartOfStep<dim>>
+    std::unique_ptr<InteractionInStep<dim>>
     part_of_step(const AttemptAtStep<dim> &attempt) const override
     {
       return std::make_unique<TethersInStep<dim>>(attempt, points, keys);

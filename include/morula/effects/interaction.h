@@ -5,6 +5,8 @@
 #define morula_effects_interaction_h
 
 #include <morula/effects/part_of_step.h>
+#include <morula/mechanics/drag.h>
+#include <morula/mechanics/pair_term.h>
 #include <morula/particles/body_measures.h>
 #include <morula/particles/fusion.h>
 
@@ -14,6 +16,42 @@
 
 namespace Morula
 {
+  /** What tissue of another side does to a boundary point. */
+  template <int dim>
+  struct ForceBetween
+  {
+    unsigned int   p;       // number of the point
+    unsigned int   body;    // of the point
+    unsigned int   other;   // body
+    bool           touches; // or only all but does, without a force
+    Tensor<1, dim> force;   // on the point, kPa µm^(dim-1)
+    Point<dim>     place;   // where it acts, µm
+    Tensor<1, dim> area;    // a n there, µm^(dim-1)
+  };
+
+  /** An interaction in an attempt at a step. */
+  template <int dim>
+  class InteractionInStep : public PartOfStep<dim>
+  {
+  public:
+    /** Its term. Lives as long as this part. */
+    virtual PairTerm &
+    pairs() = 0;
+
+    /** Takes the drag of the step, which acts on all cells where something may
+     *  meet, and lives as long as this part.
+     *  @param is_weak whether it only decides where pieces go that nothing
+     *         holds, and holds nothing back */
+    virtual void
+    take_drag(Drag<dim> & /*drag*/, const bool /*is_weak*/)
+    {}
+
+    /** The forces of the pairs on this rank's boundary points in the
+     *  equilibrium @p u, in the order of the store. */
+    virtual std::vector<ForceBetween<dim>>
+    forces(const Equilibrium::Vector &u) const = 0;
+  };
+
   /** What may meet in the steps that begin with one configuration. All members
    *  but any() are collective. */
   template <int dim>
@@ -26,9 +64,8 @@ namespace Morula
     virtual bool
     any() const = 0;
 
-    /** The part in an attempt at a step, if any(): it has pairs(). Keeps
-     *  references to all that it is given. */
-    virtual std::unique_ptr<PartOfStep<dim>>
+    /** The part in an attempt at a step, if any(). Keeps a reference to it. */
+    virtual std::unique_ptr<InteractionInStep<dim>>
     part_of_step(const AttemptAtStep<dim> &attempt) const = 0;
 
     /** Refuses a step in which something has met that is none of these.

@@ -6,10 +6,8 @@
 
 #include <morula/effects/development.h>
 #include <morula/effects/tables.h>
-#include <morula/mechanics/drag.h>
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/momentum_balance.h>
-#include <morula/mechanics/pair_term.h>
 #include <morula/mechanics/term.h>
 #include <morula/mechanics/tissue_material.h>
 #include <morula/mechanics/turn_participant.h>
@@ -21,7 +19,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace Morula
 {
@@ -63,19 +60,6 @@ namespace Morula
     double           factor;
   };
 
-  /** What tissue of another side does to a boundary point. */
-  template <int dim>
-  struct ForceBetween
-  {
-    unsigned int   p;       // number of the point
-    unsigned int   body;    // of the point
-    unsigned int   other;   // body
-    bool           touches; // or only all but does, without a force
-    Tensor<1, dim> force;   // on the point, kPa µm^(dim-1)
-    Point<dim>     place;   // where it acts, µm
-    Tensor<1, dim> area;    // a n there, µm^(dim-1)
-  };
-
   /**
    * The part of an effect in the equilibrium of an attempt. It lives as long as
    * the attempt does, and may hold something fixed while an equilibrium is
@@ -100,22 +84,6 @@ namespace Morula
       return nullptr;
     }
 
-    /** Its term between places in different grid cells, or null. Lives as long
-     *  as the part. */
-    virtual PairTerm *
-    pairs()
-    {
-      return nullptr;
-    }
-
-    /** Takes the drag of the step, which acts on all cells where a part has
-     *  pairs, and lives as long as the part.
-     *  @param is_weak whether it only decides where pieces go that nothing
-     *         holds, and holds nothing back */
-    virtual void
-    take_drag(Drag<dim> &, const bool /*is_weak*/)
-    {}
-
     /** The first equilibrium of @p balance is sought from @p u on, µm. A
      *  reference to @p balance may be kept. */
     virtual void
@@ -133,14 +101,6 @@ namespace Morula
     /** The force at the last equilibrium, if forces.csv has a row for it. */
     virtual std::optional<ForceOnPoints<dim>>
     force() const
-    {
-      return {};
-    }
-
-    /** The forces of its pairs on this rank's boundary points in the
-     *  equilibrium @p u, in the order of the store. */
-    virtual std::vector<ForceBetween<dim>>
-    forces_between(const Equilibrium::Vector & /*u*/) const
     {
       return {};
     }

@@ -96,10 +96,11 @@ namespace Morula
          NewtonReport         &report) const;
     /** The forces on the surface, if conditions act on it. Collective. */
     SurfaceForces<dim>
-    forces(const Attempt  &attempt,
-           const TermList &list,
-           const Parts    &parts,
-           const Solution &solution) const;
+    forces(const Attempt                &attempt,
+           const TermList               &list,
+           const Parts                  &parts,
+           const InteractionInStep<dim> *meeting,
+           const Solution               &solution) const;
     /** Where Newton's iterations begin; nothing if they begin at u = 0. */
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const;

@@ -4,7 +4,7 @@
 #ifndef morula_simulation_surface_forces_h
 #define morula_simulation_surface_forces_h
 
-#include <morula/effects/part_of_step.h>
+#include <morula/effects/interaction.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>

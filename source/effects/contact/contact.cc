@@ -155,7 +155,7 @@ namespace Morula
         return points.any();
       }
 
-      std::unique_ptr<PartOfStep<dim>>
+      std::unique_ptr<InteractionInStep<dim>>
       part_of_step(const AttemptAtStep<dim> &attempt) const override
       {
         // κ and ζ/Δt of doc/theory.md (4.8k) follow from the stiffest cell and

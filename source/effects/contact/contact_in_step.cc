@@ -219,7 +219,7 @@ namespace Morula
 
   template <int dim>
   std::vector<ForceBetween<dim>>
-  ContactInStep<dim>::forces_between(const Equilibrium::Vector &u) const
+  ContactInStep<dim>::forces(const Equilibrium::Vector &u) const
   {
     return contact_forces(points,
                           pairs_.forces(balance->relevant_values(u)),

@@ -5,7 +5,7 @@
 #define morula_effects_contact_contact_in_step_h
 
 #include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/part_of_step.h>
+#include <morula/effects/interaction.h>
 
 #include <limits>
 #include <string>
@@ -31,17 +31,17 @@ namespace Morula
    * that it is given.
    */
   template <int dim>
-  class ContactInStep : public PartOfStep<dim>
+  class ContactInStep : public InteractionInStep<dim>
   {
   public:
     ContactInStep(const AttemptAtStep<dim> &attempt,
                   const ContactPoints<dim> &points,
                   const ContactLaw         &law);
 
-    PairTerm *
+    PairTerm &
     pairs() override
     {
-      return &pairs_;
+      return pairs_;
     }
 
     /** A weak drag acts from where the cells are in each turn. */
@@ -60,7 +60,7 @@ namespace Morula
     unfinished() const override;
 
     std::vector<ForceBetween<dim>>
-    forces_between(const Equilibrium::Vector &u) const override;
+    forces(const Equilibrium::Vector &u) const override;
 
   private:
     const AttemptAtStep<dim> &attempt;

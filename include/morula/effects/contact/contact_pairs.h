@@ -5,7 +5,7 @@
 #define morula_effects_contact_contact_pairs_h
 
 #include <morula/effects/contact/contact_points.h>
-#include <morula/effects/part_of_step.h>
+#include <morula/effects/interaction.h>
 
 #include <map>
 #include <vector>

@@ -172,6 +172,40 @@ namespace
     EXPECT_EQ(points.ids.size(), before);
   }
 
+  /** The parts of a patch that is split share the force on it. */
+  template <int dim>
+  void
+  check_force()
+  {
+    const BoundaryColumns<dim> with_force(true, false, true);
+    Tensor<1, dim>             N, force;
+    N[dim - 1] = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      force[d] = 4. + d;
+    Tensor<2, dim> F = unit_tensor<dim>();
+    F[0][0]          = 8.;
+    PointList<dim> points(with_force.n_numbers());
+    points.add(0,
+               Point<dim>(),
+               with_force.initial_point(Point<dim>(),
+                                        N,
+                                        std::pow(10., dim - 1),
+                                        SurfaceCondition::loaded));
+    const BoundaryView<dim, double> whole(points.row(0), with_force);
+    whole.deform(F);
+    whole.set(with_force.force, force);
+    types::particle_index next = 1;
+    EXPECT_TRUE(refine_surface<dim>(
+      points, with_force, 25., nowhere<dim>, next, MPI_COMM_SELF));
+    ASSERT_EQ(points.size(), 4u);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      EXPECT_LT(
+        (BoundaryView<dim>(points.row(i), with_force).get(with_force.force) -
+         0.25 * force)
+          .norm(),
+        1e-14);
+  }
+
   template <int dim>
   void
   check_conservation()
@@ -305,6 +339,9 @@ TEST(SurfaceRefinement, PatchesAreSquares){MORULA_BOTH_DIMENSIONS(check_patch)}
 
 TEST(SurfaceRefinement,
      HalvesAgainAndAgain){MORULA_BOTH_DIMENSIONS(check_regular)}
+
+
+TEST(SurfaceRefinement, PartsShareTheForce){MORULA_BOTH_DIMENSIONS(check_force)}
 
 
 TEST(SurfaceRefinement,

@@ -268,6 +268,11 @@ TEST(TimeSteps, ChooseTheirLengthByTheError)
   EXPECT_EQ(cut.next() - cut.time(), 1.);
   cut.begin_anew();
   expect_times(lengths(cut, 1e-9, 5), {0.0625, 0.0625, 0.125, 0.25, 0.5});
+  // What a step misses goes with the square of its length, also after a cut.
+  TimeSteps other(tolerant(100., 1., 0.01));
+  lengths(other, 1e-9, 40);
+  other.begin_anew();
+  expect_times(lengths(other, 0.5, 1), {0.0625});
   // All end at multiples of Step/2^k, and the run at its end.
   TimeSteps whole(tolerant(0.7, 0.2, 1e-3));
   while (!whole.finished())

@@ -96,6 +96,24 @@ class Measured(ProgramTest):
                           newest("a", self.work).items()},
                          {"one": "then", "two": "now"})
 
+    def test_tables_of_a_directory(self):
+        """Tables of all pages beside a README are in one file: links in each of
+        them turn, and that to the file."""
+        self.write("CMakeLists.txt", "project(Morula VERSION 2.0.0 LANGUAGES CXX)\n")
+        steps = self.work / "doc/steps"
+        steps.mkdir(parents=True)
+        for name in ("README", "step-1", "step-2"):
+            (steps / f"{name}.md").write_text(
+                "[data](../measured/1.0.0/steps.json)\n"
+                f"[Measured: {name}](../measured/1.0.0/steps.json)\n")
+        store("steps", {"step-1": "text"}, "now", self.work)
+        for name in ("README", "step-1", "step-2"):
+            version = "2.0.0" if name == "step-1" else "1.0.0"
+            self.assertEqual(
+                (steps / f"{name}.md").read_text(),
+                "[data](../measured/2.0.0/steps.json)\n"
+                f"[Measured: {name}](../measured/{version}/steps.json)\n")
+
     def test_every_table_has_its_place(self):
         """Once, in a page, as the last version that measured it has it; all of
         this version's are shown."""

@@ -36,10 +36,11 @@ def run(number, directory=None, **keys):
     text = said([ROOT / f"build/step-{number}", ROOT /
                  f"prm/step-{number}.prm", "--replace",
                  *overrides({"Output directory": directory, **keys})])
-    # What the runs inside say of their progress is not for the page, nor what
-    # they warn of, which the text of the page speaks of.
+    # What the runs inside say of what they apply and of their progress is not
+    # for the page, nor what they warn of, which the text of the page speaks of.
     lines = [line for line in text.splitlines()
-             if line and not re.match(r"step \d|Finished|Warning: |  ", line)]
+             if line and not re.match(r"step \d|Finished|  |"
+                                      "(Warning|Material|Applied|Piece): ", line)]
     if lines:
         keep(directory.name, "```\n" + "\n".join(lines) + "\n```")
     return tables(text)

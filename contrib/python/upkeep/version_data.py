@@ -65,15 +65,22 @@ def store(page, tables, made, root=ROOT):
 
 
 def turn_links(page, file, tables):
-    """The page's links to these tables name this file of data."""
-    if not page.is_file():
-        return
-    link = os.path.relpath(file, page.parent)
-    before = page.read_text(encoding="utf-8")
-    text = LINK.sub(lambda match: f"[Measured: {match[1]}]({link})"
-                    if match[1] in tables else match[0], before)
-    if text != before:
-        page.write_text(text, encoding="utf-8")
+    """The page's links to these tables, and to all data of the page, name this
+    file. Tables of a README are those of all pages beside it."""
+    some = page.parent.glob("*.md") if page.name == "README.md" else [page]
+    links = re.compile(rf"\[([^]]+)\]\([^)]+/{re.escape(file.name)}\)")
+
+    def turned(match):
+        title = match[1].removeprefix("Measured: ")
+        stays = title != match[1] and title not in tables
+        return (match[0] if stays else
+                f"[{match[1]}]({os.path.relpath(file, page.parent)})")
+
+    for page in filter(Path.is_file, some):
+        before = page.read_text(encoding="utf-8")
+        text = links.sub(turned, before)
+        if text != before:
+            page.write_text(text, encoding="utf-8")
 
 
 def parts(markdown):

@@ -39,9 +39,8 @@ namespace Morula
     pairs() = 0;
 
     /** Takes the drag of the step, which acts on all cells where something may
-     *  meet, and lives as long as this part.
-     *  @param is_weak whether it only decides where pieces go that nothing
-     *         holds, and holds nothing back */
+     *  meet, and lives as long as this part; and whether it is weak: it only
+     *  decides then where pieces go that nothing holds. */
     virtual void
     take_drag(Drag<dim> & /*drag*/, const bool /*is_weak*/)
     {}
@@ -119,7 +118,8 @@ namespace Morula
                   std::vector<std::string> & /*warnings*/) const
     {}
 
-    /** How it acts on these bodies, for --explain. @param h grid spacing, µm */
+    /** How it acts on these bodies with this grid spacing (µm), for --explain.
+     */
     virtual std::string
     details_of_bodies(const std::vector<BodyMeasures> &,
                       const double /*h*/) const

@@ -299,6 +299,13 @@ end
         text = self.execute(self.blocks(10), "--explain").text
         self.assertIn("2 bodies, each with splines of its own", text)
         self.assertIn("body 1: 450 cells, 1800 um^2, surface 180 um", text)
+        self.assertIn("without friction", text)
+        self.assertNotIn("fuse", text)
+        text = self.execute(self.blocks(10), "--explain", *overrides({
+            "Contact/Friction": "0.25", "Contact/Fusion time": "0.5",
+            "Tissue/Refine surface": "true"})).text
+        self.assertIn("; friction 0.25 kPa day/um;", text)
+        self.assertIn("; bodies that touch for 0.5 day fuse", text)
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ class Changes(ProgramTest):
         self.assertTrue(page.startswith("# Changes\n"))
         self.assertTrue(page.endswith("\n\n" + first), page)
         self.assertEqual(self.release("0.1.0"), (0, page))
-        self.entries(c="# Three\n\n- more\n")
+        self.entries(c="### Three\n\n- more\n")
         _, page = self.release("0.1.0")
         self.assertTrue(page.endswith(f"{first}\n### Three\n\n- more\n"), page)
         self.entries(d="# Four\n\n- new\n")

@@ -22,14 +22,16 @@ What users and developers notice, by version; newer changes are files of their o
 
 
 def entry(text):
-    """An entry as a part of CHANGES.md: its heading two levels down, its links
-    from the root."""
+    """An entry as a part of CHANGES.md: its heading, of whatever level, below
+    that of the version, its links from the root."""
     def from_root(match):
         file, mark, place = match[1].partition("#")
         if re.match(r"[a-z]+:", file) or not file:
             return match[0]
         return f"]({os.path.normpath(os.path.join(FOLDER, file))}{mark}{place})"
-    text = re.sub(r"^#", "###", text.strip(), flags=re.M)
+    text = text.strip()
+    level = len(text) - len(text.lstrip("#"))
+    text = re.sub(rf"^#{{{level}}}(?=#* )", "###", text, flags=re.M)
     return re.sub(r"\]\(([^)\s]+)\)", from_root, text)
 
 

@@ -41,7 +41,7 @@ namespace Morula
           values.push_back(
             {space.grid_cells()[c].number,
              of_bodies ? 0 : space.grid_cells()[c].part,
-             force.log_volume_ratio(c, displacement.on_grid_cell(c))});
+             force.log_volume_ratio_after(c, displacement.on_grid_cell(c))});
       const auto of_others = space.occupancy(body).window().to_windows(values);
       values.insert(values.end(), of_others.begin(), of_others.end());
       std::vector<double> theta(nodes.size(), 0.);

@@ -4,6 +4,8 @@
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/internal_force.h>
 
+#include <cmath>
+
 namespace Morula
 {
   namespace
@@ -38,17 +40,23 @@ namespace Morula
     add_to_mean(const SpatialGradients<dim> &gradients,
                 const ElasticPoint<dim>     &state,
                 const double                 W,
+                const double                 det_f,
                 VolumeMean<dim>             &mean)
     {
       // Projected, the mean weighs ln J_e by W k, doc/theory.md (2.6); pooled,
       // sums of present and of grown volumes are compared, W J_e and W,
-      // doc/theory.md (2.8).
+      // doc/theory.md (2.8), or, pressed, ln det f is weighed by the volumes at
+      // the beginning of the step, (2.8b).
       const double modulus = W * state.response().volumetric.modulus;
       const bool   pooled  = mean.form == VolumetricStrain::pooled;
-      const double weight  = pooled ? W * state.strain().J : modulus;
+      const double weight  = !pooled      ? modulus :
+                             mean.pressed ? W * state.strain().J / det_f :
+                                            W * state.strain().J;
       mean.modulus += modulus;
       mean.weight += weight;
-      mean.sum += pooled ? W : weight * state.strain().log_J;
+      mean.sum += !pooled      ? weight * state.strain().log_J :
+                  mean.pressed ? weight * std::log(det_f) :
+                                 W;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
           mean.gradients[i][a] += weight * gradients.g[i][a];
@@ -84,6 +92,7 @@ namespace Morula
     template <int dim>
     std::pair<double, double>
     volumetric_part(const ElasticPoint<dim> &state,
+                    const double             det_f,
                     const StrainOfGridCell  *strain)
     {
       const auto &r = state.response();
@@ -96,8 +105,11 @@ namespace Morula
       if (strain->form != VolumetricStrain::pooled)
         return {r.A, r.total_gamma()};
       // Pooled: doc/theory.md (2.9) has one pressure for the grid cell in both
-      // places, times the point's volume J_e.
+      // places, times the point's volume J_e; (2.8b) has it in one, times the
+      // volume at the beginning of the step.
       const double pull = strain->mean_stress * state.strain().J;
+      if (strain->pressed)
+        return {r.A, r.gamma + pull / det_f};
       return {r.A + pull, r.gamma + pull};
     }
 
@@ -217,14 +229,16 @@ namespace Morula
         // f is the step's deformation, the reference being the configuration at
         // t; with A = F_t F_g⁻¹ it gives F_e: doc/theory.md (1.3).
         const SplineValues<dim> splines(points.xi[p], points.h);
-        const Tensor<2, dim>    f   = field.step_deformation(splines);
-        const Tensor<2, dim>    F_e = f * states[p].A;
-        if (!system.admits(determinant(f), determinant(F_e), points.xi[p]))
+        const Tensor<2, dim>    f     = field.step_deformation(splines);
+        const Tensor<2, dim>    F_e   = f * states[p].A;
+        const double            det_f = determinant(f);
+        if (!system.admits(det_f, determinant(F_e), points.xi[p]))
           return false;
         visit(
           SpatialGradients<dim>(splines, invert(f)),
           ElasticPoint<dim>(F_e, points.lame_of(p), *points.material, theta),
-          states[p].W);
+          states[p].W,
+          det_f);
       }
     return true;
   }
@@ -245,7 +259,8 @@ namespace Morula
       system,
       [&](const SpatialGradients<dim> &gradients,
           const ElasticPoint<dim>     &state,
-          const double                 W) {
+          const double                 W,
+          const double                 det_f) {
         const auto &response = state.response();
         // Without a mean the law acts as a whole.
         if (mean == nullptr)
@@ -258,7 +273,7 @@ namespace Morula
         // part once the mean over the grid cell is known.
         add_stress(gradients, W * state.distortional_stress(), system);
         system.add_energy(W * response.energy, W * response.magnitude);
-        add_to_mean(gradients, state, W, *mean);
+        add_to_mean(gradients, state, W, det_f, *mean);
       });
   }
 
@@ -283,8 +298,9 @@ namespace Morula
       system,
       [&](const SpatialGradients<dim> &gradients,
           const ElasticPoint<dim>     &state,
-          const double                 W) {
-        const auto [A, gamma] = volumetric_part(state, strain);
+          const double                 W,
+          const double                 det_f) {
+        const auto [A, gamma] = volumetric_part(state, det_f, strain);
         const auto &r         = state.response();
         add_blocks(
           gradients,
@@ -300,11 +316,32 @@ namespace Morula
 
   template <int dim>
   VolumeMean<dim>
-  InternalForce<dim>::mean(const unsigned int     grid_cell,
-                           const LocalField<dim> &field,
-                           const GrowthAt         growth) const
+  InternalForce<dim>::mean_without_points(const unsigned int grid_cell,
+                                          const GrowthAt     growth) const
   {
-    VolumeMean<dim> mean{form};
+    if (form != VolumetricStrain::pooled)
+      return {form};
+    double      volume = 0., grown = 0.;
+    const auto &states = points.states(growth);
+    for (unsigned int p = points.offsets[grid_cell];
+         p < points.offsets[grid_cell + 1];
+         ++p)
+      {
+        volume += states[p].W * determinant(states[p].A);
+        grown += states[p].W;
+      }
+    if (!(volume < grown))
+      return {form};
+    return {form, true, std::log(volume / grown)};
+  }
+
+  template <int dim>
+  VolumeMean<dim>
+  InternalForce<dim>::with_points(VolumeMean<dim>        mean,
+                                  const unsigned int     grid_cell,
+                                  const LocalField<dim> &field,
+                                  const GrowthAt         growth) const
+  {
     // The mean is all that is wanted of this loop over the points.
     LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
     add_forces(grid_cell, field, growth, &mean, unused);
@@ -322,7 +359,7 @@ namespace Morula
     // needs it. ϑ is what the last tangent foresaw, if there was one; see the
     // class. After the points' part the product of the means completes
     // doc/theory.md (2.7), (2.9).
-    const VolumeMean<dim> mean = this->mean(grid_cell, field, growth);
+    const VolumeMean<dim> mean = mean_of(grid_cell, field, growth);
     const double          theta =
       system.last != nullptr ? system.last->at(field) : mean.theta();
     const Volumetric<double> U      = points.material->volumetric(theta);
@@ -361,7 +398,7 @@ namespace Morula
       {
         // The points' pass leaves the sums; then the volumetric part is one
         // force for the whole grid cell.
-        VolumeMean<dim> mean{form};
+        VolumeMean<dim> mean = mean_without_points(grid_cell, growth);
         if (add_forces(grid_cell, field, growth, &mean, system))
           mean.add_forces(points.material->volumetric(mean.theta()), system);
       }

@@ -75,7 +75,10 @@ namespace Morula
     // The kernel adds the gradients to the mean's own array; the scalars of the
     // volume come back and are added below.
     if (mean != nullptr)
-      volume.gradients = &mean->gradients[0][0];
+      {
+        volume.pressed   = mean->pressed;
+        volume.gradients = &mean->gradients[0][0];
+      }
     const KernelResult found =
       kernels.residual(input(grid_cell, field, growth),
                        system.residual.data(),

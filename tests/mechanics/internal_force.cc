@@ -43,6 +43,18 @@ namespace
     return points;
   }
 
+  /** The points with other deformations: pooled, grid cells are under pressure
+   *  or under tension as a step begins. */
+  template <int dim>
+  MaterialPoints<dim>
+  stretched_by(const double stretch, MaterialPoints<dim> points)
+  {
+    for (auto *states : {&points.current, &points.previous})
+      for (auto &state : *states)
+        state.A *= stretch;
+    return points;
+  }
+
   template <int dim>
   void
   check_derivatives()
@@ -56,11 +68,13 @@ namespace
             const auto points = random_material_points<dim>(
               generator, 4, growing, uniform, material_of_test(name));
             for (const VolumetricStrain form : all_forms)
-              {
-                const InternalForce<dim> term(points, form);
-                EXPECT_TRUE(term.is_conservative());
-                expect_derivatives(term, random_field<dim>(generator, 0.15));
-              }
+              for (const double stretch : {0.8, 1., 1.2})
+                {
+                  const auto stretched = stretched_by(stretch, points);
+                  const InternalForce<dim> term(stretched, form);
+                  EXPECT_TRUE(term.is_conservative());
+                  expect_derivatives(term, random_field<dim>(generator, 0.15));
+                }
           }
   }
 
@@ -113,7 +127,8 @@ namespace
   check_pooled_volume()
   {
     std::mt19937 generator(9);
-    auto points       = random_material_points<dim>(generator, 6, false, true);
+    auto         points =
+      stretched_by(1.2, random_material_points<dim>(generator, 6, false, true));
     points.lame       = {{1.7, 0.}};
     const auto field  = random_field<dim>(generator, 0.1);
     double     volume = 0., grown = 0.;
@@ -146,6 +161,40 @@ namespace
     expect_near(TermOnOneCell<dim>(moved, GrowthAt::current).residual(field),
                 at.residual(field),
                 1e-12);
+  }
+
+  /** Under pressure, without shear, ϑ begins with that of the sums and changes
+   *  by the mean of ln det f by volume; points are left with that of the sum. A
+   *  field that moves volume from point to point, and none in sum, costs
+   *  energy: (2.8b). */
+  template <int dim>
+  void
+  check_pressed()
+  {
+    std::mt19937 generator(10);
+    const auto   points =
+      stretched_by(0.8, random_material_points<dim>(generator, 6, false, true));
+    const auto field  = random_field<dim>(generator, 0.1);
+    double     before = 0., after = 0., grown = 0., change = 0.;
+    for (unsigned int p = 0; p < points.xi.size(); ++p)
+      {
+        const auto &[A, W] = points.current[p];
+        const double V     = W * determinant(A);
+        const double det_f = determinant(
+          field.step_deformation(SplineValues<dim>(points.xi[p], points.h)));
+        before += V;
+        after += V * det_f;
+        change += V * std::log(det_f);
+        grown += W;
+      }
+    ASSERT_LT(before, grown);
+    const InternalForce<dim> term(points, VolumetricStrain::pooled);
+    const double             theta = term.log_volume_ratio(0, field);
+    EXPECT_NEAR(theta, std::log(before / grown) + change / before, 1e-13);
+    EXPECT_NEAR(term.log_volume_ratio_after(0, field),
+                std::log(after / grown),
+                1e-13);
+    EXPECT_LT(theta, std::log(after / grown));
   }
 
   /** A rotation of the deformed state leaves the energy and turns the forces.
@@ -362,6 +411,10 @@ TEST(InternalForce, UniformVolumeRatioIsThatOfTheGridCell){
 
 TEST(InternalForce,
      PooledVolumeIsOneSum){MORULA_BOTH_DIMENSIONS(check_pooled_volume)}
+
+
+TEST(InternalForce, UnderPressureVolumeDoesNotMoveForFree){
+  MORULA_BOTH_DIMENSIONS(check_pressed)}
 
 
 TEST(InternalForce,

@@ -24,12 +24,13 @@ namespace Morula
    * in the volumetric part is its mean ϑ over the points of the grid cell: one
    * volumetric constraint a grid cell, so that nearly incompressible tissue
    * does not lock; doc/theory.md (2.7). Pooled, it is that of the sum of the
-   * points' volumes, (2.9), where W must be the grown volume. Such tangents
-   * take ϑ from the
-   * linearisation at the last tangent, if the local system has one, as if the
-   * pressure were an unknown of its own: ϑ of the displacement itself is wrong
-   * by the square of the correction, which times λ would swamp μ. Both agree at
-   * the solution. Without that linearisation a tangent is the exact derivative.
+   * points' volumes, (2.9), where W must be the grown volume; under pressure
+   * its change in the step is the mean of ln det f, (2.8b). Such tangents take
+   * ϑ from the linearisation at the last tangent, if the local system has one,
+   * as if the pressure were an unknown of its own: ϑ of the displacement itself
+   * is wrong by the square of the correction, which times λ would swamp μ. Both
+   * agree at the solution. Without that linearisation a tangent is the exact
+   * derivative.
    */
   template <int dim>
   class InternalForce : public Term<dim>
@@ -52,7 +53,16 @@ namespace Morula
     log_volume_ratio(const unsigned int     grid_cell,
                      const LocalField<dim> &field) const
     {
-      return mean(grid_cell, field, GrowthAt::current).theta();
+      return mean_of(grid_cell, field, GrowthAt::current).theta();
+    }
+
+    /** The same, but pooled always that of the sum of the volumes, (2.8): what
+     *  its points have after the step. */
+    double
+    log_volume_ratio_after(const unsigned int     grid_cell,
+                           const LocalField<dim> &field) const
+    {
+      return with_points({form}, grid_cell, field, GrowthAt::current).theta();
     }
 
   protected:
@@ -89,11 +99,30 @@ namespace Morula
                    LocalSystem<dim>      &system,
                    const Visit           &visit) const;
 
+    /** The mean of a grid cell before its points are added: pooled, with ϑ at
+     *  the beginning of the step, by which it is pressed or not. */
+    VolumeMean<dim>
+    mean_without_points(const unsigned int grid_cell,
+                        const GrowthAt     growth) const;
+
+    /** @p mean, and the points of a grid cell. */
+    VolumeMean<dim>
+    with_points(VolumeMean<dim>        mean,
+                const unsigned int     grid_cell,
+                const LocalField<dim> &field,
+                const GrowthAt         growth) const;
+
     /** The mean over the points of a grid cell. */
     VolumeMean<dim>
-    mean(const unsigned int     grid_cell,
-         const LocalField<dim> &field,
-         const GrowthAt         growth) const;
+    mean_of(const unsigned int     grid_cell,
+            const LocalField<dim> &field,
+            const GrowthAt         growth) const
+    {
+      return with_points(mean_without_points(grid_cell, growth),
+                         grid_cell,
+                         field,
+                         growth);
+    }
 
     void
     add_tangent_of_grid_cell(const unsigned int     grid_cell,

@@ -36,6 +36,7 @@ namespace Morula
   struct KernelVolume
   {
     VolumetricStrain form; // not pointwise
+    bool             pressed   = false;
     double           modulus   = 0.;
     double           weight    = 0.;
     double           sum       = 0.;

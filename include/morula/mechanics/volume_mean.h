@@ -22,12 +22,18 @@ namespace Morula
 
     /** The form, which is any but pointwise: that needs no mean. */
     const VolumetricStrain form = VolumetricStrain::projected;
+    /** Pooled: whether the grid cell is under pressure as the step begins, so
+     *  that ϑ takes the mean of ln det f, doc/theory.md (2.8b); and ϑ then. */
+    const bool   pressed = false;
+    const double start   = 0.;
 
     /** Λ = Σ W k. */
     double modulus = 0.;
-    /** Σ w: projected w = W k, pooled w = W J_e, the volumes. */
+    /** Σ w: projected w = W k, pooled w = W J_e, the volumes, which are those
+     *  at the beginning of the step if pressed. */
     double weight = 0.;
-    /** Projected: Σ w ln J_e; pooled: Σ W, the grown volumes. */
+    /** Projected: Σ w ln J_e; pooled: Σ W, the grown volumes; pressed: Σ w ln
+     *  det f. */
     double sum = 0.;
     /** Σ w g_a. */
     double gradients[dim][n] = {};
@@ -38,8 +44,9 @@ namespace Morula
     {
       if (weight == 0.)
         return 0.;
-      return form == VolumetricStrain::pooled ? std::log(weight / sum) :
-                                                sum / weight;
+      return form == VolumetricStrain::pooled && !pressed ?
+               std::log(weight / sum) :
+               start + sum / weight;
     }
 
     /** Energy Λ U(ϑ) and its forces. */
@@ -53,17 +60,19 @@ namespace Morula
           system.add_force(i, a, factor * gradients[i][a]);
     }
 
-    /** Λ U'' ḡ_a^i ḡ_b^j; pooled, U'' - U' in the place of U''. */
+    /** Λ U'' ḡ_a^i ḡ_b^j; pooled and not pressed, U'' - U' in the place of
+     *  U''. */
     void
     add_tangent(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
       if (weight == 0.)
         return;
-      const double curvature =
-        form == VolumetricStrain::pooled ? U.curvature - U.slope : U.curvature;
-      const double        scale = curvature * share();
-      const double *const all   = &gradients[0][0];
+      const double curvature  = form == VolumetricStrain::pooled && !pressed ?
+                                  U.curvature - U.slope :
+                                  U.curvature;
+      const double scale      = curvature * share();
+      const double *const all = &gradients[0][0];
       for (unsigned int row = 0; row < n_dofs; ++row)
         {
           const double factor = scale * (all[row] / weight);
@@ -76,7 +85,7 @@ namespace Morula
     StrainOfGridCell
     at_points(const Volumetric<double> &U, const double theta) const
     {
-      return {form, theta, U.slope * share()};
+      return {form, pressed, theta, U.slope * share()};
     }
 
     /** The derivative of ϑ, 1/µm. */

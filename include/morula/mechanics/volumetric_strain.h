@@ -28,9 +28,11 @@ namespace Morula
   {
     /** The form, which is any but pointwise: that needs no mean. */
     VolumetricStrain form;
+    /** Pooled: whether the grid cell is under pressure, VolumeMean. */
+    bool pressed;
     /** ϑ. */
     double theta;
-    /** Pooled: Λ U'(ϑ) / v, kPa. */
+    /** Pooled: Λ U'(ϑ) over the sum of the weights w, kPa. */
     double mean_stress;
   };
 } // namespace Morula

@@ -115,7 +115,7 @@ namespace Morula
     }
 
     /** What (2.6) sums over points, W k, W k ln J_e and W k g, or (2.8): W k,
-     *  W, V = W J_e and V g. */
+     *  W, V = W J_e and V g, or (2.8b): W k, V_t ln det f, V_t and V_t g. */
     template <int dim, VolumetricStrain form>
     struct VolumeSums
     {
@@ -124,18 +124,20 @@ namespace Morula
 
       /** Adds points with the moduli @p k. */
       MORULA_INLINE void
-      add(const Points<dim> &points, const Lanes &k)
+      add(const Points<dim> &points, const Lanes &k, const bool pressed)
       {
         constexpr bool pooled = form == VolumetricStrain::pooled;
-        const Lanes    weight = points.W * (pooled ? points.J : k);
-        Lanes          M[dim][dim];
+        Lanes          weight = points.W * (pooled ? points.J : k);
+        if (pooled && pressed)
+          weight = weight / points.det_f;
+        Lanes M[dim][dim];
         for (unsigned int i = 0; i < dim; ++i)
           column(points.f_inverse, i, weight, M[i]);
         weights += weight;
         if constexpr (pooled)
           {
             modulus += points.W * k;
-            total += points.W;
+            total += pressed ? weight * logarithm(points.det_f) : points.W;
           }
         else
           total += weight * points.log_J;
@@ -183,7 +185,7 @@ namespace Morula
           Lanes       tau[dim][dim], P[dim][dim];
           Lanes       energy = r.energy, size = r.magnitude;
           if constexpr (of_grid_cell)
-            volumes.add(points, k);
+            volumes.add(points, k, volume->pressed);
           else
             {
               energy += k * r.volumetric.energy;

@@ -171,7 +171,11 @@ namespace Morula
           if constexpr (pooled)
             {
               const Lanes pull = of_grid_cell->mean_stress * points.J;
-              make_rows(points, r, r.A + pull, r.gamma + pull, n, rows);
+              if (of_grid_cell->pressed)
+                make_rows(
+                  points, r, r.A, r.gamma + pull / points.det_f, n, rows);
+              else
+                make_rows(points, r, r.A + pull, r.gamma + pull, n, rows);
             }
           else
             make_rows(points,

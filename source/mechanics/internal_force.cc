@@ -46,7 +46,7 @@ namespace Morula
       // Projected, the mean weighs ln J_e by W k, doc/theory.md (2.6); pooled,
       // sums of present and of grown volumes are compared, W J_e and W,
       // doc/theory.md (2.8), or, pressed, ln det f is weighed by the volumes at
-      // the beginning of the step, (2.8b).
+      // the beginning of the step, (2.9b).
       const double modulus = W * state.response().volumetric.modulus;
       const bool   pooled  = mean.form == VolumetricStrain::pooled;
       const double weight  = !pooled      ? modulus :
@@ -105,7 +105,7 @@ namespace Morula
       if (strain->form != VolumetricStrain::pooled)
         return {r.A, r.total_gamma()};
       // Pooled: doc/theory.md (2.9) has one pressure for the grid cell in both
-      // places, times the point's volume J_e; (2.8b) has it in one, times the
+      // places, times the point's volume J_e; (2.9b) has it in one, times the
       // volume at the beginning of the step.
       const double pull = strain->mean_stress * state.strain().J;
       if (strain->pressed)

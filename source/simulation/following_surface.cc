@@ -262,10 +262,12 @@ namespace Morula
         // stands where the tissue ends. A surface that gave way to them would
         // leave its outermost cells behind. Pooled volumes are what the cells
         // have grown to, and it is the surface that is wrong, unless it is
-        // held.
+        // held. A held surface also stays as it is then: one that is made anew
+        // leaves its walls here and there, and tissue gets out.
+        const bool is_held        = is_mostly_held(tissue);
         const bool follow_surface = grows && !is_torn && fit.enclosed > 0. &&
                                     std::abs(misfit - 1.) < slight_misfit &&
-                                    (!spreads || is_mostly_held(tissue));
+                                    (!spreads || is_held);
         if (follow_surface)
           change_volumes(tissue, [&]() {
             const double stretch = std::pow(misfit, 1. / dim);
@@ -275,9 +277,12 @@ namespace Morula
                 cell.set(cell.columns().deformation, stretch * cell.F());
               }
           });
-        renew(tissue,
-              tissue.boundary_points().copy(),
-              {0., length, follow_surface ? fit.enclosed : share * fit.cells});
+        if (!follow_surface || !is_held || fit.distance > 2. * length)
+          renew(tissue,
+                tissue.boundary_points().copy(),
+                {0.,
+                 length,
+                 follow_surface ? fit.enclosed : share * fit.cells});
       }
     pull_to_cells(tissue, length);
   }

@@ -166,7 +166,7 @@ namespace
   /** Under pressure, without shear, ϑ begins with that of the sums and changes
    *  by the mean of ln det f by volume; points are left with that of the sum. A
    *  field that moves volume from point to point, and none in sum, costs
-   *  energy: (2.8b). */
+   *  energy: (2.9b). */
   template <int dim>
   void
   check_pressed()

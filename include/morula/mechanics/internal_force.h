@@ -25,7 +25,7 @@ namespace Morula
    * volumetric constraint a grid cell, so that nearly incompressible tissue
    * does not lock; doc/theory.md (2.7). Pooled, it is that of the sum of the
    * points' volumes, (2.9), where W must be the grown volume; under pressure
-   * its change in the step is the mean of ln det f, (2.8b). Such tangents take
+   * its change in the step is the mean of ln det f, (2.9b). Such tangents take
    * ϑ from the linearisation at the last tangent, if the local system has one,
    * as if the pressure were an unknown of its own: ϑ of the displacement itself
    * is wrong by the square of the correction, which times λ would swamp μ. Both

@@ -23,7 +23,7 @@ namespace Morula
     /** The form, which is any but pointwise: that needs no mean. */
     const VolumetricStrain form = VolumetricStrain::projected;
     /** Pooled: whether the grid cell is under pressure as the step begins, so
-     *  that ϑ takes the mean of ln det f, doc/theory.md (2.8b); and ϑ then. */
+     *  that ϑ takes the mean of ln det f, doc/theory.md (2.9b); and ϑ then. */
     const bool   pressed = false;
     const double start   = 0.;
 

@@ -115,7 +115,7 @@ namespace Morula
     }
 
     /** What (2.6) sums over points, W k, W k ln J_e and W k g, or (2.8): W k,
-     *  W, V = W J_e and V g, or (2.8b): W k, V_t ln det f, V_t and V_t g. */
+     *  W, V = W J_e and V g, or (2.9b): W k, V_t ln det f, V_t and V_t g. */
     template <int dim, VolumetricStrain form>
     struct VolumeSums
     {

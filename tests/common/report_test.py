@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """A page of contrib/report about a small run, open in a browser."""
-import sys
 from pathlib import Path
 
 from morula.run import Run
-from program import SCENES, ProgramTest, overrides
+from tests.common.program import SCENES, ProgramTest, overrides
 from selenium.webdriver.common.by import By
 
 from tests.common.browser import Browser
@@ -37,7 +36,7 @@ class ReportTest(ProgramTest):
     def make_page(cls, name, scene, keys):
         """Runs a scene; the page, and the run read."""
         test = cls("setUp")
-        test.work = cls.options.work / Path(sys.argv[0]).stem
+        test.work = cls.options.work / cls.__module__.rsplit(".", 1)[-1]
         test.work.mkdir(parents=True, exist_ok=True)
         output = test.work / name
         test.execute(scene, *overrides(keys), output=output)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Options, rings and fixtures of the tests in Python: tests/README.md."""
+import os
+from pathlib import Path
+
+import pytest
+
+pytest.register_assert_rewrite("tests.common")
+
+from tests.common.program import ProgramTest, Runs  # noqa: E402
+
+BUILD = Path(__file__).resolve().parents[1] / "build"
+RINGS = ("quick", "check", "release")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--morula", default=BUILD / "morula", type=Path,
+                     help="the executable")
+    parser.addoption("--mpiexec", default="mpiexec")
+    parser.addoption("--ranks", default=1, type=int, help="of steps and scenes")
+    parser.addoption("--work", default=BUILD / "tests", type=Path,
+                     help="directory for the runs")
+    parser.addoption("--ring", default=os.environ.get("MORULA_RING", "check"),
+                     choices=RINGS, help="which tests: each ring has the former")
+
+
+def pytest_configure(config):
+    options = config.option
+    options.morula, options.work = (Path(os.path.abspath(path))
+                                    for path in (options.morula, options.work))
+    ProgramTest.options = options
+    os.environ.pop("OMP_NUM_THREADS", None)
+
+
+def ring_of(item):
+    """The smallest ring that has a test: that of its nearest mark."""
+    mark = next((mark.name for mark in item.iter_markers()
+                 if mark.name in RINGS), "check")
+    return RINGS.index(mark)
+
+
+def pytest_collection_modifyitems(config, items):
+    most = RINGS.index(config.option.ring)
+    left = [item for item in items if ring_of(item) > most]
+    config.hook.pytest_deselected(items=left)
+    items[:] = [item for item in items if ring_of(item) <= most]
+
+
+@pytest.fixture(scope="module")
+def runs(request):
+    """Runs of the program for all tests of a file, in a directory of theirs."""
+    return Runs(request.config.option, request.module.__name__)

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""The program asks for large pages in its large arrays: half the time of a large
+tissue is spent on small ones."""
+import subprocess
+import time
+from pathlib import Path
+
+from morula.execute import environment
+from tests.common.program import ProgramTest, overrides
+
+ROOT = Path(__file__).resolve().parents[2]
+SUPPORT = Path("/sys/kernel/mm/transparent_hugepage/enabled")
+PATIENCE = 300  # s
+
+
+def asked_for(process):
+    """kB of memory for which the process has asked for large pages."""
+    total = size = 0
+    for line in Path(f"/proc/{process}/smaps").read_text().splitlines():
+        name, _, value = line.partition(":")
+        if name == "Size":
+            size = int(value.split()[0])
+        elif name == "VmFlags" and "hg" in value.split():
+            total += size
+    return total
+
+
+class LargePages(ProgramTest):
+    def test_columns_of_cells(self):
+        """65,752 cells have 10 MB at least."""
+        if not SUPPORT.is_file():
+            self.skipTest("this system has no large pages")
+        if b"__asan_init" in Path(self.options.morula).read_bytes():
+            self.skipTest("AddressSanitizer has its own operator new")
+        words = self.command(ROOT / "prm/paper/fig-4b.prm", *overrides(
+            {"Output directory": self.work / "output"}))
+        with subprocess.Popen(words, env=environment(),
+                              stdout=subprocess.DEVNULL) as process:
+            try:
+                until, found = time.monotonic() + PATIENCE, 0
+                while found < 10000 and time.monotonic() < until:
+                    self.assertIsNone(process.poll())
+                    found = asked_for(process.pid)
+                    time.sleep(0.02)
+            finally:
+                process.kill()
+        self.assertGreaterEqual(found, 10000)
+

@@ -1,10 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The panels of the paper's figures and the scenes that each of them needs.
-
-This file imports nothing, so that panels can be listed and wrong names refused
-before anything is installed or built.
-"""
+"""The panels of the paper's figures and the scenes that each of them needs."""
 
 GRIDS = ("fig-2a", "fig-2b", "fig-2c", "fig-2d", "fig-2e")
 # The size checkpoint's J_th: none, 0.7, 0.8, 0.9, 0.95.
@@ -38,14 +34,11 @@ PANELS = {
 FIGURES = {
     "fig-2": (GRIDS, ("fig-2f", "fig-2g")),
     "fig-3": (("fig-3a",), ("fig-3b",), ("fig-3c", "fig-3d", "fig-3e")),
-    "fig-4": (("fig-4a",), ("fig-4b", "fig-4c", "fig-4d"),
-              ("fig-4e", "fig-4f", "fig-4g")),
+    "fig-4": (("fig-4a",), ("fig-4b", "fig-4c", "fig-4d"), ("fig-4e", "fig-4f", "fig-4g")),
 }
 
-# The scenes that take longest begin first, so that the last one does not run
-# alone.
-LONGEST = ("fig-4c", "fig-2e", "fig-4e-0.7", "fig-4b", "fig-4e-0.8",
-           "fig-4e-0.95")
+# The scenes that take longest begin first, so that the last one does not run alone.
+LONGEST = ("fig-4c", "fig-2e", "fig-4e-0.7", "fig-4b", "fig-4e-0.8", "fig-4e-0.95")
 
 
 class UnknownPanel(Exception):
@@ -53,8 +46,7 @@ class UnknownPanel(Exception):
 
 
 def select(names):
-    """The panels of these names in the paper's order; 'fig-2' stands for all
-    that begin so, no name for all."""
+    """The panels of these names in the paper's order; no name stands for all."""
     chosen = set()
     for name in names:
         found = [panel for panel in PANELS if panel == name or
@@ -71,13 +63,10 @@ def file_of(panel):
 
 def scenes_of(panels):
     """The scenes that the panels need, the longest first."""
-    needed = dict.fromkeys(scene for panel in panels
-                           for scene in PANELS[panel][0])
-    return ([scene for scene in LONGEST if scene in needed] +
-            [scene for scene in needed if scene not in LONGEST])
+    needed = dict.fromkeys(scene for panel in panels for scene in PANELS[panel][0])
+    return sorted(needed, key=lambda scene: (*LONGEST, scene).index(scene))
 
 
 def listing():
     """All panels with what they show, a line each."""
-    return "\n".join(f"  {panel:<9}{text}"
-                     for panel, (_, text) in PANELS.items())
+    return "\n".join(f"  {panel:<9}{text}" for panel, (_, text) in PANELS.items())

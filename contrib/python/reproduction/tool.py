@@ -7,8 +7,8 @@
     contrib/reproduce --list          which panels there are
 
 Builds Morula, runs the scenes in prm/paper that the panels need (finished runs
-are kept, stopped ones go on), draws every panel and writes table.md: the
-numbers that the paper states beside ours.
+are kept, stopped ones go on), draws every panel, and prints and writes table.md:
+the numbers that the paper states beside ours.
 """
 import argparse
 import os
@@ -17,105 +17,53 @@ import subprocess
 import sys
 from pathlib import Path
 
-from morula.command_line import like_ctrl_c
+from morula.command_line import like_ctrl_c, tell
 from morula.draw.screen import require_virtual_screen, run_on_virtual_screen
 from reproduction import catalogue
-from upkeep.made import made_with
-from upkeep.version_data import store
 
 ROOT = Path(__file__).resolve().parents[3]
+IMAGES = ROOT / "doc/images/paper"
 
 
 def arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("panels", nargs="*", metavar="PANEL",
-                        help="fig-1d, fig-2a, ... or fig-2, videos, ...")
-    parser.add_argument("--list", action="store_true",
-                        help="list the panels and stop")
-    parser.add_argument("--output", type=Path, metavar="DIR",
-                        default=ROOT / "output/paper",
-                        help="for runs, pictures and table.md; default: "
-                        "output/paper")
-    parser.add_argument("--jobs", type=int, metavar="N",
-                        default=min(2, os.cpu_count() or 1),
-                        help="runs at a time, each on one core; default: "
-                        "2, or 1 if there is one core")
-    parser.add_argument("-s", dest="overrides", action="append", default=[],
-                        metavar="KEY=VALUE",
-                        help="override a key in every run, as for morula:\n"
-                        '-s "Tissue/Cell spacing=50" -s "Grid/Spacing=100" '
-                        "is a quick trial")
-    parser.add_argument("--no-videos", action="store_true",
-                        help="leave out the videos")
-    parser.add_argument("--document", action="store_true",
-                        help="write the numbers into doc/measured, the "
-                        "figures into\ndoc/images/paper")
-    parser.add_argument("--fresh", action="store_true",
-                        help="run again what has been run already")
-    parser.add_argument("--morula", type=Path, metavar="FILE",
-                        help="an executable to use; default: build one")
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawTextHelpFormatter)
+    add = parser.add_argument
+    add("panels", nargs="*", metavar="PANEL", help="fig-1d, fig-2a, ... or fig-2, videos, ...")
+    add("--list", action="store_true", help="list the panels and stop")
+    add("--output", type=Path, metavar="DIR", default=ROOT / "output/paper",
+        help="for runs, pictures and table.md; default: output/paper")
+    add("--jobs", type=int, metavar="N", default=min(2, os.cpu_count() or 1),
+        help="runs at a time, each on one core; default: 2, or 1 if there is one core")
+    add("-s", dest="overrides", action="append", default=[], metavar="KEY=VALUE",
+        help='override a key in every run, as for morula:\n-s "Tissue/Cell spacing=50" '
+        '-s "Grid/Spacing=100" is a quick trial')
+    add("--no-videos", action="store_true", help="leave out the videos")
+    add("--document", action="store_true", help="copy the figures into doc/images/paper")
+    add("--fresh", action="store_true", help="run again what has been run already")
+    add("--morula", type=Path, metavar="FILE", help="an executable to use; default: build one")
     options = parser.parse_args()
     if options.jobs < 1:
         parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     try:
         options.panels = catalogue.select(options.panels)
     except catalogue.UnknownPanel as error:
-        parser.error(f"there is no panel '{error}'; known are\n"
-                     + catalogue.listing())
+        parser.error(f"there is no panel '{error}'; known are\n" + catalogue.listing())
     if options.no_videos:
-        options.panels = [panel for panel in options.panels
-                          if not panel.startswith("video")]
+        options.panels = [panel for panel in options.panels if not panel.startswith("video")]
     options.output = options.output.resolve()
     return options
 
 
 def executable(options):
     """The program, built if none is given."""
-    if options.morula:
-        if not os.access(options.morula, os.X_OK):
-            sys.exit(f"reproduce: {options.morula} cannot be executed; give "
-                     "--morula an executable, or leave it out to build one.")
-        return options.morula.resolve()
-    if subprocess.call([ROOT / "contrib/build", "morula"]) != 0:
-        sys.exit("reproduce: Morula could not be built.")
-    return ROOT / "build/morula"
-
-
-def say(text):
-    print(text, flush=True)
-
-
-def run_needed(options, morula):
-    """Runs what the panels need; the scenes that failed. What drawing lacks
-    shows before the runs, not after them."""
-    require_virtual_screen()
-    import reproduction.draw
-    import reproduction.table  # noqa: F401
-    from reproduction.runner import run_scenes
-    scenes = catalogue.scenes_of(options.panels)
-    say(f"reproduce: {len(scenes)} scene(s), {options.jobs} at a time, in "
-        f"{options.output}")
-    return run_scenes(scenes, options, morula, ROOT / "prm/paper", say)
-
-
-def draw(options, panels):
-    """Draws the panels in a process with a screen; its exit code."""
-    if not panels:
-        return 0
-    return run_on_virtual_screen([
-        sys.executable, "-P", "-m", "reproduction.draw", str(options.output),
-        *panels])
-
-
-def document(options, morula):
-    """Stores the numbers of this version and its figures."""
-    found = (options.output / "table.md").read_text(encoding="utf-8")
-    store("reproduction", {"numbers": found[found.index("## Numbers"):]},
-          made_with(ROOT, morula), ROOT)
-    for figure in options.output.glob("fig-[1234]*.png"):
-        if (ROOT / "doc/images/paper" / figure.name).is_file():
-            shutil.copy(figure, ROOT / "doc/images/paper")
+    if not options.morula:
+        if subprocess.call([ROOT / "contrib/build", "morula"]) != 0:
+            sys.exit("reproduce: Morula could not be built.")
+        return ROOT / "build/morula"
+    if not os.access(options.morula, os.X_OK):
+        sys.exit(f"reproduce: {options.morula} cannot be executed.")
+    return options.morula.resolve()
 
 
 def main():
@@ -131,19 +79,25 @@ def main():
 
 
 def reproduce(options):
+    # What drawing lacks shows before the runs, not after them.
+    require_virtual_screen()
+    from reproduction import panels  # noqa: F401
+    from reproduction.runner import run_scenes
+    from reproduction.table import write_table
     morula = executable(options)
     options.output.mkdir(parents=True, exist_ok=True)
-    failed = run_needed(options, morula)
-    panels = [panel for panel in options.panels
-              if not set(catalogue.PANELS[panel][0]) & set(failed)]
-    from reproduction.table import write_table
-    write_table(options.output)
-    say(f"reproduce: {options.output / 'table.md'}")
-    code = draw(options, panels)
-    if options.document and not failed:
-        document(options, morula)
-    left = [panel for panel in options.panels if panel not in panels]
+    scenes = catalogue.scenes_of(options.panels)
+    tell(f"reproduce: {len(scenes)} scene(s), {options.jobs} at a time, in {options.output}")
+    failed = run_scenes(scenes, options, morula, ROOT / "prm/paper")
+    print(write_table(options.output), flush=True)
+    left = [panel for panel in options.panels if set(catalogue.PANELS[panel][0]) & set(failed)]
+    code = run_on_virtual_screen([
+        ROOT / "contrib/python/launch", "-P", "-m", "reproduction.draw", str(options.output),
+        *(panel for panel in options.panels if panel not in left)])
     if failed:
-        say(f"reproduce: FAILED: the runs {', '.join(failed)}; therefore not "
-            f"drawn: {', '.join(left)}")
+        tell(f"reproduce: FAILED: the runs {', '.join(failed)}; therefore not drawn: "
+             + ", ".join(left))
+    elif options.document:
+        for picture in IMAGES.glob("*.png"):
+            shutil.copy(options.output / picture.name, picture)
     return 1 if failed or code else 0

@@ -6,8 +6,10 @@ A tool is a module with a function main(), which returns the exit code. It is
 imported only here, so that what it says of a missing library is said wherever
 that happens.
 """
+import argparse
 import importlib
 import sys
+from functools import partialmethod
 from pathlib import Path
 
 TOOLS = {  # those of an installation, then those that need Morula's tree, from
@@ -49,14 +51,21 @@ def missing(error):
 
 def main():
     """Runs the tool that this process is named after, or its first word."""
-    name = Path(sys.argv[0]).name.removeprefix("morula-")
+    called = Path(sys.argv[0]).name
+    name = called.removeprefix("morula-")
     if name not in TOOLS:
         del sys.argv[0]
-        name = sys.argv[0] if sys.argv else ""
+        called = sys.argv[0] if sys.argv else ""
+        name = called.removeprefix("morula-")
     if name not in TOOLS:
         return f"morula: there is no tool '{name}'; there are " + ", ".join(
             TOOLS)
     sys.argv[0] = name
+    if called == name:  # by the script of Morula's tree
+        folder = "contrib/upkeep" if TOOLS[name].startswith(("upkeep", "tests")) else "contrib"
+        called = f"{folder}/{name}"
+    # By itself argparse names the last part of a path alone.
+    argparse.ArgumentParser.__init__ = partialmethod(argparse.ArgumentParser.__init__, prog=called)
     try:
         return importlib.import_module(TOOLS[name]).main()
     except ImportError as error:

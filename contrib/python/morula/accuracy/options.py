@@ -8,7 +8,7 @@ from morula.command_line import Parser, add_run_options
 
 def parser():
     result = Parser(
-        prog="contrib/accuracy", allow_abbrev=False,
+        allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Runs a scene over ladders of its keys and draws error "
         "against wall time,\nunknowns and memory.",

@@ -29,7 +29,7 @@ ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 
 def parser():
-    result = Parser(prog="contrib/export", allow_abbrev=False,
+    result = Parser(allow_abbrev=False,
                     description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     add = result.add_argument

@@ -22,7 +22,7 @@ doc/from-an-image.md explains what it does, and what it says of the image.
 
 
 def parser():
-    result = Parser(prog="contrib/import", allow_abbrev=False,
+    result = Parser(allow_abbrev=False,
                     description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     add = result.add_argument

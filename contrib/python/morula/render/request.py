@@ -26,7 +26,7 @@ It needs neither a display nor a graphics card; 200,000 cells take some seconds.
 
 def arguments(words):
     parser = argparse.ArgumentParser(
-        prog="render", description=DESCRIPTION,
+        description=DESCRIPTION,
         formatter_class=argparse.RawTextHelpFormatter)
     add = parser.add_argument
     add("directory", type=Path, help="output directory of a run")

@@ -28,7 +28,7 @@ no network. doc/looking-at-results.md shows one.
 
 def arguments(words):
     parser = argparse.ArgumentParser(
-        prog="report", description=DESCRIPTION,
+        description=DESCRIPTION,
         formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("directory", type=Path,
                         help="output directory of a run")

@@ -32,7 +32,7 @@ off, and how well they fill the tissue.
 
 
 def arguments(words):
-    parser = Parser(prog="cell-shapes", description=DESCRIPTION,
+    parser = Parser(description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("directory", type=Path,
                         help="output directory of a run, finished or not")

@@ -9,7 +9,7 @@ from morula.command_line import Parser, add_run_options
 
 def parser():
     result = Parser(
-        prog="contrib/sweep", allow_abbrev=False,
+        allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Runs a scene with every combination of values of some "
         "keys and with several\nrandom seeds, and tells mean and scatter.",

@@ -57,10 +57,6 @@ def select(names):
     return [panel for panel in PANELS if panel in chosen or not names]
 
 
-def file_of(panel):
-    return panel + (".ogv" if panel.startswith("video") else ".png")
-
-
 def scenes_of(panels):
     """The scenes that the panels need, the longest first."""
     needed = dict.fromkeys(scene for panel in panels for scene in PANELS[panel][0])

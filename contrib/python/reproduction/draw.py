@@ -56,7 +56,8 @@ def main(output, panels):
     runs, drawn = Runs(output), []
     for panel in panels:
         try:
-            draw_panel(panel, runs, output / catalogue.file_of(panel))
+            suffix = ".ogv" if panel.startswith("video") else ".png"
+            draw_panel(panel, runs, output / (panel + suffix))
             drawn.append(panel)
         except Exception:  # whatever it is: the others are drawn
             traceback.print_exc()

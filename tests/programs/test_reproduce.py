@@ -10,7 +10,7 @@ import pytest
 from morula.draw.surface import triangles_of
 from morula.execute import overrides
 from morula.run import Run
-from reproduction import outline, renewal
+from reproduction import catalogue, outline, panels, renewal
 from tests.common.program import TESTS
 
 CUBE = {"Tissue/Cell spacing": "40", "Tissue/Boundary points": "150", "Grid/Spacing": "100"}
@@ -28,8 +28,7 @@ class Surface:
     """A run whose boundary points began on a sphere and are moved."""
 
     def __init__(self, positions, initial):
-        self.columns = pandas.DataFrame({**dict(zip("xyz", positions.T)),
-                                         **dict(zip("XYZ", initial.T))})
+        self.columns = pandas.DataFrame(np.hstack([positions, initial]), columns=list("xyzXYZ"))
         self.columns["condition"] = np.where(initial[:, 2] > 0, 0, 1)
 
     def surface(self, _):
@@ -78,6 +77,12 @@ def test_triangles():
     assert enclosed == pytest.approx(4 / 3 * np.pi * 250**3, rel=0.01)
 
 
+def test_panels():
+    assert set(panels.DRAW) == set(catalogue.PANELS)
+    for scene in catalogue.scenes_of(catalogue.PANELS):
+        assert (TESTS.parent / f"prm/paper/{scene}.prm").is_file()
+
+
 def reproduce(runs, *words, keys, code=0):
     """The rows of the command's table by their first two fields."""
     runs.call([TESTS.parent / "contrib/reproduce", "--morula", runs.options.morula,
@@ -85,11 +90,6 @@ def reproduce(runs, *words, keys, code=0):
     lines = (runs.work / "table.md").read_text().split("\n")
     rows = [line.strip("| ").split(" | ") for line in lines if line.startswith("|")]
     return {(row[0], row[1]): row[2:] for row in rows}
-
-
-def assert_pictures(runs, *names):
-    for name in names:
-        assert matplotlib.image.imread(runs.work / f"{name}.png")[:, :, :3].std() > 0.03
 
 
 def test_cubes(runs):
@@ -100,12 +100,13 @@ def test_cubes(runs):
     run = Run(runs.work / "fig-3b").statistics
     fitted = run[(run["time"] > 2 - 1e-6) & (run["time"] < 4 + 1e-6)]
     rate, logarithm = np.polyfit(fitted["time"], np.log(fitted["cells"]), 1)
-    assert float(rows["Fig. 3 c", "N_p: rate [1/day]"][1]) == pytest.approx(rate, abs=1e-3)
-    assert float(rows["Fig. 3 c", "N_p: factor"][1]) == pytest.approx(math.exp(logarithm), rel=1e-3)
+    ours = [float(rows["Fig. 3 c", f"N_p: {what}"][1]) for what in ("rate [1/day]", "factor")]
+    assert ours == pytest.approx([rate, math.exp(logarithm)], rel=1e-3)
     assert rows["§2.5", "boundary points of the sphere"][1] == "not run"
     assert not (runs.work / "fig-2b.png").exists()
     (runs.work / "fig-2b").unlink()
-    assert_pictures(runs, "fig-1d", "fig-3c")
+    for panel in ("fig-1d", "fig-3c"):
+        assert matplotlib.image.imread(runs.work / f"{panel}.png")[:, :, :3].std() > 0.03
 
 
 @pytest.mark.release
@@ -119,7 +120,8 @@ def test_spheres(runs):
     reproduce(runs, "fig-4f", "video-2", keys=short)
     assert before == {file: file.stat().st_mtime_ns for file in before}
     assert rows["a", "150"] == rows["d", "150"]  # equal grids
-    assert_pictures(runs, "fig-2", "fig-4")
+    for figure in ("fig-2", "fig-4"):
+        assert matplotlib.image.imread(runs.work / f"{figure}.png")[:, :, :3].std() > 0.03
     # A run that stopped early goes on.
     statistics = runs.work / "fig-2b/statistics.csv"
     start = statistics.read_text()

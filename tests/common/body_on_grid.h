@@ -39,6 +39,17 @@ namespace Morula
     return Tensor<2, dim>(unit_symmetric_tensor<dim>());
   }
 
+  /** By an angle about the z axis. */
+  template <int dim>
+  Tensor<2, dim>
+  rotation(const double angle)
+  {
+    Tensor<2, dim> Q = unit_tensor<dim>();
+    Q[0][0] = Q[1][1] = std::cos(angle);
+    Q[0][1]           = -(Q[1][0] = std::sin(angle));
+    return Q;
+  }
+
   /** Components in [-1, 1]. */
   template <int rank, int dim>
   Tensor<rank, dim>
@@ -80,6 +91,16 @@ namespace Morula
     return points;
   }
 
+  /** All within @p reach in each direction. */
+  template <int dim>
+  std::vector<Point<dim>>
+  lattice_points(const double reach, const double spacing)
+  {
+    return lattice_points<dim>(Point<dim>(), reach, spacing, [](const auto &) {
+      return true;
+    });
+  }
+
   template <int dim>
   std::vector<Point<dim>>
   ball_points(const Point<dim> &center,
@@ -98,6 +119,72 @@ namespace Morula
   {
     const auto [lower, upper] = domain.bounds();
     return {grid.locate(lower), grid.locate(upper)};
+  }
+
+  template <int dim>
+  std::vector<GridRange<dim>>
+  ranges_of(const std::vector<ParticleDomain<dim>> &domains,
+            const BackgroundGrid<dim>              &grid)
+  {
+    std::vector<GridRange<dim>> reached;
+    for (const ParticleDomain<dim> &domain : domains)
+      reached.push_back(range_of(domain, grid));
+    return reached;
+  }
+
+  /** The cubes of cells of equal volume. */
+  template <int dim>
+  std::vector<ParticleDomain<dim>>
+  domains_of(const std::vector<Point<dim>> &points, const double V)
+  {
+    std::vector<ParticleDomain<dim>> domains;
+    for (const Point<dim> &x : points)
+      domains.emplace_back(x, V);
+    return domains;
+  }
+
+  /** Both rounds, of what this rank adds, on all ranks. */
+  template <int dim>
+  void
+  occupy(Occupancy<dim>                         &occupancy,
+         const BackgroundGrid<dim>              &grid,
+         const std::vector<ParticleDomain<dim>> &domains,
+         const std::vector<Point<dim>>          &boundary = {})
+  {
+    for (unsigned int i = 0; i < domains.size(); ++i)
+      occupancy.add_particle(domains[i], i);
+    for (const Point<dim> &x : boundary)
+      occupancy.add_boundary_point(x);
+    occupancy.sum(grid);
+    for (unsigned int i = 0; i < domains.size(); ++i)
+      occupancy.add_quadrature_points(domains[i], i);
+    occupancy.sum_quadrature_points(grid);
+  }
+
+  /** The same of a box on one rank. */
+  template <int dim>
+  Occupancy<dim>
+  occupancy_of(const GridBox<dim>                     &box,
+               const std::vector<ParticleDomain<dim>> &domains,
+               const std::vector<Point<dim>>          &boundary = {})
+  {
+    Occupancy<dim> occupancy(box);
+    for (const ParticleDomain<dim> &domain : domains)
+      occupancy.add_particle(domain);
+    for (const Point<dim> &x : boundary)
+      occupancy.add_boundary_point(x);
+    occupancy.sum();
+    for (const ParticleDomain<dim> &domain : domains)
+      occupancy.add_quadrature_points(domain);
+    return occupancy;
+  }
+
+  inline GridParameters
+  grid_of_spacing(const double h)
+  {
+    GridParameters parameters;
+    parameters.spacing = h;
+    return parameters;
   }
 
   /**
@@ -138,29 +225,26 @@ namespace Morula
         for (const Point<dim> &x : particles)
           weights.push_back({grid.box().number(grid.box().locate(x)), 1});
       grid.partition(weights);
-      std::vector<GridRange<dim>> reached;
+      std::vector<ParticleDomain<dim>> domains;
+      for (std::size_t i = 0; first_rank && i < particles.size(); ++i)
+        domains.emplace_back(particles[i], volumes[i]);
+      std::vector<GridRange<dim>> reached = ranges_of(domains, grid);
       if (first_rank)
-        {
-          for (std::size_t i = 0; i < particles.size(); ++i)
-            reached.push_back(
-              range_of(ParticleDomain<dim>(particles[i], volumes[i]), grid));
-          for (const Point<dim> &x : boundary)
-            reached.push_back({grid.locate(x), grid.locate(x)});
-        }
+        for (const Point<dim> &x : boundary)
+          reached.push_back({grid.locate(x), grid.locate(x)});
       Occupancy<dim> occupancy(GridWindow<dim>(grid, reached));
-      if (first_rank)
-        {
-          for (std::size_t i = 0; i < particles.size(); ++i)
-            occupancy.add_particle({particles[i], volumes[i]});
-          for (const Point<dim> &x : boundary)
-            occupancy.add_boundary_point(x);
-        }
-      occupancy.sum(grid);
-      if (first_rank)
-        for (std::size_t i = 0; i < particles.size(); ++i)
-          occupancy.add_quadrature_points({particles[i], volumes[i]});
-      occupancy.sum_quadrature_points(grid);
+      occupy(occupancy,
+             grid,
+             domains,
+             first_rank ? boundary : std::vector<Point<dim>>());
       space.emplace(grid, std::move(occupancy), parameters);
+    }
+
+    /** The piece of the body at a place. */
+    unsigned int
+    piece(const Point<dim> &x) const
+    {
+      return space->piece(grid.box().number(grid.box().locate(x)));
     }
 
     /** Those of @p points in active grid cells of this rank. */

@@ -4,17 +4,15 @@
 // The internal force on grid cells of 125 particles (2-D: 25), plain and
 // vectorised, of each material, with the volumetric strain of each point,
 // projected and pooled, next to what the core can do: a matrix product and the
-// triad of STREAM. The environment variable MORULA_BLAS names a shared library
-// with a fast dgemm_. contrib/upkeep/benchmark runs this and writes
-// doc/performance.md.
+// triad of STREAM.
 
 #include <morula/mechanics/materials/materials.h>
 #include <morula/mechanics/vectorized_internal_force.h>
 
-#include <benchmark/benchmark.h>
-#include <dlfcn.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
-#include <cstdlib>
+#include <benchmark/benchmark.h>
+
 #include <random>
 
 using namespace Morula;
@@ -95,51 +93,18 @@ namespace
         benchmark::Counter(n * flop_of_tangent, benchmark::Counter::kIsRate);
   }
 
+  /** By the BLAS that deal.II is linked to. */
   void
-  dgemm(benchmark::State &state)
+  matrix_product(benchmark::State &state)
   {
-    using Dgemm            = void (*)(const char *,
-                           const char *,
-                           const int *,
-                           const int *,
-                           const int *,
-                           const double *,
-                           const double *,
-                           const int *,
-                           const double *,
-                           const int *,
-                           const double *,
-                           double *,
-                           const int *);
-    const char *const name = std::getenv("MORULA_BLAS");
-    void *const library    = name == nullptr ? nullptr : dlopen(name, RTLD_NOW);
-    const auto  product    = library == nullptr ?
-                               nullptr :
-                               reinterpret_cast<Dgemm>(dlsym(library, "dgemm_"));
-    if (product == nullptr)
-      {
-        state.SkipWithError("MORULA_BLAS names no library with dgemm_");
-        return;
-      }
-    const int           n   = 1000;
-    const double        one = 1.;
-    std::vector<double> A(n * n, 0.5), B(n * n, 0.25), C(n * n, 0.);
+    const unsigned int       n = 1000;
+    LAPACKFullMatrix<double> A(n), B(n), C(n);
+    A = 0.5;
+    B = 0.25;
     for (auto _ : state)
       {
-        product("N",
-                "N",
-                &n,
-                &n,
-                &n,
-                &one,
-                A.data(),
-                &n,
-                B.data(),
-                &n,
-                &one,
-                C.data(),
-                &n);
-        benchmark::DoNotOptimize(C.data());
+        A.mmult(C, B);
+        benchmark::DoNotOptimize(C(0, 0));
       }
     state.counters["flop_rate"] =
       benchmark::Counter(2. * n * n * n * state.iterations(),
@@ -163,51 +128,36 @@ namespace
                          benchmark::Counter::kIsRate);
   }
 
-  /** @param what in front of "tangent" and "residual" in the names */
-  template <int dim>
-  void
-  register_assembly(const std::string     &what,
-                    const Material        &material,
-                    const VolumetricStrain form)
-  {
-    std::vector<std::string> kernels = {"plain"};
-    for (const auto &available : material.vector_kernels<dim>())
-      kernels.push_back(available.name);
-    const std::string where = std::to_string(dim) + "-D/" + what;
-    for (const std::string &kernel : kernels)
-      {
-        benchmark::RegisterBenchmark((where + "tangent/" + kernel).c_str(),
-                                     assemble<dim>,
-                                     &material,
-                                     form,
-                                     kernel,
-                                     LocalSystem<dim>::tangent);
-        benchmark::RegisterBenchmark((where + "residual/" + kernel).c_str(),
-                                     assemble<dim>,
-                                     &material,
-                                     form,
-                                     kernel,
-                                     LocalSystem<dim>::energy_and_residual);
-      }
-  }
-
-  /** Of all materials; the first is the default and needs no name. */
+  /** Of all materials, forms of the volumetric strain, and kernels. */
   template <int dim>
   void
   register_assemblies(const Materials &materials)
   {
+    const std::pair<std::string, VolumetricStrain> forms[] = {
+      {"pointwise", VolumetricStrain::pointwise},
+      {"projected", VolumetricStrain::projected},
+      {"pooled", VolumetricStrain::pooled}};
+    const std::pair<std::string, typename LocalSystem<dim>::Wanted> parts[] = {
+      {"tangent", LocalSystem<dim>::tangent},
+      {"residual", LocalSystem<dim>::energy_and_residual}};
     for (const std::string &name : materials.names())
       {
-        const std::string what =
-          name == materials.names().front() ? "" : name + " ";
-        const Material &material = *materials.find(name);
-        register_assembly<dim>(what, material, VolumetricStrain::pointwise);
-        register_assembly<dim>(what + "projected ",
-                               material,
-                               VolumetricStrain::projected);
-        register_assembly<dim>(what + "pooled ",
-                               material,
-                               VolumetricStrain::pooled);
+        const Material          &material = *materials.find(name);
+        std::vector<std::string> kernels  = {"plain"};
+        for (const auto &available : material.vector_kernels<dim>())
+          kernels.push_back(available.name);
+        for (const auto &[form_name, form] : forms)
+          for (const auto &[part, wanted] : parts)
+            for (const std::string &kernel : kernels)
+              benchmark::RegisterBenchmark((std::to_string(dim) + "-D/" + name +
+                                            '/' + form_name + '/' + part + '/' +
+                                            kernel)
+                                             .c_str(),
+                                           assemble<dim>,
+                                           &material,
+                                           form,
+                                           kernel,
+                                           wanted);
       }
   }
 } // namespace
@@ -215,11 +165,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  benchmark::RegisterBenchmark("dgemm", dgemm);
+  benchmark::RegisterBenchmark("matrix product", matrix_product);
   const Materials materials;
   register_assemblies<3>(materials);
   register_assemblies<2>(materials);
-  benchmark::RegisterBenchmark("dgemm again", dgemm);
   benchmark::RegisterBenchmark("triad", triad);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv))

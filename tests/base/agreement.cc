@@ -1,61 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
-// ranks: 1 2 3
+// ranks: 1 3
 
-#include <morula/base/agreement.h>
-#include <morula/base/input_error.h>
-#include <morula/base/step_failed.h>
+#include "base/room.h"
 
-#include <deal.II/base/mpi.h>
+using namespace dealii;
 
-#include <gtest/gtest.h>
+const MPI_Comm comm = MPI_COMM_WORLD;
 
-#include <stdexcept>
-#include <string>
-#include <typeinfo>
-
-using namespace Morula;
-
-namespace
+unsigned int
+rank()
 {
-  using namespace dealii;
+  return Utilities::MPI::this_mpi_process(comm);
+}
 
-  const MPI_Comm comm = MPI_COMM_WORLD;
+bool
+is_last()
+{
+  return rank() + 1 == Utilities::MPI::n_mpi_processes(comm);
+}
 
-  unsigned int
-  rank()
-  {
-    return Utilities::MPI::this_mpi_process(comm);
-  }
-
-  bool
-  is_last()
-  {
-    return rank() + 1 == Utilities::MPI::n_mpi_processes(comm);
-  }
-
-  /** Where the action fails on the last rank, all fail with its exception. */
-  template <typename Exception>
-  void
-  check_all_throw()
-  {
-    try
-      {
-        everywhere(comm, []() {
-          if (is_last())
-            throw Exception("on rank " + std::to_string(rank()));
-        });
-        ADD_FAILURE() << "rank " << rank() << " threw nothing";
-      }
-    catch (const std::exception &error)
-      {
-        EXPECT_EQ(typeid(error), typeid(Exception));
-        EXPECT_EQ(error.what(),
-                  "on rank " +
-                    std::to_string(Utilities::MPI::n_mpi_processes(comm) - 1));
-      }
-  }
-} // namespace
+/** Where the action fails on the last rank, all fail with its exception. */
+template <typename Exception>
+void
+check_all_throw()
+{
+  try
+    {
+      everywhere(comm, []() {
+        if (is_last())
+          throw Exception("on rank " + std::to_string(rank()));
+      });
+      ADD_FAILURE() << "rank " << rank() << " threw nothing";
+    }
+  catch (const std::exception &error)
+    {
+      EXPECT_EQ(typeid(error), typeid(Exception));
+      EXPECT_EQ(error.what(),
+                "on rank " +
+                  std::to_string(Utilities::MPI::n_mpi_processes(comm) - 1));
+    }
+}
 
 
 TEST(Everywhere, RunsOnAllRanks)

@@ -1,39 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/available_memory.h>
+#include "base/room.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-
-namespace
+/** A machine with 8,000 kB to give, whose files can be changed. */
+class AvailableMemory : public testing::Test
 {
-  /** A machine with 8,000 kB to give, whose files can be changed. */
-  class AvailableMemory : public testing::Test
+protected:
+  AvailableMemory()
   {
-  protected:
-    AvailableMemory()
-    {
-      std::filesystem::create_directories(root / "proc/self");
-      std::filesystem::create_directories(root / "sys/fs/cgroup/job/step");
-      write(root / "proc/meminfo",
-            "MemTotal: 9000 kB\nMemFree: 1 kB\nMemAvailable: 8000 kB\n");
-    }
+    std::filesystem::create_directories(root / "proc/self");
+    std::filesystem::create_directories(root / "sys/fs/cgroup/job/step");
+    write(root / "proc/meminfo",
+          "MemTotal: 9000 kB\nMemFree: 1 kB\nMemAvailable: 8000 kB\n");
+  }
 
-    void
-    put(const std::string &file, const std::string &text)
-    {
-      write(root / ("sys/fs/cgroup/" + file), text);
-    }
+  void
+  put(const std::string &file, const std::string &text)
+  {
+    write(root / ("sys/fs/cgroup/" + file), text);
+  }
 
-    const ScratchDirectory root;
-  };
-} // namespace
+  const ScratchDirectory root;
+};
 
 TEST_F(AvailableMemory, IsWhatLinuxSays)
 {

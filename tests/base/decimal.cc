@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression.h>
-#include <morula/base/expression_parser.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-
-using namespace Morula;
-
+#include "base/room.h"
 
 TEST(Decimal, ProductsOfAStepAreWhatUsersWrite)
 {

@@ -1,35 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression.h>
-#include <morula/base/input_error.h>
+#include "base/room.h"
 
-#include <gtest/gtest.h>
+const std::string key = "Section/Key";
 
-#include <cmath>
-
-#include "common/complaint.h"
-
-using namespace Morula;
-
-namespace
+double
+value(const std::string &text, const Point<3> &X = {}, const double t = 0.)
 {
-  const std::string key = "Section/Key";
+  return Expression(key, text).value(X, t);
+}
 
-  double
-  value(const std::string &text, const Point<3> &X = {}, const double t = 0.)
-  {
-    return Expression(key, text).value(X, t);
-  }
+/** What the constructor says about @p text. */
+std::string
+complaint(const std::string &text, const unsigned int n = 1)
+{
+  return complaint_of([&] { Expression(key, text, n); });
+}
 
-  /** What the constructor says about @p text. */
-  std::string
-  complaint(const std::string &text, const unsigned int n = 1)
-  {
-    return complaint_of([&] { Expression(key, text, n); });
-  }
-
-} // namespace
 
 
 TEST(Expression, EvaluatesInSpaceAndTime)

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/json.h>
-
-#include <boost/property_tree/json_parser.hpp>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <sstream>
-
-using namespace Morula;
+#include "base/room.h"
 
 TEST(Json, IsReadBackByAnother)
 {

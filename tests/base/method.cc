@@ -1,31 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/scene/scene.h>
+#include "base/room.h"
 
-#include <gtest/gtest.h>
-
-#include "common/temporary_file.h"
-
-
-using namespace Morula;
-
-namespace
+Scene
+read(const std::string &text, const std::vector<std::string> &overrides = {})
 {
-  Scene
-  read(const std::string &text, const std::vector<std::string> &overrides = {})
-  {
-    const TemporaryFile file(".prm", text);
-    Scene               scene = Scene::read(file.path, overrides);
-    scene.output_directory    = "output"; // not the file's name
-    return scene;
-  }
+  const TemporaryFile file(".prm", text);
+  Scene               scene = Scene::read(file.path, overrides);
+  scene.output_directory    = "output"; // not the file's name
+  return scene;
+}
 
-  const std::string paper = "set Method = paper\n";
-  const std::string penalty =
-    "subsection Boundary conditions\n set Nitsche penalty = 77\nend\n";
-} // namespace
+const std::string paper = "set Method = paper\n";
+const std::string penalty =
+  "subsection Boundary conditions\n set Nitsche penalty = 77\nend\n";
 
 
 TEST(Method, ConsistentLeavesTheDefaults)
@@ -76,21 +65,4 @@ TEST(Method, IsThereAgainInTheParametersOfARun)
   Scene changed        = read(paper);
   changed.nitsche.form = "bounded";
   EXPECT_EQ(read(changed.parameters()).nitsche.form, "bounded");
-}
-
-
-TEST(Method, RefusesWhatItDoesNotKnow)
-{
-  try
-    {
-      read("\nset Method = consistant");
-      ADD_FAILURE();
-    }
-  catch (const InputError &error)
-    {
-      const std::string text = error.what();
-      for (const char *part :
-           {".prm:2", "Method", "Did you mean 'consistent'?", "paper"})
-        EXPECT_NE(text.find(part), std::string::npos) << text;
-    }
 }

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/suggestion.h>
-
-#include <gtest/gtest.h>
-
-using namespace Morula;
-
+#include "base/room.h"
 
 TEST(Suggestion, CountsEdits)
 {

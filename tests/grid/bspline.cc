@@ -1,132 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/bspline.h>
+#include "grid/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "common/body_on_grid.h"
-
-using namespace Morula;
-
-namespace
+/** The quadratic B-spline centred at 0 on a grid of spacing 1. */
+double
+spline(const double r)
 {
-  /** The quadratic B-spline centred at 0 on a grid of spacing 1. */
-  double
-  spline(const double r)
-  {
-    const double s = std::abs(r);
-    return s < 0.5 ? 0.75 - s * s : s < 1.5 ? 0.5 * (1.5 - s) * (1.5 - s) : 0.;
-  }
+  const double s = std::abs(r);
+  return s < 0.5 ? 0.75 - s * s : s < 1.5 ? 0.5 * (1.5 - s) * (1.5 - s) : 0.;
+}
 
-  double
-  slope(const double r)
-  {
-    const double s = std::abs(r);
-    return s < 0.5 ? -2. * r : s < 1.5 ? (r < 0. ? 1. : -1.) * (1.5 - s) : 0.;
-  }
+double
+slope(const double r)
+{
+  const double s = std::abs(r);
+  return s < 0.5 ? -2. * r : s < 1.5 ? (r < 0. ? 1. : -1.) * (1.5 - s) : 0.;
+}
 
-  template <int dim>
-  Point<dim>
-  random_position(std::mt19937 &generator)
-  {
-    Point<dim> xi;
-    for (unsigned int d = 0; d < dim; ++d)
-      xi[d] = std::uniform_real_distribution<double>(0., 1.)(generator);
-    return xi;
-  }
-
-  template <int dim>
-  void
-  check_formula()
-  {
-    const double h = 7.;
-    std::mt19937 generator(1);
-    for (unsigned int trial = 0; trial < 50; ++trial)
-      {
-        const Point<dim>        xi = random_position<dim>(generator);
-        const SplineValues<dim> splines(xi, h);
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          {
-            // Position relative to the spline's centre.
-            double r[dim], value = 1.;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                r[d] = xi[d] - 0.5 - BSpline<dim>::offset(a, d);
-                value *= spline(r[d]);
-              }
-            EXPECT_NEAR(splines.value[a], value, 1e-15);
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                double gradient = slope(r[d]) / h;
-                for (unsigned int e = 0; e < dim; ++e)
-                  if (e != d)
-                    gradient *= spline(r[e]);
-                EXPECT_NEAR(splines.gradient[d][a], gradient, 1e-15);
-              }
-          }
-      }
-  }
-
-  template <int dim>
-  void
-  check_partition_of_unity()
-  {
-    std::mt19937 generator(2);
-    for (unsigned int trial = 0; trial < 50; ++trial)
-      {
-        const SplineValues<dim> splines(random_position<dim>(generator), 0.3);
-        double                  sum = 0., gradient_sum[dim] = {};
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          {
-            sum += splines.value[a];
-            for (unsigned int d = 0; d < dim; ++d)
-              gradient_sum[d] += splines.gradient[d][a];
-          }
-        EXPECT_NEAR(sum, 1., 1e-14);
-        for (const double s : gradient_sum)
-          EXPECT_NEAR(s, 0., 1e-13);
-      }
-  }
-
-  template <int dim>
-  void
-  check_gradient()
-  {
-    const double h = 50., eps = 1e-5;
-    std::mt19937 generator(3);
-    for (unsigned int trial = 0; trial < 20; ++trial)
-      {
-        const Point<dim>        xi = random_position<dim>(generator);
-        const SplineValues<dim> splines(xi, h);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            Point<dim> before = xi, after = xi;
-            before[d] -= eps;
-            after[d] += eps;
-            const SplineValues<dim> lower(before, h), upper(after, h);
-            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-              EXPECT_NEAR((upper.value[a] - lower.value[a]) / (2. * eps * h),
-                          splines.gradient[d][a],
-                          1e-11);
-          }
-      }
-  }
-} // namespace
+template <int dim>
+Point<dim>
+random_position(std::mt19937 &generator)
+{
+  Point<dim> xi;
+  for (unsigned int d = 0; d < dim; ++d)
+    xi[d] = std::uniform_real_distribution<double>(0., 1.)(generator);
+  return xi;
+}
 
 
-TEST(BSpline,
-     ValuesAndGradientsFollowTheFormula){MORULA_BOTH_DIMENSIONS(check_formula)}
+TEST_2D_3D(BSpline, ValuesAndGradientsFollowTheFormula)
+{
+  const double h = 7.;
+  std::mt19937 generator(1);
+  for (unsigned int trial = 0; trial < 50; ++trial)
+    {
+      const Point<dim>        xi = random_position<dim>(generator);
+      const SplineValues<dim> splines(xi, h);
+      for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+        {
+          // Position relative to the spline's centre.
+          double r[dim], value = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              r[d] = xi[d] - 0.5 - BSpline<dim>::offset(a, d);
+              value *= spline(r[d]);
+            }
+          EXPECT_NEAR(splines.value[a], value, 1e-15);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double gradient = slope(r[d]) / h;
+              for (unsigned int e = 0; e < dim; ++e)
+                if (e != d)
+                  gradient *= spline(r[e]);
+              EXPECT_NEAR(splines.gradient[d][a], gradient, 1e-15);
+            }
+        }
+    }
+}
 
 
-TEST(BSpline,
-     PartitionOfUnity){MORULA_BOTH_DIMENSIONS(check_partition_of_unity)}
-
-
-TEST(BSpline, GradientsAreDerivatives){MORULA_BOTH_DIMENSIONS(check_gradient)}
+TEST_2D_3D(BSpline, GradientsAreDerivatives)
+{
+  const double h = 50., eps = 1e-5;
+  std::mt19937 generator(3);
+  for (unsigned int trial = 0; trial < 20; ++trial)
+    {
+      const Point<dim>        xi = random_position<dim>(generator);
+      const SplineValues<dim> splines(xi, h);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Point<dim> before = xi, after = xi;
+          before[d] -= eps;
+          after[d] += eps;
+          const SplineValues<dim> lower(before, h), upper(after, h);
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            EXPECT_NEAR((upper.value[a] - lower.value[a]) / (2. * eps * h),
+                        splines.gradient[d][a],
+                        1e-11);
+        }
+    }
+}
 
 
 TEST(BSpline, NumbersRunXFastest)

@@ -1,235 +1,207 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/parting.h>
-#include <morula/grid/spline_space.h>
+#include "grid/room.h"
 
-#include <gtest/gtest.h>
+constexpr double l = 0.2; // of cells, in units of h
 
-#include <algorithm>
-#include <map>
-#include <utility>
-#include <vector>
-
-#include "common/body_on_grid.h"
-
-using namespace Morula;
-
-namespace
+/**
+ * Two arms along x, joined at x < 0, with a gap between them; lengths in
+ * units of h. The surface is known along the gap, which is all that the
+ * parting needs.
+ */
+template <int dim>
+struct Hairpin
 {
-  constexpr double l = 0.2; // of cells, in units of h
+  std::vector<PartedCell<dim>>  cells;
+  std::vector<PartedPatch<dim>> patches;
 
-  /**
-   * Two arms along x, joined at x < 0, with a gap between them; lengths in
-   * units of h. The surface is known along the gap, which is all that the
-   * parting needs.
-   */
-  template <int dim>
-  struct Hairpin
+  Hairpin(const double thickness,
+          const double gap,
+          const double noise,
+          const double y)
   {
-    std::vector<PartedCell<dim>>  cells;
-    std::vector<PartedPatch<dim>> patches;
-
-    Hairpin(const double thickness,
-            const double gap,
-            const double noise,
-            const double y)
-    {
-      std::mt19937                           generator(1);
-      std::uniform_real_distribution<double> uniform(-1., 1.);
-      const int    n_across = static_cast<int>(std::round(thickness / l));
-      const int    n_deep   = dim == 3 ? 5 : 1;
-      const double joint    = 1.;
-      const auto   add      = [&](const double a, const double b, const int k) {
-        Point<dim> x;
-        x[0] = a + noise * l * uniform(generator);
-        x[1] = y + b + noise * l * uniform(generator);
-        if (dim == 3)
-          x[dim - 1] = (k + 0.5) * l;
-        const ParticleDomain<dim> cube(x, std::pow(l, dim));
-        cells.push_back({static_cast<types::particle_index>(cells.size()),
-                         0,
-                         x,
-                         invert(cube.edge_vectors()),
-                         cube.lower(),
-                         cube.upper()});
-      };
-      for (int k = 0; k < n_deep; ++k)
-        for (int i = -static_cast<int>(joint / l); i < 25; ++i)
-          {
-            for (const double arm : {-1., 1.})
-              for (int j = 0; j < n_across; ++j)
-                add((i + 0.5) * l,
-                    arm * (gap / 2. + (j + 0.5) * thickness / n_across),
-                    k);
-            if (i < 0)
-              for (double b = -gap / 2. + l / 2.; b < gap / 2.; b += l)
-                add((i + 0.5) * l, b, k);
-          }
-      const double spacing = 0.25;
-      for (double z = spacing / 2.; z < (dim == 3 ? n_deep * l : spacing);
-           z += spacing)
+    std::mt19937                           generator(1);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    const int    n_across = static_cast<int>(std::round(thickness / l));
+    const int    n_deep   = dim == 3 ? 5 : 1;
+    const double joint    = 1.;
+    const auto   add      = [&](const double a, const double b, const int k) {
+      Point<dim> x;
+      x[0] = a + noise * l * uniform(generator);
+      x[1] = y + b + noise * l * uniform(generator);
+      if (dim == 3)
+        x[dim - 1] = (k + 0.5) * l;
+      const ParticleDomain<dim> cube(x, std::pow(l, dim));
+      cells.push_back({static_cast<types::particle_index>(cells.size()),
+                       0,
+                       x,
+                       invert(cube.edge_vectors()),
+                       cube.lower(),
+                       cube.upper()});
+    };
+    for (int k = 0; k < n_deep; ++k)
+      for (int i = -static_cast<int>(joint / l); i < 25; ++i)
         {
-          const auto patch = [&](const Point<2> &at, const Point<2> &n) {
-            PartedPatch<dim> one;
-            one.id   = patches.size();
-            one.body = 0;
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                one.x[d] = at[d];
-                one.n[d] = n[d];
-              }
-            if (dim == 3)
-              one.x[dim - 1] = z;
-            one.spacing = spacing;
-            patches.push_back(one);
-          };
-          for (double a = 0.05; a < 5.; a += spacing)
-            for (const double arm : {-1., 1.})
-              patch({a, y + arm * gap / 2.}, {0., -arm});
-          for (double b = -gap / 2. + spacing / 2.; b < gap / 2.; b += spacing)
-            patch({0., y + b}, {1., 0.});
+          for (const double arm : {-1., 1.})
+            for (int j = 0; j < n_across; ++j)
+              add((i + 0.5) * l,
+                  arm * (gap / 2. + (j + 0.5) * thickness / n_across),
+                  k);
+          if (i < 0)
+            for (double b = -gap / 2. + l / 2.; b < gap / 2.; b += l)
+              add((i + 0.5) * l, b, k);
         }
-    }
-  };
-
-  /** Which of the space's grid cells each cell belongs to, and whether two of
-   *  these share an unknown. */
-  struct Sharing
-  {
-    std::vector<unsigned int>              entries;
-    std::vector<std::vector<unsigned int>> unknowns; // of entries, sorted
-    std::map<std::pair<unsigned int, unsigned int>, bool> known;
-
-    bool
-    operator()(const std::size_t i, const std::size_t j)
-    {
-      const auto pair  = std::minmax(entries[i], entries[j]);
-      const auto found = known.find(pair);
-      if (found != known.end())
-        return found->second;
-      const auto &a = unknowns[pair.first], &b = unknowns[pair.second];
-      return known[pair] =
-               std::any_of(a.begin(), a.end(), [&](const unsigned int one) {
-                 return std::binary_search(b.begin(), b.end(), one);
-               });
-    }
-  };
-
-  template <int dim>
-  Sharing
-  sharing(const Hairpin<dim> &body, const SharedParting<dim> &parting)
-  {
-    GridParameters          parameters;
-    std::vector<Point<dim>> places;
-    parameters.spacing = 1.;
-    for (const PartedCell<dim> &cell : body.cells)
-      places.push_back(cell.x);
-    BackgroundGrid<dim> grid(parameters, MPI_COMM_SELF);
-    const auto [first, last] = extent<dim>({&places}, grid);
-    grid.enclose(first, last);
-    GridCellCounts weights;
-    for (const Point<dim> &x : places)
-      weights.push_back({grid.box().number(grid.box().locate(x)), 1});
-    grid.partition(weights);
-    std::vector<ParticleDomain<dim>> domains;
-    std::vector<GridRange<dim>>      reached;
-    for (const Point<dim> &x : places)
+    const double spacing = 0.25;
+    for (double z = spacing / 2.; z < (dim == 3 ? n_deep * l : spacing);
+         z += spacing)
       {
-        domains.emplace_back(x, std::pow(l, dim));
-        reached.push_back(range_of(domains.back(), grid));
-      }
-    Occupancy<dim> occupancy(GridWindow<dim>(grid, reached), 1, false, parting);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      occupancy.add_particle(domains[i], body.cells[i].id);
-    occupancy.sum(grid);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      occupancy.add_quadrature_points(domains[i], body.cells[i].id);
-    occupancy.sum_quadrature_points(grid);
-    const SplineSpace<dim> space(grid, occupancy, parameters);
-    Sharing                result;
-    for (const auto &entry : space.grid_cells())
-      {
-        result.unknowns.push_back(entry.unknowns);
-        std::sort(result.unknowns.back().begin(), result.unknowns.back().end());
-      }
-    for (const PartedCell<dim> &cell : body.cells)
-      {
-        const unsigned int number =
-          grid.box().number(grid.box().locate(cell.x));
-        result.entries.push_back(
-          space.entry(number, space.part_of_cell(cell.id, 0, number)));
-      }
-    return result;
-  }
-
-  /** The box around a body, with room for its surroundings. */
-  template <int dim>
-  GridBox<dim>
-  box_around(const Hairpin<dim> &body)
-  {
-    GridParameters parameters;
-    parameters.spacing = 1.;
-    std::vector<Point<dim>> places;
-    for (const PartedCell<dim> &cell : body.cells)
-      places.push_back(cell.x);
-    BackgroundGrid<dim> grid(parameters, MPI_COMM_SELF);
-    const auto [first, last] = extent<dim>({&places}, grid);
-    grid.enclose(first, last);
-    return grid.box();
-  }
-
-  template <int dim>
-  void
-  check_hairpin()
-  {
-    // What counts is where the gap lies in the grid, how thick the arms are,
-    // and whether cells stand on a lattice.
-    for (const double thickness : {0.4, 0.6, 1., 2.})
-      for (const double gap : {0., 0.02, 0.5})
-        for (const double noise : {0., 0.2})
-          for (const double y : {0., 0.13, 0.5})
+        const auto patch = [&](const Point<2> &at, const Point<2> &n) {
+          PartedPatch<dim> one;
+          one.id   = patches.size();
+          one.body = 0;
+          for (unsigned int d = 0; d < 2; ++d)
             {
-              SCOPED_TRACE(std::to_string(thickness) + " thick, gap " +
-                           std::to_string(gap) + ", at " + std::to_string(y));
-              const Hairpin<dim> body(thickness, gap, noise, y);
-              const GridBox<dim> box     = box_around(body);
-              const auto         parting = std::make_shared<const Parting<dim>>(
-                box,
-                contested_grid_cells(box, body.patches, 0.4),
-                body.cells,
-                body.patches);
-              ASSERT_FALSE(parting->is_trivial());
-              Sharing      share    = sharing(body, parting);
-              unsigned int n_joined = 0, n_torn = 0, n_joint = 0;
-              for (std::size_t i = 0; i < body.cells.size(); ++i)
-                for (std::size_t j = 0; j < i; ++j)
-                  {
-                    const auto  &a = body.cells[i].x, &b = body.cells[j].x;
-                    const bool   same     = (a[1] < y) == (b[1] < y);
-                    const double distance = a.distance(b);
-                    if (same)
-                      n_torn += distance < 1.5 * l && !share(i, j);
-                    // Splines reach 1.5 h from the joint, and thin arms may
-                    // continue theirs from there.
-                    else if (a[0] > 3. && b[0] > 3.)
-                      n_joined += share(i, j);
-                    else if (a[0] < 0. && b[0] < 0.)
-                      n_joint += distance < 1.5 && share(i, j);
-                  }
-              EXPECT_EQ(n_joined, 0u);
-              EXPECT_EQ(n_torn, 0u);
-              EXPECT_GT(n_joint, 0u);
+              one.x[d] = at[d];
+              one.n[d] = n[d];
             }
+          if (dim == 3)
+            one.x[dim - 1] = z;
+          one.spacing = spacing;
+          patches.push_back(one);
+        };
+        for (double a = 0.05; a < 5.; a += spacing)
+          for (const double arm : {-1., 1.})
+            patch({a, y + arm * gap / 2.}, {0., -arm});
+        for (double b = -gap / 2. + spacing / 2.; b < gap / 2.; b += spacing)
+          patch({0., y + b}, {1., 0.});
+      }
   }
-} // namespace
+};
+
+/** Which of the space's grid cells each cell belongs to, and whether two of
+ *  these share an unknown. */
+struct Sharing
+{
+  std::vector<unsigned int>              entries;
+  std::vector<std::vector<unsigned int>> unknowns; // of entries, sorted
+  std::map<std::pair<unsigned int, unsigned int>, bool> known;
+
+  bool
+  operator()(const std::size_t i, const std::size_t j)
+  {
+    const auto pair  = std::minmax(entries[i], entries[j]);
+    const auto found = known.find(pair);
+    if (found != known.end())
+      return found->second;
+    const auto &a = unknowns[pair.first], &b = unknowns[pair.second];
+    return known[pair] =
+             std::any_of(a.begin(), a.end(), [&](const unsigned int one) {
+               return std::binary_search(b.begin(), b.end(), one);
+             });
+  }
+};
+
+template <int dim>
+std::vector<Point<dim>>
+places_of(const Hairpin<dim> &body)
+{
+  std::vector<Point<dim>> places;
+  for (const PartedCell<dim> &cell : body.cells)
+    places.push_back(cell.x);
+  return places;
+}
+
+template <int dim>
+Sharing
+sharing(const Hairpin<dim> &body, const SharedParting<dim> &parting)
+{
+  const std::vector<Point<dim>> places = places_of(body);
+  BackgroundGrid<dim>           grid(grid_of_spacing(1.), MPI_COMM_SELF);
+  const auto [first, last] = extent<dim>({&places}, grid);
+  grid.enclose(first, last);
+  GridCellCounts weights;
+  for (const Point<dim> &x : places)
+    weights.push_back({grid.box().number(grid.box().locate(x)), 1});
+  grid.partition(weights);
+
+  const auto     domains = domains_of(places, std::pow(l, dim));
+  Occupancy<dim> occupancy(GridWindow<dim>(grid, ranges_of(domains, grid)),
+                           1,
+                           false,
+                           parting);
+  occupy(occupancy, grid, domains);
+  const SplineSpace<dim> space(grid, occupancy, grid_of_spacing(1.));
+  Sharing                result;
+  for (const auto &entry : space.grid_cells())
+    {
+      result.unknowns.push_back(entry.unknowns);
+      std::sort(result.unknowns.back().begin(), result.unknowns.back().end());
+    }
+  for (const PartedCell<dim> &cell : body.cells)
+    {
+      const unsigned int number = grid.box().number(grid.box().locate(cell.x));
+      result.entries.push_back(
+        space.entry(number, space.part_of_cell(cell.id, 0, number)));
+    }
+  return result;
+}
+
+/** The box around a body, with room for its surroundings. */
+template <int dim>
+GridBox<dim>
+box_around(const Hairpin<dim> &body)
+{
+  const std::vector<Point<dim>> places = places_of(body);
+  BackgroundGrid<dim>           grid(grid_of_spacing(1.), MPI_COMM_SELF);
+  const auto [first, last] = extent<dim>({&places}, grid);
+  grid.enclose(first, last);
+  return grid.box();
+}
 
 
 // Arms of one body that touch have no unknown in common away from where they
 // are joined, and neither of them is torn.
-TEST(Parting, PartsTheArmsOfAHairpin)
+TEST_2D_3D(Parting, PartsTheArmsOfAHairpin)
 {
-  MORULA_BOTH_DIMENSIONS(check_hairpin);
+  // What counts is where the gap lies in the grid, how thick the arms are,
+  // and whether cells stand on a lattice.
+  for (const double thickness : {0.4, 0.6, 1., 2.})
+    for (const double gap : {0., 0.02, 0.5})
+      for (const double noise : {0., 0.2})
+        for (const double y : {0., 0.13, 0.5})
+          {
+            SCOPED_TRACE(std::to_string(thickness) + " thick, gap " +
+                         std::to_string(gap) + ", at " + std::to_string(y));
+            const Hairpin<dim> body(thickness, gap, noise, y);
+            const GridBox<dim> box     = box_around(body);
+            const auto         parting = std::make_shared<const Parting<dim>>(
+              box,
+              contested_grid_cells(box, body.patches, 0.4),
+              body.cells,
+              body.patches);
+            ASSERT_FALSE(parting->is_trivial());
+            Sharing      share    = sharing(body, parting);
+            unsigned int n_joined = 0, n_torn = 0, n_joint = 0;
+            for (std::size_t i = 0; i < body.cells.size(); ++i)
+              for (std::size_t j = 0; j < i; ++j)
+                {
+                  const auto  &a = body.cells[i].x, &b = body.cells[j].x;
+                  const bool   same     = (a[1] < y) == (b[1] < y);
+                  const double distance = a.distance(b);
+                  if (same)
+                    n_torn += distance < 1.5 * l && !share(i, j);
+                  // Splines reach 1.5 h from the joint, and thin arms may
+                  // continue theirs from there.
+                  else if (a[0] > 3. && b[0] > 3.)
+                    n_joined += share(i, j);
+                  else if (a[0] < 0. && b[0] < 0.)
+                    n_joint += distance < 1.5 && share(i, j);
+                }
+            EXPECT_EQ(n_joined, 0u);
+            EXPECT_EQ(n_torn, 0u);
+            EXPECT_GT(n_joint, 0u);
+          }
 }
 
 

@@ -1,36 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/shared_points.h>
+#include "grid/room.h"
 
-#include <gtest/gtest.h>
+constexpr double h = 30.;
 
-#include <set>
+const GridBox<2> box({{{-3, -3}}}, {{{6, 6}}}, h, Point<2>(0.1, -7.));
 
-using namespace Morula;
-
-namespace
+/** The grid cells that share a point; also checks that it hardly moves. */
+std::set<std::array<int, 2>>
+grid_cells(const Point<2> &x)
 {
-  constexpr double h = 30.;
+  std::set<std::array<int, 2>> found;
+  const SharedPoint<2>         point(box, x);
+  point.for_each([&](const Point<2> &position) {
+    EXPECT_LT(position.distance(x), 1e-5 * h);
+    found.insert(box.locate(position));
+  });
+  EXPECT_EQ(found.size(), point.n_shares());
+  return found;
+}
 
-  const GridBox<2> box({{{-3, -3}}}, {{{6, 6}}}, h, Point<2>(0.1, -7.));
-
-  /** The grid cells that share a point; also checks that it hardly moves. */
-  std::set<std::array<int, 2>>
-  grid_cells(const Point<2> &x)
-  {
-    std::set<std::array<int, 2>> found;
-    const SharedPoint<2>         point(box, x);
-    point.for_each([&](const Point<2> &position) {
-      EXPECT_LT(position.distance(x), 1e-5 * h);
-      found.insert(box.locate(position));
-    });
-    EXPECT_EQ(found.size(), point.n_shares());
-    return found;
-  }
-
-  using Cells = std::set<std::array<int, 2>>;
-} // namespace
+using Cells = std::set<std::array<int, 2>>;
 
 
 TEST(SharedPoint, InsideBelongsToOneGridCellAndStays)

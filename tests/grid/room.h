@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_grid_room_h
+#define morula_tests_grid_room_h
+
+#include <morula/grid/background_grid.h>
+#include <morula/grid/bspline.h>
+#include <morula/grid/classification.h>
+#include <morula/grid/extension.h>
+#include <morula/grid/grid_window.h>
+#include <morula/grid/particle_domain.h>
+#include <morula/grid/parting.h>
+#include <morula/grid/piece_watch.h>
+#include <morula/grid/point_bins.h>
+#include <morula/grid/shared_points.h>
+#include <morula/grid/spline_space.h>
+
+#include "common/allocations.h"
+#include "common/body_on_grid.h"
+#include "common/tests.h"
+#include "grid/cut_bodies.h"
+
+using namespace Morula;
+
+#endif

@@ -1,72 +1,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/relaxation.h>
+#include "mechanics/room.h"
 
-#include <gtest/gtest.h>
+const Lame constants = lame(1., 0.4);
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "common/body_on_grid.h"
-#include "common/diagonal.h"
-#include "common/materials.h"
-#include "common/own_law.h"
-
-using namespace Morula;
-
-namespace
+/** F_e after relaxation. */
+template <int dim>
+Tensor<2, dim>
+relax(const Tensor<2, dim> &F_e,
+      const FlowLaw        &flow,
+      const double          dt,
+      const std::string    &law = "neo-Hookean")
 {
-  const Lame constants = lame(1., 0.4);
+  return F_e *
+         invert(Tensor<2, dim>(
+           flow_of_step<dim>(F_e, constants, material_of_test(law), flow, dt)));
+}
 
-  /** F_e after relaxation. */
-  template <int dim>
-  Tensor<2, dim>
-  relax(const Tensor<2, dim> &F_e,
-        const FlowLaw        &flow,
-        const double          dt,
-        const std::string    &law = "neo-Hookean")
-  {
-    return F_e * invert(Tensor<2, dim>(flow_of_step<dim>(
-                   F_e, constants, material_of_test(law), flow, dt)));
-  }
+template <int dim>
+SymmetricTensor<2, dim>
+left_strain(const Tensor<2, dim> &F_e)
+{
+  return symmetrize(F_e * transpose(F_e));
+}
 
-  template <int dim>
-  SymmetricTensor<2, dim>
-  left_strain(const Tensor<2, dim> &F_e)
-  {
-    return symmetrize(F_e * transpose(F_e));
-  }
+template <int dim>
+Tensor<2, dim>
+some_strain(std::mt19937 &generator)
+{
+  return unit_tensor<dim>() + 0.3 * random_tensor<2, dim>(generator);
+}
 
-  template <int dim>
-  Tensor<2, dim>
-  some_strain(std::mt19937 &generator)
-  {
-    return unit_tensor<dim>() + 0.3 * random_tensor<2, dim>(generator);
-  }
+/** A rotation. */
+template <int dim>
+Tensor<2, dim>
+some_rotation(std::mt19937 &generator)
+{
+  const Tensor<2, dim> F     = some_strain<dim>(generator);
+  const auto           pairs = eigenvectors(left_strain(F));
+  Tensor<2, dim>       R;
+  for (unsigned int i = 0; i < dim; ++i)
+    for (unsigned int j = 0; j < dim; ++j)
+      R[i][j] = pairs[i].second[j];
+  return determinant(R) > 0. ? R : -1. * R;
+}
 
-  /** A rotation. */
-  template <int dim>
-  Tensor<2, dim>
-  some_rotation(std::mt19937 &generator)
-  {
-    const Tensor<2, dim> F     = some_strain<dim>(generator);
-    const auto           pairs = eigenvectors(left_strain(F));
-    Tensor<2, dim>       R;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        R[i][j] = pairs[i].second[j];
-    return determinant(R) > 0. ? R : -1. * R;
-  }
-
-  template <int dim>
-  double
-  stress_of(const Tensor<2, dim> &F_e, const std::string &law = "neo-Hookean")
-  {
-    return von_mises_stress(F_e, constants, material_of_test(law));
-  }
-} // namespace
+template <int dim>
+double
+stress_of(const Tensor<2, dim> &F_e, const std::string &law = "neo-Hookean")
+{
+  return von_mises_stress(F_e, constants, material_of_test(law));
+}
 
 
 // The limits are those of scipy's solve_ivp for db/dt = -(b - tr b / 3) b.
@@ -154,44 +139,33 @@ TEST(Relaxation, OfSmallStrainsIsExponential)
 }
 
 
-namespace
+TEST_2D_3D(Relaxation, KeepsVolumeDirectionsAndFrames)
 {
-  template <int dim>
-  void
-  check_tensor()
-  {
-    std::mt19937 generator(3);
-    for (unsigned int trial = 0; trial < 50; ++trial)
-      for (const double yield_stress : {0., 0.05})
-        {
-          const Tensor<2, dim> F_e = some_strain<dim>(generator);
-          const Tensor<2, dim> Q   = some_rotation<dim>(generator);
-          const Tensor<2, dim> R   = some_rotation<dim>(generator);
-          const FlowLaw        flow{0.3, yield_stress};
-          const auto           D = [&](const Tensor<2, dim> &F_e) {
-            return flow_of_step<dim>(F_e, constants, neo_hookean(), flow, 0.1);
-          };
-          EXPECT_NEAR(determinant(D(F_e)), 1., 1e-14);
-          // Nothing changes where somebody looks at it from another side, and
-          // the tensor turns with the configuration that it belongs to.
-          EXPECT_LE((D(Q * F_e) - D(F_e)).norm(), 1e-13);
-          const Tensor<2, dim> turned(D(F_e * R));
-          EXPECT_LE((R * turned * transpose(R) - Tensor<2, dim>(D(F_e))).norm(),
-                    1e-13);
-          // b_e keeps its directions, and J_e.
-          const auto after = relax(F_e, flow, 0.1);
-          EXPECT_NEAR(determinant(after), determinant(F_e), 1e-14);
-          const Tensor<2, dim> b(left_strain(F_e)), new_b(left_strain(after));
-          EXPECT_LE((b * new_b - new_b * b).norm(), 1e-13);
-          EXPECT_LE(stress_of(after), stress_of(F_e));
-        }
-  }
-} // namespace
-
-
-TEST(Relaxation, KeepsVolumeDirectionsAndFrames)
-{
-  MORULA_BOTH_DIMENSIONS(check_tensor);
+  std::mt19937 generator(3);
+  for (unsigned int trial = 0; trial < 50; ++trial)
+    for (const double yield_stress : {0., 0.05})
+      {
+        const Tensor<2, dim> F_e = some_strain<dim>(generator);
+        const Tensor<2, dim> Q   = some_rotation<dim>(generator);
+        const Tensor<2, dim> R   = some_rotation<dim>(generator);
+        const FlowLaw        flow{0.3, yield_stress};
+        const auto           D = [&](const Tensor<2, dim> &F_e) {
+          return flow_of_step<dim>(F_e, constants, neo_hookean(), flow, 0.1);
+        };
+        EXPECT_NEAR(determinant(D(F_e)), 1., 1e-14);
+        // Nothing changes where somebody looks at it from another side, and
+        // the tensor turns with the configuration that it belongs to.
+        EXPECT_LE((D(Q * F_e) - D(F_e)).norm(), 1e-13);
+        const Tensor<2, dim> turned(D(F_e * R));
+        EXPECT_LE((R * turned * transpose(R) - Tensor<2, dim>(D(F_e))).norm(),
+                  1e-13);
+        // b_e keeps its directions, and J_e.
+        const auto after = relax(F_e, flow, 0.1);
+        EXPECT_NEAR(determinant(after), determinant(F_e), 1e-14);
+        const Tensor<2, dim> b(left_strain(F_e)), new_b(left_strain(after));
+        EXPECT_LE((b * new_b - new_b * b).norm(), 1e-13);
+        EXPECT_LE(stress_of(after), stress_of(F_e));
+      }
 }
 
 
@@ -265,49 +239,38 @@ TEST(Relaxation, OfAnyStepIsStable)
 }
 
 
-namespace
+TEST_2D_3D(Relaxation, StopsAtTheYieldStress)
 {
-  template <int dim>
-  void
-  check_yield()
-  {
-    std::mt19937 generator(7);
-    for (unsigned int trial = 0; trial < 20; ++trial)
-      for (const std::string law :
-           {"neo-Hookean", "isochoric neo-Hookean", "stiffening"})
-        {
-          SCOPED_TRACE(law);
-          const Tensor<2, dim> F_e    = some_strain<dim>(generator);
-          const double         stress = stress_of(F_e, law);
-          // Nothing flows below it.
-          EXPECT_EQ(relax(F_e, {1e-3, 1.001 * stress}, 1., law), F_e);
-          // The stress decays to it above: in a long step at once, never
-          // farther.
-          const double yield = 0.4 * stress;
-          EXPECT_NEAR(stress_of(relax(F_e, {1e-12, yield}, 1., law), law),
-                      yield,
-                      1e-10 * yield);
-          EXPECT_NEAR(stress_of(relax(F_e, {0.01, yield, 1}, 1., law), law),
-                      yield,
-                      0.05 * yield);
-          double         last    = stress;
-          Tensor<2, dim> current = F_e;
-          for (unsigned int i = 0; i < 5; ++i)
-            {
-              current          = relax(current, {0.3, yield}, 0.1, law);
-              const double now = stress_of(current, law);
-              EXPECT_LT(now, last);
-              EXPECT_GT(now, yield);
-              last = now;
-            }
-        }
-  }
-} // namespace
-
-
-TEST(Relaxation, StopsAtTheYieldStress)
-{
-  MORULA_BOTH_DIMENSIONS(check_yield);
+  std::mt19937 generator(7);
+  for (unsigned int trial = 0; trial < 20; ++trial)
+    for (const std::string law :
+         {"neo-Hookean", "isochoric neo-Hookean", "stiffening"})
+      {
+        SCOPED_TRACE(law);
+        const Tensor<2, dim> F_e    = some_strain<dim>(generator);
+        const double         stress = stress_of(F_e, law);
+        // Nothing flows below it.
+        EXPECT_EQ(relax(F_e, {1e-3, 1.001 * stress}, 1., law), F_e);
+        // The stress decays to it above: in a long step at once, never
+        // farther.
+        const double yield = 0.4 * stress;
+        EXPECT_NEAR(stress_of(relax(F_e, {1e-12, yield}, 1., law), law),
+                    yield,
+                    1e-10 * yield);
+        EXPECT_NEAR(stress_of(relax(F_e, {0.01, yield, 1}, 1., law), law),
+                    yield,
+                    0.05 * yield);
+        double         last    = stress;
+        Tensor<2, dim> current = F_e;
+        for (unsigned int i = 0; i < 5; ++i)
+          {
+            current          = relax(current, {0.3, yield}, 0.1, law);
+            const double now = stress_of(current, law);
+            EXPECT_LT(now, last);
+            EXPECT_GT(now, yield);
+            last = now;
+          }
+      }
 }
 
 

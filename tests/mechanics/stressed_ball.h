@@ -80,8 +80,11 @@ namespace Morula
   class Ball
   {
   public:
-    Ball(const MPI_Comm comm, const bool pressure, const bool lumen = false)
-      : Ball(comm, pressure, lumen, normals<dim>(30))
+    Ball(const MPI_Comm         comm,
+         const bool             pressure,
+         const bool             lumen = false,
+         const VolumetricStrain form  = VolumetricStrain::pointwise)
+      : Ball(comm, pressure, lumen, form, normals<dim>(30))
     {}
 
     BodyOnGrid<dim>     body;
@@ -118,6 +121,7 @@ namespace Morula
     Ball(const MPI_Comm                     comm,
          const bool                         pressure,
          const bool                         lumen,
+         const VolumetricStrain             form,
          const std::vector<Tensor<1, dim>> &N)
       : body(ball_points(center(), 90., spacing()),
              std::pow(spacing(), dim),
@@ -136,7 +140,7 @@ namespace Morula
         states_at(body.particles, groups, 0.3, std::pow(spacing(), dim));
       points.previous =
         states_at(body.particles, groups, 0.9, std::pow(spacing(), dim));
-      terms.push_back(std::make_unique<InternalForce<dim>>(points));
+      terms.push_back(std::make_unique<InternalForce<dim>>(points, form));
 
       const auto on_boundary = body.group(body.boundary);
       add_nitsche(N, on_boundary);

@@ -1,123 +1,80 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/enclosure.h>
-#include <morula/mechanics/swept_volume.h>
+#include "mechanics/room.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
-#include "common/body_on_grid.h"
-#include "common/finite_differences.h"
-
-using namespace Morula;
-
-namespace
+/** The middles of the sides of a box in a grid cell, and their area vectors
+ *  into the box. */
+template <int dim>
+SweptVolume<dim>
+box_in_cell(const Tensor<1, dim> &lower, const Tensor<1, dim> &size)
 {
-  /** The middles of the sides of a box in a grid cell, and their area vectors
-   *  into the box. */
-  template <int dim>
-  SweptVolume<dim>
-  box_in_cell(const Tensor<1, dim> &lower, const Tensor<1, dim> &size)
-  {
-    constexpr double            h = 50.;
-    GroupedPoints<dim>          points{{0, 2 * dim}, {}, h};
-    std::vector<Tensor<1, dim>> areas;
-    double                      volume = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
-      volume *= size[d];
-    for (unsigned int d = 0; d < dim; ++d)
-      for (const double side : {0., 1.})
+  constexpr double            h = 50.;
+  GroupedPoints<dim>          points{{0, 2 * dim}, {}, h};
+  std::vector<Tensor<1, dim>> areas;
+  double                      volume = 1.;
+  for (unsigned int d = 0; d < dim; ++d)
+    volume *= size[d];
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const double side : {0., 1.})
+      {
+        Point<dim> xi(lower + 0.5 * size);
+        xi[d] = lower[d] + side * size[d];
+        points.xi.push_back(xi);
+        Tensor<1, dim> area;
+        area[d] =
+          (side == 0. ? 1. : -1.) * volume / size[d] * std::pow(h, dim - 1.);
+        areas.push_back(area);
+      }
+  return {points, areas};
+}
+
+
+TEST_2D_3D(SweptVolume, Derivatives)
+{
+  std::mt19937                generator(5);
+  std::vector<Tensor<1, dim>> areas;
+  for (unsigned int p = 0; p < 7; ++p)
+    areas.push_back(100. * random_tensor<1, dim>(generator));
+  const SweptVolume<dim> gain(random_points_in_cell<dim>(generator, 7), areas);
+  for (unsigned int trial = 0; trial < 3; ++trial)
+    expect_derivatives(gain, random_field<dim>(generator, 0.5));
+}
+
+
+// The volume of a box becomes det f times as large, wherever it goes.
+TEST_2D_3D(SweptVolume, OfABox)
+{
+  std::mt19937   generator(6);
+  Tensor<1, dim> lower, size;
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      lower[d] = 0.1 + 0.1 * d;
+      size[d]  = 0.5 - 0.1 * d;
+    }
+  const SweptVolume<dim> gain   = box_in_cell<dim>(lower, size);
+  double                 volume = 1.;
+  for (unsigned int d = 0; d < dim; ++d)
+    volume *= 50. * size[d];
+  for (unsigned int trial = 0; trial < 5; ++trial)
+    {
+      const auto               A     = 0.4 * random_tensor<2, dim>(generator);
+      const auto               a     = 30. * random_tensor<1, dim>(generator);
+      const auto               field = affine_field(a, A, 50.);
+      const TermOnOneCell<dim> at(gain, GrowthAt::current);
+      EXPECT_NEAR(at.energy(field),
+                  (determinant(unit_tensor<dim>() + A) - 1.) * volume,
+                  1e-10 * volume);
+      // It pushes a closed surface nowhere.
+      const auto force = at.residual(field);
+      for (unsigned int i = 0; i < dim; ++i)
         {
-          Point<dim> xi(lower + 0.5 * size);
-          xi[d] = lower[d] + side * size[d];
-          points.xi.push_back(xi);
-          Tensor<1, dim> area;
-          area[d] =
-            (side == 0. ? 1. : -1.) * volume / size[d] * std::pow(h, dim - 1.);
-          areas.push_back(area);
+          double sum = 0.;
+          for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
+            sum += force[i * BSpline<dim>::n + b];
+          EXPECT_NEAR(sum, 0., 1e-9 * volume / 50.);
         }
-    return {points, areas};
-  }
-
-
-  template <int dim>
-  void
-  check_derivatives()
-  {
-    std::mt19937                generator(5);
-    std::vector<Tensor<1, dim>> areas;
-    for (unsigned int p = 0; p < 7; ++p)
-      areas.push_back(100. * random_tensor<1, dim>(generator));
-    const SweptVolume<dim> gain(random_points_in_cell<dim>(generator, 7),
-                                areas);
-    for (unsigned int trial = 0; trial < 3; ++trial)
-      expect_derivatives(gain, random_field<dim>(generator, 0.5));
-  }
-
-
-  /** The volume of a box becomes det f times as large, wherever it goes. */
-  template <int dim>
-  void
-  check_box()
-  {
-    std::mt19937   generator(6);
-    Tensor<1, dim> lower, size;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        lower[d] = 0.1 + 0.1 * d;
-        size[d]  = 0.5 - 0.1 * d;
-      }
-    const SweptVolume<dim> gain   = box_in_cell<dim>(lower, size);
-    double                 volume = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
-      volume *= 50. * size[d];
-    for (unsigned int trial = 0; trial < 5; ++trial)
-      {
-        const auto               A     = 0.4 * random_tensor<2, dim>(generator);
-        const auto               a     = 30. * random_tensor<1, dim>(generator);
-        const auto               field = affine_field(a, A, 50.);
-        const TermOnOneCell<dim> at(gain, GrowthAt::current);
-        EXPECT_NEAR(at.energy(field),
-                    (determinant(unit_tensor<dim>() + A) - 1.) * volume,
-                    1e-10 * volume);
-        // It pushes a closed surface nowhere.
-        const auto force = at.residual(field);
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            double sum = 0.;
-            for (unsigned int b = 0; b < BSpline<dim>::n; ++b)
-              sum += force[i * BSpline<dim>::n + b];
-            EXPECT_NEAR(sum, 0., 1e-9 * volume / 50.);
-          }
-      }
-  }
-} // namespace
-
-
-TEST(SweptVolume, DerivativesIn2D)
-{
-  check_derivatives<2>();
-}
-
-
-TEST(SweptVolume, DerivativesIn3D)
-{
-  check_derivatives<3>();
-}
-
-
-TEST(SweptVolume, OfABoxIn2D)
-{
-  check_box<2>();
-}
-
-
-TEST(SweptVolume, OfABoxIn3D)
-{
-  check_box<3>();
+    }
 }
 
 

@@ -1,75 +1,59 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/shared_file.h>
+#include "output/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <future>
-#include <optional>
-#include <stdexcept>
-
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-using namespace dealii;
-
-namespace
+unsigned int
+rank()
 {
-  unsigned int
-  rank()
-  {
-    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  }
+  return this_rank();
+}
 
-  unsigned int
-  n_ranks()
-  {
-    return Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  }
+unsigned int
+n_ranks()
+{
+  return number_of_ranks();
+}
 
-  /** What rank @p r writes into the file. */
-  std::string
-  part(const unsigned int r)
-  {
-    return std::string(1000, 'a' + r);
-  }
+/** What rank @p r writes into the file. */
+std::string
+part(const unsigned int r)
+{
+  return std::string(1000, 'a' + r);
+}
 
-  std::string
-  all_parts()
-  {
-    std::string all;
-    for (unsigned int r = 0; r < n_ranks(); ++r)
-      all += part(r);
-    return all;
-  }
+std::string
+all_parts()
+{
+  std::string all;
+  for (unsigned int r = 0; r < n_ranks(); ++r)
+    all += part(r);
+  return all;
+}
 
-  /** A file with a part of each rank, once @p go is true. */
-  std::vector<std::unique_ptr<PendingFile>>
-  one_file(const std::string &path, std::shared_future<void> go)
-  {
-    std::vector<std::unique_ptr<PendingFile>> files;
-    files.push_back(
-      pending(SharedFile::make(path, n_ranks() * 1000, MPI_COMM_WORLD, 0),
-              [go, r = rank()](SharedFile &file) {
-                go.wait();
-                file.write(part(r), r * 1000);
-              }));
-    files.push_back(nullptr); // was written at once
-    return files;
-  }
+/** A file with a part of each rank, once @p go is true. */
+std::vector<std::unique_ptr<PendingFile>>
+one_file(const std::string &path, std::shared_future<void> go)
+{
+  std::vector<std::unique_ptr<PendingFile>> files;
+  files.push_back(
+    pending(SharedFile::make(path, n_ranks() * 1000, MPI_COMM_WORLD, 0),
+            [go, r = rank()](SharedFile &file) {
+              go.wait();
+              file.write(part(r), r * 1000);
+            }));
+  files.push_back(nullptr); // was written at once
+  return files;
+}
 
-  std::shared_future<void>
-  at_once()
-  {
-    std::promise<void> promise;
-    promise.set_value();
-    return promise.get_future();
-  }
-} // namespace
+std::shared_future<void>
+at_once()
+{
+  std::promise<void> promise;
+  promise.set_value();
+  return promise.get_future();
+}
 
 TEST(BackgroundFiles, AreWrittenMeanwhile)
 {
@@ -106,7 +90,7 @@ TEST(BackgroundFiles, HaveStages)
     std::vector<std::unique_ptr<PendingFile>> files;
     files.push_back(std::make_unique<PendingFile>(
       PendingFile{[go = first.get_future().share()]() { go.wait(); },
-                              {},
+                  {},
                   [path = directory / "a", go = second.get_future().share()]() {
                     return std::move(one_file(path, go)[0]);
                   }}));

@@ -1,60 +1,44 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/csv.h>
-#include <morula/output/csv_rows.h>
+#include "output/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <random>
-
-#include "output/scratch_directory.h"
-#include "output/write_at_once.h"
-
-using namespace Morula;
-
-namespace
+std::string
+number(const double value)
 {
-  std::string
-  number(const double value)
-  {
-    std::string text;
-    append_number(text, value);
-    return text;
-  }
+  std::string text;
+  append_number(text, value);
+  return text;
+}
 
-  std::string
-  printed(const double value)
-  {
-    char text[64];
-    std::snprintf(text, sizeof(text), "%.10g", value);
-    return text;
-  }
+std::string
+printed(const double value)
+{
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.10g", value);
+  return text;
+}
 
-  /** This rank's part of the points 0 ... n-1, dealt out and backwards. */
-  PointFields<3>
-  dealt_points(const int n)
-  {
-    const int      rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const int      n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    PointFields<3> fields;
-    fields.names         = {"id", "third", "root"};
-    fields.n_csv_columns = 2;
-    for (int id = n - 1; id >= 0; --id)
-      if (id % n_ranks == rank)
-        {
-          fields.ids.push_back(id);
-          fields.positions.emplace_back(id, 0., 0.);
-          for (const double value : {double(id), id / 3., std::sqrt(id)})
-            fields.values.push_back(value);
-        }
-    return fields;
-  }
-} // namespace
+/** This rank's part of the points 0 ... n-1, dealt out and backwards. */
+PointFields<3>
+dealt_points(const int n)
+{
+  const int      rank    = this_rank();
+  const int      n_ranks = number_of_ranks();
+  PointFields<3> fields;
+  fields.names         = {"id", "third", "root"};
+  fields.n_csv_columns = 2;
+  for (int id = n - 1; id >= 0; --id)
+    if (id % n_ranks == rank)
+      {
+        fields.ids.push_back(id);
+        fields.positions.emplace_back(id, 0., 0.);
+        for (const double value : {double(id), id / 3., std::sqrt(id)})
+          fields.values.push_back(value);
+      }
+  return fields;
+}
 
 TEST(Csv, PrintsNumbersLikePrintf)
 {
@@ -93,39 +77,6 @@ TEST(Csv, WritesRowsInIdOrder)
   for (int id = 0; id < 1000; ++id)
     expected += printed(id) + ',' + printed(id / 3.) + '\n';
   EXPECT_EQ(content(path), expected);
-}
-
-TEST(Csv, WritesAHeaderWithoutRows)
-{
-  const ScratchDirectory directory;
-  write_csv(directory / "a.csv", dealt_points(0));
-  EXPECT_EQ(content(directory / "a.csv"), "id,third\n");
-  MPI_Barrier(MPI_COMM_WORLD);
-  write_csv(directory / "a.csv", dealt_points(1));
-  EXPECT_EQ(content(directory / "a.csv"), "id,third\n0,0\n");
-}
-
-TEST(Csv, LeavesTheOldFileWhenTheDiskIsFull)
-{
-  const ScratchDirectory directory;
-  const std::string      path = directory / "a.csv";
-  write_csv(path, dealt_points(1));
-  {
-    const FullDisk full(1000);
-    try
-      {
-        write_csv(path, dealt_points(1000));
-        ADD_FAILURE() << "a full disk went unnoticed";
-      }
-    catch (const std::runtime_error &error)
-      {
-        EXPECT_NE(std::string(error.what()).find(path), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("File too large"),
-                  std::string::npos);
-      }
-  }
-  EXPECT_EQ(content(path), "id,third\n0,0\n");
-  EXPECT_EQ(directory.files(), std::vector<std::string>{"a.csv"});
 }
 
 

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/digest.h>
+#include "output/room.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-#include <string>
-
-using namespace Morula;
-
-namespace
+std::uint64_t
+digest_of(const std::string_view bytes)
 {
-  std::uint64_t
-  digest_of(const std::string_view bytes)
-  {
-    Digest digest;
-    digest.add(bytes);
-    return digest.value();
-  }
-} // namespace
+  Digest digest;
+  digest.add(bytes);
+  return digest.value();
+}
 
 
 TEST(Digest, OfPartsIsThatOfTheWhole)

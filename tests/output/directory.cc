@@ -1,38 +1,27 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/output/directory.h>
+#include "output/room.h"
 
-#include <gtest/gtest.h>
+using Names = std::vector<std::string>;
 
-#include "common/complaint.h"
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-
-namespace
+void
+fill(const ScratchDirectory &directory, const Names &names)
 {
-  using Names = std::vector<std::string>;
+  on_root(MPI_COMM_WORLD, [&]() {
+    for (const std::string &name : names)
+      write(directory / name, "old");
+  });
+}
 
-  void
-  fill(const ScratchDirectory &directory, const Names &names)
-  {
-    on_root(MPI_COMM_WORLD, [&]() {
-      for (const std::string &name : names)
-        write(directory / name, "old");
-    });
-  }
-
-  /** What is said when a run is to go there; empty if it may. */
-  std::string
-  complaint(const std::string &directory, const RunSetup &run)
-  {
-    return complaint_of(
-      [&] { prepare_directory(directory, run, MPI_COMM_WORLD); });
-  }
-} // namespace
+/** What is said when a run is to go there; empty if it may. */
+std::string
+complaint(const std::string &directory, const RunSetup &run)
+{
+  return complaint_of(
+    [&] { prepare_directory(directory, run, MPI_COMM_WORLD); });
+}
 
 TEST(Directory, NumbersFiles)
 {
@@ -124,8 +113,7 @@ TEST(Directory, DoesNotLoseTheInputOfTheNewRun)
                         {directory / "../nothing",
                          directory / "./cells-0003.csv"},
                         true};
-  EXPECT_NE(complaint(directory / "", run).find("the scene reads '"),
-            std::string::npos);
+  expect_parts(complaint(directory / "", run), {"the scene reads '"});
   EXPECT_EQ(
     directory.files(),
     (Names{"cells-0003.csv", "log.txt", "parameters.prm", "statistics.csv"}));
@@ -145,7 +133,7 @@ TEST(Directory, KeepsRunsThatWouldBeLost)
   };
   const auto says = [&](const RunSetup &setup, const std::string &part) {
     const std::string said = refused(setup);
-    EXPECT_NE(said.find(part), std::string::npos) << said;
+    expect_parts(said, {part});
   };
   EXPECT_EQ(refused(a), "");
   says(a, "there is one that is not finished");
@@ -213,5 +201,5 @@ TEST(Directory, LosesWhatCameAfterTheSnapshot)
                    "snapshot.h5",
                    "statistics.csv"}));
   const std::string written = content(directory / "parameters.prm");
-  EXPECT_NE(written.find("# state: not finished\nnew"), std::string::npos);
+  expect_parts(written, {"# state: not finished\nnew"});
 }

@@ -1,30 +1,10 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/output/directory_lock.h>
+#include "output/room.h"
 
-#include <deal.II/base/utilities.h>
-
-#include <gtest/gtest.h>
-
-#include <sys/file.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <memory>
-
-#include "common/complaint.h"
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-
-namespace
-{
-  bool file_system_knows_locks = true;
-}
+bool file_system_knows_locks = true;
 
 /** Instead of the C library's, in this executable. */
 extern "C" int
@@ -36,33 +16,23 @@ flock(int descriptor, int operation) noexcept
   return -1;
 }
 
-namespace
+const MPI_Comm comm = MPI_COMM_WORLD;
+
+/** What is said to a second run; empty if it may go on. */
+std::string
+second_run(const std::string &directory)
 {
-  const MPI_Comm comm = MPI_COMM_WORLD;
+  return complaint_of([&] { const DirectoryLock lock(directory, comm); });
+}
 
-  /** What is said to a second run; empty if it may go on. */
-  std::string
-  second_run(const std::string &directory)
-  {
-    return complaint_of([&] { const DirectoryLock lock(directory, comm); });
-  }
+/** The same where it only looks. */
+std::string
+look(const std::string &directory)
+{
+  return complaint_of(
+    [&] { on_root(comm, [&]() { DirectoryLock::check_free(directory); }); });
+}
 
-  /** The same where it only looks. */
-  std::string
-  look(const std::string &directory)
-  {
-    std::string said;
-    try
-      {
-        on_root(comm, [&]() { DirectoryLock::check_free(directory); });
-      }
-    catch (const InputError &error)
-      {
-        said = error.what();
-      }
-    return said;
-  }
-} // namespace
 
 TEST(DirectoryLock, KeepsOthersOutAndNamesTheHolder)
 {

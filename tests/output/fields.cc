@@ -1,108 +1,74 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/cell_fields.h>
-#include <morula/output/surface_fields.h>
-#include <morula/particles/boundary_state.h>
+#include "output/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-
-#include "common/diagonal.h"
-#include "common/materials.h"
-
-using namespace Morula;
-
-namespace
+/** A cell of its own. */
+template <int dim>
+class Cell
 {
-  /** A cell of its own. */
-  template <int dim>
-  class Cell
+public:
+  Cell(const bool growing, const bool proliferating)
   {
-  public:
-    Cell(const bool growing, const bool proliferating)
-    {
-      if (growing)
-        columns.need_growth();
-      if (proliferating)
-        columns.need_lineage();
-      row = columns.initial_row();
-    }
-
-    CellView<dim, double>
-    writer()
-    {
-      return {make_array_view(row), columns};
-    }
-
-    CellView<dim, const double>
-    reader() const
-    {
-      return {make_array_view(row), columns};
-    }
-
-    CellColumns<dim>    columns;
-    std::vector<double> row;
-  };
-
-  /** A table's row by column names; the csv columns only. */
-  template <int dim>
-  std::map<std::string, double>
-  row(const PointFields<dim> &fields, const std::size_t i)
-  {
-    std::map<std::string, double> values;
-    for (unsigned int c = 0; c < fields.n_csv_columns; ++c)
-      values[fields.names[c]] = fields.row(i)[c];
-    return values;
+    if (growing)
+      columns.need_growth();
+    if (proliferating)
+      columns.need_lineage();
+    row = columns.initial_row();
   }
 
-  /** The first component of a nonscalar. */
-  double
-  vtu_value(const PointFields<2> &fields, const std::string &name)
+  CellView<dim, double>
+  writer()
   {
-    for (const auto &nonscalar : fields.nonscalars)
-      if (nonscalar.name == name)
-        return fields.row(0)[nonscalar.first_column];
-    for (unsigned int c = fields.n_csv_columns; c < fields.names.size(); ++c)
-      if (fields.names[c] == name)
-        return fields.row(0)[c];
-    return NAN;
+    return {make_array_view(row), columns};
   }
 
-  const Lame   lame_constants = lame(1., 0.4);
-  const double lambda         = 0.4 / (1.4 * 0.2);
-  const double mu             = 1. / 2.8;
-} // namespace
+  CellView<dim, const double>
+  reader() const
+  {
+    return {make_array_view(row), columns};
+  }
 
-TEST(CellFields, GivesCauchyStressInThreeDimensions)
+  CellQuantities
+  quantities(const bool per_grown_volume) const
+  {
+    return cell_quantities<dim>(reader(),
+                                neo_hookean(),
+                                lame(1., 0.4),
+                                per_grown_volume);
+  }
+
+  CellColumns<dim>    columns;
+  std::vector<double> row;
+};
+
+/** A table's row by column names; the csv columns only. */
+template <int dim>
+std::map<std::string, double>
+row(const PointFields<dim> &fields, const std::size_t i)
 {
-  // F = diag(2, 1, 1) without growth: b = diag(4, 1, 1), J = 2
-  Cell<3> cell(false, false);
-  cell.writer().set(cell.columns.initial_volume, 1000.);
-  cell.writer().set(cell.columns.deformation, diagonal<3>({2., 1., 1.}));
-  for (const bool per_grown_volume : {false, true})
-    {
-      const CellQuantities q = cell_quantities<3>(cell.reader(),
-                                                  neo_hookean(),
-                                                  lame_constants,
-                                                  per_grown_volume);
-      EXPECT_DOUBLE_EQ(q.initial_volume, 1000.);
-      EXPECT_DOUBLE_EQ(q.volume, 2000.);
-      EXPECT_DOUBLE_EQ(q.growth_volume_ratio, 1.);
-      EXPECT_DOUBLE_EQ(q.elastic_volume_ratio, 2.);
-      const double log_J = std::log(2.);
-      EXPECT_NEAR(q.energy_density,
-                  lambda / 2. * log_J * log_J +
-                    mu / 2. * (6. - 3. - 2. * log_J),
-                  1e-15);
-      EXPECT_NEAR(q.stress[0][0], (3. * mu + lambda * log_J) / 2., 1e-15);
-      EXPECT_NEAR(q.stress[1][1], lambda * log_J / 2., 1e-15);
-      EXPECT_NEAR(q.stress[2][2], lambda * log_J / 2., 1e-15);
-      EXPECT_NEAR(q.stress[0][1], 0., 1e-15);
-    }
+  std::map<std::string, double> values;
+  for (unsigned int c = 0; c < fields.n_csv_columns; ++c)
+    values[fields.names[c]] = fields.row(i)[c];
+  return values;
 }
+
+/** The first component of a nonscalar. */
+double
+vtu_value(const PointFields<2> &fields, const std::string &name)
+{
+  for (const auto &nonscalar : fields.nonscalars)
+    if (nonscalar.name == name)
+      return fields.row(0)[nonscalar.first_column];
+  for (unsigned int c = fields.n_csv_columns; c < fields.names.size(); ++c)
+    if (fields.names[c] == name)
+      return fields.row(0)[c];
+  return NAN;
+}
+
+const double lambda = 0.4 / (1.4 * 0.2);
+const double mu     = 1. / 2.8;
+
 
 TEST(CellFields, GivesShearStress)
 {
@@ -114,13 +80,7 @@ TEST(CellFields, GivesShearStress)
   cell.writer().set(cell.columns.initial_volume, 1.);
   cell.writer().set(cell.columns.deformation, F);
   CellFields<3> fields(0., 1, cell.columns, false);
-  fields.add(
-    0,
-    cell.reader(),
-    {},
-    9,
-    false,
-    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false));
+  fields.add(0, cell.reader(), {}, 9, false, cell.quantities(false));
   auto values = row(fields.fields(), 0);
   EXPECT_NEAR(values["sigma_xx"], mu * 0.25, 1e-15);
   EXPECT_NEAR(values["sigma_yy"], mu * 0.0625, 1e-15);
@@ -138,10 +98,8 @@ TEST(CellFields, CountsTheEnergyPerInitialOrGrownVolume)
   cell.writer().set(cell.columns.initial_volume, 8.);
   cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
   cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
-  const auto initial =
-    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false);
-  const auto grown =
-    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, true);
+  const auto   initial  = cell.quantities(false);
+  const auto   grown    = cell.quantities(true);
   const double pressure = mu * (1. - 1. / 1.21) + 3. * lambda * std::log(1.1);
   EXPECT_NEAR(initial.stress[1][1], -pressure, 1e-14);
   EXPECT_NEAR(grown.stress[1][1], -0.62618, 5e-6);
@@ -168,8 +126,7 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   write.set(cell.columns.generation, 2);
 
   CellFields<2> fields(third, 1, cell.columns, false);
-  const auto    q =
-    cell_quantities<2>(cell.reader(), neo_hookean(), lame_constants, true);
+  const auto    q = cell.quantities(true);
   fields.add(12, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
   auto        values = row(table, 0);
@@ -241,27 +198,6 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   EXPECT_EQ(table.values.size(), table.names.size());
 }
 
-TEST(CellFields, SayWhichCellsTheCheckpointHolds)
-{
-  Cell<3> cell(true, true);
-  cell.writer().set(cell.columns.initial_volume, 8.);
-  cell.writer().set(cell.columns.deformation, diagonal<3>({1., 1., 1.}));
-  cell.writer().set(cell.columns.growth, diagonal<3>({1.1, 1.1, 1.1}));
-  const auto q =
-    cell_quantities<3>(cell.reader(), neo_hookean(), lame_constants, false);
-  for (const bool held : {false, true})
-    {
-      CellFields<3> fields(0., 1, cell.columns, true);
-      fields.add(0, cell.reader(), {}, 0, held, q);
-      const auto &table = fields.fields();
-      EXPECT_EQ(table.names[table.n_csv_columns - 1], "held_at_checkpoint");
-      EXPECT_EQ(row(table, 0)["held_at_checkpoint"], held);
-      // and nothing else has moved
-      EXPECT_EQ(row(table, 0)["sigma_zx"], q.stress[0][2]);
-      EXPECT_EQ(table.row(0)[table.n_csv_columns], -trace(q.stress) / 3.);
-      EXPECT_EQ(table.values.size(), table.names.size());
-    }
-}
 
 TEST(CellFields, HaveTheColumnsThatEffectsWantThere)
 {
@@ -280,8 +216,7 @@ TEST(CellFields, HaveTheColumnsThatEffectsWantThere)
   EXPECT_EQ(cell.reader().get(shown), 2u);
 
   CellFields<2> fields(0., 1, cell.columns, true);
-  const auto    q =
-    cell_quantities<2>(cell.reader(), neo_hookean(), lame_constants, false);
+  const auto    q = cell.quantities(false);
   fields.add(7, cell.reader(), Point<2>(5., 6.), 3, false, q);
   const auto &table  = fields.fields();
   auto        values = row(table, 0);

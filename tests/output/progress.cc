@@ -1,44 +1,32 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/progress.h>
+#include "output/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <thread>
-
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-
-namespace
+StepReport
+report(const double time)
 {
-  StepReport
-  report(const double time)
-  {
-    StepReport report;
-    report.step              = 12;
-    report.time              = time;
-    report.dt                = 0.05;
-    report.cells             = 65752;
-    report.newton_iterations = 4;
-    report.wall_seconds      = 200.;
-    return report;
-  }
+  StepReport report;
+  report.step              = 12;
+  report.time              = time;
+  report.dt                = 0.05;
+  report.cells             = 65752;
+  report.newton_iterations = 4;
+  report.wall_seconds      = 200.;
+  return report;
+}
 
-  /** The estimate after @p done days of 4 that cost cost(t) seconds so far. */
-  template <typename Cost>
-  double
-  left_after(const double done, const Cost &cost)
-  {
-    TimeLeft time_left(0., 4.);
-    for (unsigned int step = 1; step <= 20; ++step)
-      time_left.add(done * step / 20., cost(done * step / 20.));
-    return time_left.seconds();
-  }
-} // namespace
+/** The estimate after @p done days of 4 that cost cost(t) seconds so far. */
+template <typename Cost>
+double
+left_after(const double done, const Cost &cost)
+{
+  TimeLeft time_left(0., 4.);
+  for (unsigned int step = 1; step <= 20; ++step)
+    time_left.add(done * step / 20., cost(done * step / 20.));
+  return time_left.seconds();
+}
 
 TEST(TimeLeft, IsUnknownAtFirstAndNothingAtTheEnd)
 {

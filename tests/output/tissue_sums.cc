@@ -1,50 +1,41 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/tissue_sums.h>
+#include "output/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-using namespace Morula;
-
-namespace
+CellQuantities
+cell(const double V0,
+     const double det_F,
+     const double det_F_g,
+     const double J_e,
+     const double energy)
 {
-  CellQuantities
-  cell(const double V0,
-       const double det_F,
-       const double det_F_g,
-       const double J_e,
-       const double energy)
-  {
-    CellQuantities q;
-    q.initial_volume       = V0;
-    q.volume               = V0 * det_F;
-    q.growth_volume_ratio  = det_F_g;
-    q.elastic_volume_ratio = J_e;
-    q.energy_density       = energy;
-    return q;
-  }
+  CellQuantities q;
+  q.initial_volume       = V0;
+  q.volume               = V0 * det_F;
+  q.growth_volume_ratio  = det_F_g;
+  q.elastic_volume_ratio = J_e;
+  q.energy_density       = energy;
+  return q;
+}
 
-  /** Two cells on the first and the last rank. */
-  template <int dim>
-  void
-  add_cells(TissueSums<dim> &sums)
-  {
-    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    Point<dim>         position;
-    position[0] = -3.;
-    position[1] = 2.;
-    if (rank == 0)
-      sums.add_cell(cell(10., 1.5, 2., 0.75, 0.5), position);
-    position[0]       = 4.;
-    position[dim - 1] = -5.;
-    if (rank + 1 == Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD))
-      sums.add_cell(cell(30., 1., 1.25, 1.1, 0.1), position);
-  }
-} // namespace
+/** Two cells on the first and the last rank. */
+template <int dim>
+void
+add_cells(TissueSums<dim> &sums)
+{
+  const unsigned int rank = this_rank();
+  Point<dim>         position;
+  position[0] = -3.;
+  position[1] = 2.;
+  if (rank == 0)
+    sums.add_cell(cell(10., 1.5, 2., 0.75, 0.5), position);
+  position[0]       = 4.;
+  position[dim - 1] = -5.;
+  if (rank + 1 == number_of_ranks())
+    sums.add_cell(cell(30., 1., 1.25, 1.1, 0.1), position);
+}
 
 TEST(TissueSums, AreThoseOfAllRanks)
 {
@@ -68,8 +59,8 @@ TEST(TissueSums, TakeTheBoxOfTheBoundaryPoints)
   EXPECT_EQ(totals.lower, (std::array<double, 3>{{-3., 2., -5.}}));
   EXPECT_EQ(totals.upper, (std::array<double, 3>{{4., 2., 0.}}));
 
-  const double rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const double last = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1.;
+  const double rank = this_rank();
+  const double last = number_of_ranks() - 1.;
   sums.add_boundary_point(Point<3>(100. + rank, -rank, 1.));
   totals = sums.totals(MPI_COMM_WORLD);
   EXPECT_EQ(totals.lower, (std::array<double, 3>{{100., -last, 1.}}));

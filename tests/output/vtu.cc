@@ -1,102 +1,46 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/vtu.h>
+#include "output/room.h"
 
-#include <boost/property_tree/ptree.hpp>
-#include <boost/property_tree/xml_parser.hpp>
-#include <gtest/gtest.h>
+using Tree = boost::property_tree::ptree;
 
-#include <cstdlib>
-#include <map>
-#include <optional>
-#include <stdexcept>
-
-#include "output/scratch_directory.h"
-#include "output/write_at_once.h"
-
-using namespace Morula;
-
-namespace
+/** Points 0 ... n-1 dealt out from the second rank on, if there is one. */
+template <int dim>
+PointFields<dim>
+dealt_points(const unsigned int n)
 {
-  using Tree = boost::property_tree::ptree;
+  const unsigned int rank    = this_rank();
+  const unsigned int n_ranks = number_of_ranks();
+  PointFields<dim>   fields;
+  fields.names         = {"time", "id", "energy", "both_a", "b"};
+  fields.n_csv_columns = 5;
+  fields.whole         = {"id"};
+  fields.csv_only      = {"time"};
+  fields.add_nonscalar("displacement", 3);
+  fields.add_nonscalar("sigma", 9);
+  fields.combine("both", "both_a", 2);
+  for (unsigned int id = 0; id < n; ++id)
+    if (n_ranks == 1 || 1 + id % (n_ranks - 1) == rank)
+      {
+        Point<dim> position;
+        for (unsigned int d = 0; d < dim; ++d)
+          position[d] = 10. * id + d;
+        fields.ids.push_back(id);
+        fields.positions.push_back(position);
+        for (const double value : {0.5, 1. * id, 0.5 * id, 7. * id, -1. * id})
+          fields.values.push_back(value);
+        fields.add_vector(0.25 * position);
+        for (unsigned int i = 0; i < 9; ++i)
+          fields.values.push_back(100. * id + i);
+      }
+  return fields;
+}
 
-  /** Points 0 ... n-1 dealt out from the second rank on, if there is one. */
-  template <int dim>
-  PointFields<dim>
-  dealt_points(const unsigned int n)
-  {
-    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const unsigned int n_ranks =
-      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    PointFields<dim> fields;
-    fields.names         = {"time", "id", "energy", "both_a", "b"};
-    fields.n_csv_columns = 5;
-    fields.whole         = {"id"};
-    fields.csv_only      = {"time"};
-    fields.add_nonscalar("displacement", 3);
-    fields.add_nonscalar("sigma", 9);
-    fields.combine("both", "both_a", 2);
-    for (unsigned int id = 0; id < n; ++id)
-      if (n_ranks == 1 || 1 + id % (n_ranks - 1) == rank)
-        {
-          Point<dim> position;
-          for (unsigned int d = 0; d < dim; ++d)
-            position[d] = 10. * id + d;
-          fields.ids.push_back(id);
-          fields.positions.push_back(position);
-          for (const double value : {0.5, 1. * id, 0.5 * id, 7. * id, -1. * id})
-            fields.values.push_back(value);
-          fields.add_vector(0.25 * position);
-          for (unsigned int i = 0; i < 9; ++i)
-            fields.values.push_back(100. * id + i);
-        }
-    return fields;
-  }
 
-  /** Points of all pieces, and the number of components of every array. */
-  std::pair<unsigned int, std::map<std::string, unsigned int>>
-  summary(const std::string &path)
-  {
-    Tree file;
-    boost::property_tree::read_xml(path, file);
-    unsigned int                        n_points = 0;
-    std::map<std::string, unsigned int> arrays;
-    for (const auto &piece : file.get_child("VTKFile.UnstructuredGrid"))
-      if (piece.first == "Piece")
-        {
-          n_points +=
-            piece.second.get<unsigned int>("<xmlattr>.NumberOfPoints");
-          for (const auto &array : piece.second.get_child("PointData"))
-            if (array.first == "DataArray")
-              arrays[array.second.get<std::string>("<xmlattr>.Name")] =
-                array.second.get<unsigned int>("<xmlattr>.NumberOfComponents",
-                                               1);
-        }
-    return {n_points, arrays};
-  }
-
-  template <int dim>
-  void
-  expect_fields()
-  {
-    const ScratchDirectory directory;
-    const std::string      path = directory / "cells-0002.vtu";
-    write_vtu(path, dealt_points<dim>(7), 0.5, 2);
-    const auto found = summary(path);
-    EXPECT_EQ(found.first, 7u);
-    EXPECT_EQ(found.second,
-              (std::map<std::string, unsigned int>{{"id", 1},
-                                                   {"energy", 1},
-                                                   {"displacement", 3},
-                                                   {"sigma", 9},
-                                                   {"both", 2}}));
-    EXPECT_EQ(directory.files(), std::vector<std::string>{"cells-0002.vtu"});
-  }
-
-  /** Checks in Python what the VTK library, that is ParaView, reads. */
-  const char *const reader = R"(
+/** Checks in Python what the VTK library, that is ParaView, reads. */
+const char *const reader = R"(
 import sys
 import xml.etree.ElementTree
 import vtk
@@ -130,35 +74,20 @@ for path, dim in ((sys.argv[1], 2), (sys.argv[2], 3)):
     assert ids == list(range(7)), ids
 )";
 
-  /** The command of one; the first in the path may be without. Collective. */
-  std::string
-  python_with_vtk()
-  {
-    std::string found;
-    on_root(MPI_COMM_WORLD, [&]() {
-      for (const std::string python : {"python3", "/usr/bin/python3"})
-        if (found.empty() &&
-            std::system((python + " -c 'import vtk' 2> /dev/null").c_str()) ==
-              0)
-          found = python;
-    });
-    return Utilities::MPI::broadcast(MPI_COMM_WORLD, found);
-  }
-} // namespace
-
-TEST(Vtu, MarksVectorsAndTensors)
+/** The command of one; the first in the path may be without. Collective. */
+std::string
+python_with_vtk()
 {
-  expect_fields<2>();
-  expect_fields<3>();
+  std::string found;
+  on_root(MPI_COMM_WORLD, [&]() {
+    for (const std::string python : {"python3", "/usr/bin/python3"})
+      if (found.empty() &&
+          std::system((python + " -c 'import vtk' 2> /dev/null").c_str()) == 0)
+        found = python;
+  });
+  return Utilities::MPI::broadcast(MPI_COMM_WORLD, found);
 }
 
-TEST(Vtu, CanBeEmpty)
-{
-  const ScratchDirectory directory;
-  const std::string      path = directory / "surface-0000.vtu";
-  write_vtu(path, dealt_points<3>(0), 0., 0);
-  EXPECT_EQ(summary(path).first, 0u);
-}
 
 TEST(Vtu, IsReadByTheVtkLibrary)
 {
@@ -180,18 +109,6 @@ TEST(Vtu, IsReadByTheVtkLibrary)
   EXPECT_EQ(status, 0);
 }
 
-TEST(Vtu, LeavesTheOldFileWhenTheDiskIsFull)
-{
-  const ScratchDirectory directory;
-  const std::string      path = directory / "a.vtu";
-  on_root(MPI_COMM_WORLD, [&]() { write(path, "old"); });
-  {
-    const FullDisk full(500);
-    EXPECT_THROW(write_vtu(path, dealt_points<3>(7), 0.5, 2),
-                 std::runtime_error);
-  }
-  EXPECT_EQ(content(path), "old");
-}
 
 TEST(Pvd, ListsTheFilesThatExist)
 {
@@ -240,35 +157,4 @@ TEST(Vtu, IsTheSameWrittenTogether)
       EXPECT_EQ(directory.files(),
                 (std::vector<std::string>{"gathered.vtu", "together.vtu"}));
     }
-}
-
-
-// Nothing is left where no file can be made, and the old one stays.
-TEST(Vtu, FailsTogether)
-{
-  const ScratchDirectory directory;
-  EXPECT_THROW(
-    write_vtu(directory / "missing/cells.vtu", dealt_points<3>(7), 0.5, 2, 0),
-    std::runtime_error);
-  EXPECT_EQ(directory.files(), std::vector<std::string>());
-}
-
-
-// A disk that is full for the last rank alone, after all room was reserved.
-TEST(Vtu, FailsTogetherWhereOneRankCannotWrite)
-{
-  const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  const unsigned int n    = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  const ScratchDirectory directory;
-  const std::string      path = directory / "cells.vtu";
-  on_root(MPI_COMM_WORLD, [&]() { write(path, "as it was"); });
-  {
-    std::optional<FullDisk> full;
-    if (rank + 1 == n)
-      full.emplace(1000);
-    EXPECT_THROW(write_vtu(path, dealt_points<3>(500), 0.5, 2, 0),
-                 std::runtime_error);
-  }
-  EXPECT_EQ(directory.files(), std::vector<std::string>{"cells.vtu"});
-  EXPECT_EQ(content(path), "as it was");
 }

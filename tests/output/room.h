@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_output_room_h
+#define morula_tests_output_room_h
+
+#include <morula/base/input_error.h>
+#include <morula/output/appended_csv.h>
+#include <morula/output/atomic_file.h>
+#include <morula/output/cell_fields.h>
+#include <morula/output/csv.h>
+#include <morula/output/csv_rows.h>
+#include <morula/output/digest.h>
+#include <morula/output/directory.h>
+#include <morula/output/directory_lock.h>
+#include <morula/output/lineage.h>
+#include <morula/output/longest_cell.h>
+#include <morula/output/progress.h>
+#include <morula/output/sealed_file.h>
+#include <morula/output/shared_file.h>
+#include <morula/output/snapshot.h>
+#include <morula/output/statistics.h>
+#include <morula/output/surface_fields.h>
+#include <morula/output/tissue_sums.h>
+#include <morula/output/vtu.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/tissue.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+
+#include <hdf5.h>
+#include <sys/file.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <future>
+#include <thread>
+
+#include "common/diagonal.h"
+#include "common/materials.h"
+#include "common/tests.h"
+#include "output/scratch_directory.h"
+#include "output/write_at_once.h"
+
+using namespace Morula;
+using namespace dealii;
+
+#endif

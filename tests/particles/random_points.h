@@ -6,17 +6,10 @@
 
 #include <morula/particles/point_list.h>
 #include <morula/particles/point_store.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
-#include <vector>
+#include <morula/particles/tissue.h>
 
 #include "common/body_on_grid.h"
+#include "common/tests.h"
 
 namespace Morula
 {
@@ -57,6 +50,18 @@ namespace Morula
     return list;
   }
 
+  /** Cells at these places, each of the volume @p V, numbered. */
+  template <int dim>
+  PointList<dim>
+  cells_at(const std::vector<Point<dim>> &places, const double V)
+  {
+    const CellColumns<dim> columns;
+    PointList<dim>         cells(columns.n_numbers());
+    for (const Point<dim> &x : places)
+      cells.add(cells.size(), x, columns.founder(x, V));
+    return cells;
+  }
+
   /** The points for which select(i) holds. */
   template <int dim, typename Select>
   PointList<dim>
@@ -75,8 +80,7 @@ namespace Morula
   dealt(const PointList<dim> &all)
   {
     return selected(all, [](const std::size_t i) {
-      return i % Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) ==
-             Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      return i % number_of_ranks() == this_rank();
     });
   }
 
@@ -86,9 +90,8 @@ namespace Morula
   owned(const PointList<dim> &all, const BackgroundGrid<dim> &grid)
   {
     return selected(all, [&](const std::size_t i) {
-      return grid.owner(
-               grid.box().number(grid.box().locate(all.positions[i]))) ==
-             Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+      return grid.owner(grid.box().number(
+               grid.box().locate(all.positions[i]))) == this_rank();
     });
   }
 
@@ -124,7 +127,7 @@ namespace Morula
     const auto [first, last] = extent<dim>({&all.positions}, grid);
     grid.enclose(first, last);
     GridCellCounts weights; // rank 0 counts all points
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    if (this_rank() == 0)
       for (const Point<dim> &x : all.positions)
         weights.push_back({grid.box().number(grid.box().locate(x)), 1});
     grid.partition(weights);

@@ -1,147 +1,109 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/particles/detached_points.h>
-#include <morula/particles/surface_fit.h>
+#include "particles/room.h"
 
-#include <gtest/gtest.h>
+constexpr double length = 10.; // of cells, um
 
-#include <algorithm>
-#include <cmath>
-
-#include "common/body_on_grid.h"
-#include "particles/random_points.h"
-
-using namespace Morula;
-
-namespace
+/** A cube of cells, and the middle of a patch above each that is outermost;
+ *  one of the patches stands off from the cells. */
+template <int dim>
+class Cube
 {
-  constexpr double length = 10.; // of cells, um
-
-  /** A cube of cells, and the middle of a patch above each that is outermost;
-   *  one of the patches stands off from the cells. */
-  template <int dim>
-  class Cube
+public:
+  explicit Cube(const double stands_off)
+    : cells(cells_at(lattice_points<dim>(40., length),
+                     Utilities::fixed_power<dim>(length)))
+    , surface(BoundaryColumns<dim>().n_numbers())
+    , tissue(grid_of_spacing(25.), CellColumns<dim>(), MPI_COMM_WORLD)
   {
-  public:
-    explicit Cube(const double stands_off)
-      : cells(CellColumns<dim>().n_numbers())
-      , surface(BoundaryColumns<dim>().n_numbers())
-      , tissue(grid(), CellColumns<dim>(), MPI_COMM_WORLD)
-    {
-      for (const Point<dim> &x :
-           lattice_points<dim>(Point<dim>(),
-                               40.,
-                               length,
-                               [](const Point<dim> &) { return true; }))
-        cells.add(cells.size(),
-                  x,
-                  make_array_view(CellColumns<dim>().founder(
-                    x, Utilities::fixed_power<dim>(length))));
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto &all = cells.positions;
-          const auto  low = [d](const auto &a, const auto &b) {
-            return a[d] < b[d];
-          };
-          const double first =
-            (*std::min_element(all.begin(), all.end(), low))[d];
-          const double last =
-            (*std::max_element(all.begin(), all.end(), low))[d];
-          for (const Point<dim> &x : all)
-            for (const double sign : {-1., 1.})
-              if (x[d] == (sign < 0. ? first : last))
-                {
-                  Tensor<1, dim> n;
-                  n[d] = sign;
-                  add(Point<dim>(x + 0.5 * length * n), n);
-                }
-        }
-      surface.positions[0] = surface.positions[0] + stands_off * normal(0);
-      tissue.place(dealt(cells), dealt(surface));
-    }
-
-    static GridParameters
-    grid()
-    {
-      GridParameters parameters;
-      parameters.spacing = 25.;
-      return parameters;
-    }
-
-    Tensor<1, dim>
-    normal(const std::size_t i) const
-    {
-      return BoundaryView<dim>(ArrayView<const double>(surface.row(i)), columns)
-        .initial_normal();
-    }
-
-    PointList<dim>             cells, surface;
-    const BoundaryColumns<dim> columns;
-    Tissue<dim>                tissue;
-
-  private:
-    void
-    add(const Point<dim> &x, const Tensor<1, dim> &n)
-    {
-      surface.add(surface.size(),
-                  x,
-                  make_array_view(BoundaryColumns<dim>().initial_point(
-                    x,
-                    n,
-                    Utilities::fixed_power<dim - 1>(length),
-                    SurfaceCondition::free)));
-    }
-  };
-
-  template <int dim>
-  void
-  check_fit()
-  {
-    for (const double way : {0., 3., 20., 90.})
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        SCOPED_TRACE(way);
-        Cube<dim>        cube(way);
-        const SurfaceFit fit = surface_fit(cube.tissue);
-        const double     V   = Utilities::fixed_power<dim>(length);
-        EXPECT_NEAR(fit.distance, 0.5 * length + way, 1e-10);
-        EXPECT_NEAR(fit.cells, cube.cells.size() * V, 1e-6 * V);
-        EXPECT_NEAR(fit.enclosed, fit.cells + way * V / length / dim, 1e-6 * V);
-        EXPECT_LT(fit.opening, 1e-12);
+        const auto &all = cells.positions;
+        const auto  low = [d](const auto &a, const auto &b) {
+          return a[d] < b[d];
+        };
+        const double first =
+          (*std::min_element(all.begin(), all.end(), low))[d];
+        const double last = (*std::max_element(all.begin(), all.end(), low))[d];
+        for (const Point<dim> &x : all)
+          for (const double sign : {-1., 1.})
+            if (x[d] == (sign < 0. ? first : last))
+              {
+                Tensor<1, dim> n;
+                n[d] = sign;
+                add(Point<dim>(x + 0.5 * length * n), n);
+              }
       }
+    surface.positions[0] = surface.positions[0] + stands_off * normal(0);
+    tissue.place(dealt(cells), dealt(surface));
   }
 
-  /** The point goes back until it is near enough, and keeps its area. */
-  template <int dim>
-  void
-  check_pull()
+
+  Tensor<1, dim>
+  normal(const std::size_t i) const
   {
-    for (const double way : {5., 20., 90.})
-      {
-        SCOPED_TRACE(way);
-        Cube<dim> cube(way);
-        EXPECT_EQ(pull_to_cells(cube.tissue, 12.5), way > 7.5 ? 1u : 0u);
-        EXPECT_NEAR(surface_fit(cube.tissue).distance,
-                    std::min(12.5, 5. + way),
-                    1e-10);
-        const BoundaryPoints<dim> &points = cube.tissue.boundary_points();
-        for (unsigned int p = 0; p < points.size(); ++p)
-          EXPECT_EQ((points.F(p) - unit_tensor<dim>()).norm(), 0.);
-      }
+    return BoundaryView<dim>(ArrayView<const double>(surface.row(i)), columns)
+      .initial_normal();
   }
-} // namespace
+
+  PointList<dim>             cells, surface;
+  const BoundaryColumns<dim> columns;
+  Tissue<dim>                tissue;
+
+private:
+  void
+  add(const Point<dim> &x, const Tensor<1, dim> &n)
+  {
+    surface.add(surface.size(),
+                x,
+                make_array_view(BoundaryColumns<dim>().initial_point(
+                  x,
+                  n,
+                  Utilities::fixed_power<dim - 1>(length),
+                  SurfaceCondition::free)));
+  }
+};
 
 
-TEST(SurfaceFit, IsThatOfACube){MORULA_BOTH_DIMENSIONS(check_fit)}
+TEST_2D_3D(SurfaceFit, IsThatOfACube)
+{
+  for (const double way : {0., 3., 20., 90.})
+    {
+      SCOPED_TRACE(way);
+      Cube<dim>        cube(way);
+      const SurfaceFit fit = surface_fit(cube.tissue);
+      const double     V   = Utilities::fixed_power<dim>(length);
+      EXPECT_NEAR(fit.distance, 0.5 * length + way, 1e-10);
+      EXPECT_NEAR(fit.cells, cube.cells.size() * V, 1e-6 * V);
+      EXPECT_NEAR(fit.enclosed, fit.cells + way * V / length / dim, 1e-6 * V);
+      EXPECT_LT(fit.opening, 1e-12);
+    }
+}
 
 
-TEST(SurfaceFit, IsRestored){MORULA_BOTH_DIMENSIONS(check_pull)}
+// The point goes back until it is near enough, and keeps its area.
+TEST_2D_3D(SurfaceFit, IsRestored)
+{
+  for (const double way : {5., 20., 90.})
+    {
+      SCOPED_TRACE(way);
+      Cube<dim> cube(way);
+      EXPECT_EQ(pull_to_cells(cube.tissue, 12.5), way > 7.5 ? 1u : 0u);
+      EXPECT_NEAR(surface_fit(cube.tissue).distance,
+                  std::min(12.5, 5. + way),
+                  1e-10);
+      const BoundaryPoints<dim> &points = cube.tissue.boundary_points();
+      for (unsigned int p = 0; p < points.size(); ++p)
+        EXPECT_EQ((points.F(p) - unit_tensor<dim>()).norm(), 0.);
+    }
+}
 
 
 TEST(SurfaceFit, NeedsASurface)
 {
-  Tissue<2> tissue(Cube<2>::grid(), CellColumns<2>(), MPI_COMM_WORLD);
+  Tissue<2> tissue(grid_of_spacing(25.), CellColumns<2>(), MPI_COMM_WORLD);
   tissue.place(dealt(Cube<2>(0.).cells), PointList<2>());
   const SurfaceFit fit = surface_fit(tissue);
   EXPECT_EQ(fit.distance, 0.);

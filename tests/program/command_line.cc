@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/base/parameter_file.h>
-#include <morula/program/command_line.h>
+#include "program/room.h"
 
-#include <gtest/gtest.h>
-
-#include <sstream>
-
-#include "common/complaint.h"
-
-using namespace Morula;
-
-namespace
+std::string
+complaint(const std::vector<std::string> &words)
 {
-  std::string
-  complaint(const std::vector<std::string> &words)
-  {
-    return complaint_of([&] { CommandLine::parse(words); });
-  }
-} // namespace
+  return complaint_of([&] { CommandLine::parse(words); });
+}
 
 
 TEST(CommandLine, NamesTheScene)
@@ -88,31 +75,8 @@ TEST(CommandLine, RefusesWhatItDoesNotKnow)
          {{"--parameters", "a.prm", "b.prm"}, "'a.prm' and 'b.prm'"},
          {{"a.prm", "-x"}, "-x"}})
     {
-      const std::string message = complaint(words);
-      EXPECT_NE(message.find(part), std::string::npos) << message;
-      EXPECT_NE(message.find("morula SCENE.prm"), std::string::npos) << message;
-      EXPECT_NE(message.find("--help"), std::string::npos) << message;
+      expect_parts(complaint(words), {part});
     }
-}
-
-
-TEST(CommandLine, PrintsEveryOptionAndExitCode)
-{
-  std::ostringstream out;
-  print_help(out);
-  for (const char *part : {"SCENE.prm",
-                           "-s",
-                           "--resume",
-                           "--replace",
-                           "--explain",
-                           "--parameters",
-                           "--version",
-                           "--help",
-                           "mpirun",
-                           "0 finished",
-                           "1 bad input",
-                           "2 the run failed"})
-    EXPECT_NE(out.str().find(part), std::string::npos) << part;
 }
 
 
@@ -125,18 +89,18 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
                InputError);
   std::ostringstream few;
   print_parameters(few, CommandLine::parse({"--parameters", "LUMEN", "gas"}));
-  EXPECT_NE(few.str().find("Lumen pressure"), std::string::npos);
+  expect_parts(few.str(), {"Lumen pressure"});
   EXPECT_EQ(few.str().find("Lumen where"), std::string::npos);
   std::size_t n_keys = 0;
   for (const Statement &statement : read_statements(out, "output"))
     n_keys += statement.kind == Statement::set;
   EXPECT_GE(n_keys, 49u);
-  for (const char *part : {"subsection Cell cycle",
-                           "set Spacing = 50",
-                           "# With Method = paper: 1000\n",
-                           "Allowed: a number >= 0",
-                           "Allowed: any one of none, cell cycle.",
-                           "kPa",
-                           "day"})
-    EXPECT_NE(out.str().find(part), std::string::npos) << part;
+  expect_parts(out.str(),
+               {"subsection Cell cycle",
+                "set Spacing = 50",
+                "# With Method = paper: 1000\n",
+                "Allowed: a number >= 0",
+                "Allowed: any one of none, cell cycle.",
+                "kPa",
+                "day"});
 }

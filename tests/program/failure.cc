@@ -1,35 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
-// ranks: 1 2 3
+// ranks: 1 3
 
-#include <morula/program/failure.h>
+#include "program/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-using namespace dealii;
-using namespace Morula;
-
-namespace
+unsigned int
+rank()
 {
-  unsigned int
-  rank()
-  {
-    return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-  }
+  return this_rank();
+}
 
-  /** Number of times that @p part occurs in @p text. */
-  unsigned int
-  occurrences(const std::string &text, const std::string &part)
-  {
-    unsigned int n = 0;
-    for (auto i = text.find(part); i != std::string::npos;
-         i      = text.find(part, i + 1))
-      ++n;
-    return n;
-  }
-} // namespace
+/** Number of times that @p part occurs in @p text. */
+unsigned int
+occurrences(const std::string &text, const std::string &part)
+{
+  unsigned int n = 0;
+  for (auto i = text.find(part); i != std::string::npos;
+       i      = text.find(part, i + 1))
+    ++n;
+  return n;
+}
 
 
 TEST(Failure, IsPrintedOnceByTheFirstRank)
@@ -43,7 +33,7 @@ TEST(Failure, IsPrintedOnceByTheFirstRank)
 
 TEST(Failure, ShowsWhatOtherRanksHaveToSay)
 {
-  const unsigned int last = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) - 1;
+  const unsigned int last    = number_of_ranks() - 1;
   const bool         is_last = rank() == last;
   testing::internal::CaptureStderr();
   EXPECT_EQ(end_all_ranks(is_last ? 2 : 1,

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/open_mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
-using namespace Morula;
+#include "program/room.h"
 
 TEST(OpenMpi, AsksNoXServerForGraphicsCards)
 {

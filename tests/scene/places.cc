@@ -1,32 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/scene/scene.h>
+#include "scene/room.h"
 
-#include <gtest/gtest.h>
-
-#include "common/complaint.h"
-#include "common/temporary_file.h"
-
-using namespace Morula;
-
-namespace
+Scene
+read(const std::string &text, const std::vector<std::string> &overrides = {})
 {
-  Scene
-  read(const std::string &text, const std::vector<std::string> &overrides = {})
-  {
-    return Scene::read(TemporaryFile(".prm", text).path, overrides);
-  }
+  return Scene::read(TemporaryFile(".prm", text).path, overrides);
+}
 
-  /** What reading says about a scene. */
-  std::string
-  complaint(const std::string &text)
-  {
-    return complaint_of([&] { read(text); });
-  }
+/** What reading says about a scene. */
+std::string
+complaint(const std::string &text)
+{
+  return complaint_of([&] { read(text); });
+}
 
-} // namespace
 
 
 TEST(ScenePlaces, AreThoseOfSubsectionsWithoutEnd)
@@ -81,10 +70,9 @@ TEST(ScenePlaces, OfKeysThatAreSetTwice)
 
   const Scene twice = read(grid + "subsection Grid\n  set Spacing = 30\nend\n");
   ASSERT_EQ(twice.renamed.size(), 1u);
-  for (const std::string part :
-       {".prm:5: the key 'Grid/Spacing' is set to '30'",
-        ".prm:2: it was set to '40'"})
-    EXPECT_NE(twice.renamed[0].find(part), std::string::npos) << part;
+  expect_parts(twice.renamed[0],
+               {".prm:5: the key 'Grid/Spacing' is set to '30'",
+                ".prm:2: it was set to '40'"});
 
   // Who includes a file may set its keys anew, but not before it.
   const TemporaryFile base(".prm", grid);

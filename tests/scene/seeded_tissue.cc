@@ -1,32 +1,21 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/surface/fixed.h>
-#include <morula/scene/seeded_tissue.h>
+#include "scene/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-using namespace Morula;
-
-namespace
+/** A held block whose cells divide on one side. */
+Scene
+block()
 {
-  /** A held block whose cells divide on one side. */
-  Scene
-  block()
-  {
-    Scene scene;
-    scene.tissue.shape                      = "box";
-    scene.tissue.size                       = {100., 100., 50.};
-    scene.keys<FixedParameters>().where     = "Z < -24";
-    scene.keys<CellCycleParameters>().law   = "cell cycle";
-    scene.keys<CellCycleParameters>().where = "X > 0";
-    return scene;
-  }
-} // namespace
+  Scene scene;
+  scene.tissue.shape                      = "box";
+  scene.tissue.size                       = {100., 100., 50.};
+  scene.keys<FixedParameters>().where     = "Z < -24";
+  scene.keys<CellCycleParameters>().law   = "cell cycle";
+  scene.keys<CellCycleParameters>().where = "X > 0";
+  return scene;
+}
 
 
 TEST(SeededTissue, CountsAndWarns)

@@ -1,136 +1,115 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/base/surface_mesh.h>
+#include "seeding/room.h"
 
-#include <boost/algorithm/string.hpp>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <sstream>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "common/complaint.h"
-#include "common/temporary_file.h"
-
-using namespace Morula;
-
-namespace
+/** Why a mesh is refused; empty if it is not. */
+std::string
+refusal(const std::string &content, const std::string &ending)
 {
-  /** Why a mesh is refused; empty if it is not. */
-  std::string
-  refusal(const std::string &content, const std::string &ending)
-  {
-    const TemporaryFile file(ending, content);
-    return complaint_of(
-      [&] { SurfaceMesh mesh("Tissue/Surface mesh", file.path); });
-  }
+  const TemporaryFile file(ending, content);
+  return complaint_of(
+    [&] { SurfaceMesh mesh("Tissue/Surface mesh", file.path); });
+}
 
-  bool
-  contains(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
+bool
+contains(const std::string &text, const std::string &part)
+{
+  return text.find(part) != std::string::npos;
+}
 
-  /** What is written into files: a box of 3 x 4 x 5 um. */
-  const std::vector<Point<3>>                  corners = {{0, 0, 0},
-                                                          {3, 0, 0},
-                                                          {3, 4, 0},
-                                                          {0, 4, 0},
-                                                          {0, 0, 5},
-                                                          {3, 0, 5},
-                                                          {3, 4, 5},
-                                                          {0, 4, 5}};
-  const std::vector<std::vector<unsigned int>> box     = {{0, 2, 1},
-                                                          {0, 3, 2},
-                                                          {4, 5, 6},
-                                                          {4, 6, 7},
-                                                          {0, 1, 5},
-                                                          {0, 5, 4},
-                                                          {1, 2, 6},
-                                                          {1, 6, 5},
-                                                          {2, 3, 7},
-                                                          {2, 7, 6},
-                                                          {3, 0, 4},
-                                                          {3, 4, 7}};
+/** What is written into files: a box of 3 x 4 x 5 um. */
+const std::vector<Point<3>>                  corners = {{0, 0, 0},
+                                                        {3, 0, 0},
+                                                        {3, 4, 0},
+                                                        {0, 4, 0},
+                                                        {0, 0, 5},
+                                                        {3, 0, 5},
+                                                        {3, 4, 5},
+                                                        {0, 4, 5}};
+const std::vector<std::vector<unsigned int>> box     = {{0, 2, 1},
+                                                        {0, 3, 2},
+                                                        {4, 5, 6},
+                                                        {4, 6, 7},
+                                                        {0, 1, 5},
+                                                        {0, 5, 4},
+                                                        {1, 2, 6},
+                                                        {1, 6, 5},
+                                                        {2, 3, 7},
+                                                        {2, 7, 6},
+                                                        {3, 0, 4},
+                                                        {3, 4, 7}};
 
-  std::string
-  text_of(const Point<3> &x, const std::string &separator)
-  {
-    std::ostringstream text;
-    text.precision(17);
-    text << x[0] << separator << x[1] << separator << x[2];
-    return text.str();
-  }
+std::string
+text_of(const Point<3> &x, const std::string &separator)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << x[0] << separator << x[1] << separator << x[2];
+  return text.str();
+}
 
-  /** The box as a text in the STL format. Triangles that do not come first move
-   *  their vertices by up to @p error, relative. */
-  std::string
-  stl(const std::string &name = "box", const double error = 0.)
-  {
-    std::string  text = "solid " + name + "\n";
-    unsigned int n    = 0;
-    for (const auto &triangle : box)
-      {
-        text += "  facet normal 0 0 0\n    outer loop\n";
-        for (const unsigned int v : triangle)
-          text += "      vertex " +
-                  text_of((1. + error * (++n % 5) / 4.) * corners[v], " ") +
-                  "\n";
-        text += "    endloop\n  endfacet\n";
-      }
-    return text + "endsolid " + name + "\n";
-  }
+/** The box as a text in the STL format. Triangles that do not come first move
+ *  their vertices by up to @p error, relative. */
+std::string
+stl(const std::string &name = "box", const double error = 0.)
+{
+  std::string  text = "solid " + name + "\n";
+  unsigned int n    = 0;
+  for (const auto &triangle : box)
+    {
+      text += "  facet normal 0 0 0\n    outer loop\n";
+      for (const unsigned int v : triangle)
+        text += "      vertex " +
+                text_of((1. + error * (++n % 5) / 4.) * corners[v], " ") + "\n";
+      text += "    endloop\n  endfacet\n";
+    }
+  return text + "endsolid " + name + "\n";
+}
 
-  /** Vertices and triangles, each line with a word before it. */
-  std::string
-  lists(const std::string &vertex,
-        const std::string &polygon,
-        const unsigned int first)
-  {
-    std::string text;
-    for (const Point<3> &x : corners)
-      text += vertex + text_of(x, " ") + "\n";
-    for (const auto &t : box)
-      text += polygon + std::to_string(t[0] + first) + " " +
-              std::to_string(t[1] + first) + " " +
-              std::to_string(t[2] + first) + "\n";
-    return text;
-  }
+/** Vertices and triangles, each line with a word before it. */
+std::string
+lists(const std::string &vertex,
+      const std::string &polygon,
+      const unsigned int first)
+{
+  std::string text;
+  for (const Point<3> &x : corners)
+    text += vertex + text_of(x, " ") + "\n";
+  for (const auto &t : box)
+    text += polygon + std::to_string(t[0] + first) + " " +
+            std::to_string(t[1] + first) + " " + std::to_string(t[2] + first) +
+            "\n";
+  return text;
+}
 
-  std::string
-  replaced(std::string text, const std::string &old, const std::string &instead)
-  {
-    return boost::replace_all_copy(text, old, instead);
-  }
+std::string
+replaced(std::string text, const std::string &old, const std::string &instead)
+{
+  return boost::replace_all_copy(text, old, instead);
+}
 
-  /** The volume inside a mesh, µm^3. */
-  double
-  volume(const std::string &content, const std::string &ending)
-  {
-    const TemporaryFile file(ending, content);
-    const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
-    double              result = 0.;
-    for (const SurfaceTriangle &triangle : mesh.triangles())
-      result += triangle.vertices[0] *
-                cross_product_3d(triangle.vertices[1], triangle.vertices[2]) /
-                6.;
-    return result;
-  }
+/** The volume inside a mesh, µm^3. */
+double
+volume(const std::string &content, const std::string &ending)
+{
+  const TemporaryFile file(ending, content);
+  const SurfaceMesh   mesh("Tissue/Surface mesh", file.path);
+  double              result = 0.;
+  for (const SurfaceTriangle &triangle : mesh.triangles())
+    result += triangle.vertices[0] *
+              cross_product_3d(triangle.vertices[1], triangle.vertices[2]) / 6.;
+  return result;
+}
 
-  std::vector<std::string>
-  warnings(const std::string &content, const std::string &ending)
-  {
-    const TemporaryFile file(ending, content);
-    Review              review;
-    review_mesh("Tissue/Surface mesh", file.path, review);
-    return review.warnings;
-  }
-} // namespace
+std::vector<std::string>
+warnings(const std::string &content, const std::string &ending)
+{
+  const TemporaryFile file(ending, content);
+  Review              review;
+  review_mesh("Tissue/Surface mesh", file.path, review);
+  return review.warnings;
+}
 
 TEST(MeshFiles, TextsAsTheWorldWritesThem)
 {

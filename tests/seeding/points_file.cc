@@ -1,65 +1,51 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/seeding/points_file.h>
-#include <morula/seeding/seeding.h>
+#include "seeding/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include "common/complaint.h"
-#include "common/temporary_file.h"
-
-using namespace Morula;
-
-namespace
+/** x, y, (z,) volume of all ranks' cells in id order; checks the ids. */
+template <int dim>
+std::vector<std::vector<double>>
+read_and_gather(const std::string &content)
 {
-  /** x, y, (z,) volume of all ranks' cells in id order; checks the ids. */
-  template <int dim>
-  std::vector<std::vector<double>>
-  read_and_gather(const std::string &content)
-  {
-    const TemporaryFile file(".csv", content);
-    const auto mine = read_points<dim>(file.path, 1000., MPI_COMM_WORLD);
-    std::vector<std::vector<double>> rows;
-    for (std::size_t i = 0; i < mine.positions.size(); ++i)
-      {
-        rows.emplace_back(mine.positions[i].begin_raw(),
-                          mine.positions[i].end_raw());
-        rows.back().push_back(mine.volumes.at(i));
-      }
+  const TemporaryFile file(".csv", content);
+  const auto          mine = read_points<dim>(file.path, 1000., MPI_COMM_WORLD);
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < mine.positions.size(); ++i)
+    {
+      rows.emplace_back(mine.positions[i].begin_raw(),
+                        mine.positions[i].end_raw());
+      rows.back().push_back(mine.volumes.at(i));
+    }
 
-    std::vector<std::vector<double>> all;
-    const auto pieces = Utilities::MPI::all_gather(MPI_COMM_WORLD, rows);
-    for (unsigned int r = 0; r < pieces.size(); ++r)
-      {
-        if (r == Utilities::MPI::this_mpi_process(MPI_COMM_WORLD))
-          {
-            EXPECT_EQ(mine.first_id, all.size());
-          }
-        all.insert(all.end(), pieces[r].begin(), pieces[r].end());
-      }
-    EXPECT_EQ(mine.n_global, all.size());
-    return all;
-  }
+  std::vector<std::vector<double>> all;
+  const auto pieces = Utilities::MPI::all_gather(MPI_COMM_WORLD, rows);
+  for (unsigned int r = 0; r < pieces.size(); ++r)
+    {
+      if (r == this_rank())
+        {
+          EXPECT_EQ(mine.first_id, all.size());
+        }
+      all.insert(all.end(), pieces[r].begin(), pieces[r].end());
+    }
+  EXPECT_EQ(mine.n_global, all.size());
+  return all;
+}
 
-  /** The message with which a file is refused, on every rank; or nothing. */
-  template <int dim>
-  std::string
-  refusal(const std::string &content)
-  {
-    return complaint_of([&] { read_and_gather<dim>(content); });
-  }
+/** The message with which a file is refused, on every rank; or nothing. */
+template <int dim>
+std::string
+refusal(const std::string &content)
+{
+  return complaint_of([&] { read_and_gather<dim>(content); });
+}
 
-  bool
-  contains(const std::string &text, const std::string &part)
-  {
-    return text.find(part) != std::string::npos;
-  }
-} // namespace
+bool
+contains(const std::string &text, const std::string &part)
+{
+  return text.find(part) != std::string::npos;
+}
 
 using Rows = std::vector<std::vector<double>>;
 

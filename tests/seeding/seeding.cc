@@ -1,96 +1,59 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/seeding/seeding.h>
+#include "seeding/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
-using namespace Morula;
-
-namespace
+/** All ranks' founders in id order; checks the ids. */
+template <int dim>
+std::vector<Point<dim>>
+seed_and_gather(const TissueParameters &parameters)
 {
-  /** All ranks' founders in id order; checks the ids. */
-  template <int dim>
-  std::vector<Point<dim>>
-  seed_and_gather(const TissueParameters &parameters)
-  {
-    parameters.check(dim);
-    const auto mine = seed_founders<dim>(parameters, MPI_COMM_WORLD);
-    EXPECT_EQ(mine.volumes.size(), mine.positions.size());
-    for (const double volume : mine.volumes)
-      EXPECT_DOUBLE_EQ(volume, std::pow(parameters.cell_spacing.value(), dim));
+  parameters.check(dim);
+  const auto mine = seed_founders<dim>(parameters, MPI_COMM_WORLD);
+  EXPECT_EQ(mine.volumes.size(), mine.positions.size());
+  for (const double volume : mine.volumes)
+    EXPECT_DOUBLE_EQ(volume, std::pow(parameters.cell_spacing.value(), dim));
 
-    std::vector<Point<dim>> all;
-    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    const auto         pieces =
-      Utilities::MPI::all_gather(MPI_COMM_WORLD, mine.positions);
-    for (unsigned int r = 0; r < pieces.size(); ++r)
-      {
-        if (r == rank)
-          {
-            EXPECT_EQ(mine.first_id, all.size());
-          }
-        all.insert(all.end(), pieces[r].begin(), pieces[r].end());
-      }
-    EXPECT_EQ(mine.n_global, all.size());
-    return all;
-  }
+  std::vector<Point<dim>> all;
+  const unsigned int      rank = this_rank();
+  const auto              pieces =
+    Utilities::MPI::all_gather(MPI_COMM_WORLD, mine.positions);
+  for (unsigned int r = 0; r < pieces.size(); ++r)
+    {
+      if (r == rank)
+        {
+          EXPECT_EQ(mine.first_id, all.size());
+        }
+      all.insert(all.end(), pieces[r].begin(), pieces[r].end());
+    }
+  EXPECT_EQ(mine.n_global, all.size());
+  return all;
+}
 
-  /** Serial: sites origin + (i + 1/2) L_p, |i| <= reach, x fastest. */
-  template <int dim>
-  std::vector<Point<dim>>
-  enumerate(const Point<dim>                              &origin,
-            const double                                   spacing,
-            const int                                      reach,
-            const std::function<bool(const Point<dim> &)> &inside)
-  {
-    std::vector<Point<dim>> result;
-    const int               reach_z = dim == 3 ? reach : 0;
-    for (int k = -reach_z; k <= reach_z; ++k)
-      for (int j = -reach; j <= reach; ++j)
-        for (int i = -reach; i <= reach; ++i)
-          {
-            const int  index[3] = {i, j, k};
-            Point<dim> x;
-            for (unsigned int d = 0; d < dim; ++d)
-              x[d] = origin[d] + (index[d] + 0.5) * spacing;
-            if (inside(x))
-              result.push_back(x);
-          }
-    return result;
-  }
+template <int dim>
+void
+expect_same(const std::vector<Point<dim>> &found,
+            const std::vector<Point<dim>> &expected)
+{
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    ASSERT_LT(found[i].distance(expected[i]), 1e-10) << "cell " << i;
+}
 
-  template <int dim>
-  void
-  expect_same(const std::vector<Point<dim>> &found,
-              const std::vector<Point<dim>> &expected)
-  {
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-      ASSERT_LT(found[i].distance(expected[i]), 1e-10) << "cell " << i;
-  }
-
-  /** Cells of the centred sphere in integers: (2i+1)² sums < (2R/L_p)². */
-  std::size_t
-  count_in_sphere(const int two_radii_per_spacing)
-  {
-    const int   n     = two_radii_per_spacing;
-    std::size_t count = 0;
-    for (int a = -n - n % 2 - 1; a <= n + 1; a += 2)
-      for (int b = -n - n % 2 - 1; b <= n + 1; b += 2)
-        for (int c = -n - n % 2 - 1; c <= n + 1; c += 2)
-          if (a * a + b * b + c * c < n * n)
-            ++count;
-    return count;
-  }
-} // namespace
+/** Cells of the centred sphere in integers: (2i+1)² sums < (2R/L_p)². */
+std::size_t
+count_in_sphere(const int two_radii_per_spacing)
+{
+  const int   n     = two_radii_per_spacing;
+  std::size_t count = 0;
+  for (int a = -n - n % 2 - 1; a <= n + 1; a += 2)
+    for (int b = -n - n % 2 - 1; b <= n + 1; b += 2)
+      for (int c = -n - n % 2 - 1; c <= n + 1; c += 2)
+        if (a * a + b * b + c * c < n * n)
+          ++count;
+  return count;
+}
 
 TEST(Seeding, SphereOfThePaper)
 {
@@ -98,7 +61,8 @@ TEST(Seeding, SphereOfThePaper)
   const auto       cells = seed_and_gather<3>(parameters);
   EXPECT_EQ(cells.size(), 65752u);
   EXPECT_EQ(cells.size(), count_in_sphere(50));
-  expect_same<3>(cells, enumerate<3>(Point<3>(), 10., 26, [](const auto &x) {
+  expect_same<3>(cells,
+                 lattice_points<3>(Point<3>(), 260., 10., [](const auto &x) {
                    return x.norm() < 250. - 1e-8;
                  }));
 }
@@ -111,7 +75,7 @@ TEST(Seeding, FineSphereOfThePaper)
   EXPECT_EQ(founders.n_global, count_in_sphere(100));
   EXPECT_NEAR(founders.n_global, 5.2e5, 0.05e5);
   // nobody holds all
-  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+  if (number_of_ranks() > 1)
     {
       EXPECT_LT(founders.positions.size(), 0.8 * founders.n_global);
     }
@@ -142,13 +106,13 @@ TEST(Seeding, OffsetAndCenterMoveTheLattice)
   parameters.center         = {1., -20., 3.};
   parameters.lattice_offset = {3.5, 1., -300.};
   expect_same<3>(seed_and_gather<3>(parameters),
-                 enumerate<3>(Point<3>(4.5, -19., 3. - 300. + 43. * 7.),
-                              7.,
-                              11,
-                              [](const Point<3> &x) {
-                                return x.distance(Point<3>(1., -20., 3.)) <
-                                       60. - 7e-9;
-                              }));
+                 lattice_points<3>(Point<3>(4.5, -19., 3. - 300. + 43. * 7.),
+                                   77.,
+                                   7.,
+                                   [](const Point<3> &x) {
+                                     return x.distance(Point<3>(1., -20., 3.)) <
+                                            60. - 7e-9;
+                                   }));
 
   parameters.shape = "box";
   parameters.size  = {70., 70., 70.};
@@ -165,7 +129,7 @@ TEST(Seeding, EllipsoidAndCylinder)
   parameters.center = {5., 0., 0.};
   expect_same<3>(
     seed_and_gather<3>(parameters),
-    enumerate<3>(Point<3>(5., 0., 0.), 10., 10, [](const Point<3> &x) {
+    lattice_points<3>(Point<3>(5., 0., 0.), 100., 10., [](const Point<3> &x) {
       return std::pow((x[0] - 5.) / 50., 2) + std::pow(x[1] / 80., 2) +
                std::pow(x[2] / 30., 2) <
              1. - 1e-9;
@@ -175,7 +139,7 @@ TEST(Seeding, EllipsoidAndCylinder)
   parameters.radius = 40.;
   expect_same<3>(
     seed_and_gather<3>(parameters),
-    enumerate<3>(Point<3>(5., 0., 0.), 10., 10, [](const Point<3> &x) {
+    lattice_points<3>(Point<3>(5., 0., 0.), 100., 10., [](const Point<3> &x) {
       return std::hypot(x[0] - 5., x[1]) < 40. - 1e-8 &&
              std::abs(x[2]) < 30. - 1e-8;
     }));
@@ -185,10 +149,11 @@ TEST(Seeding, TwoDimensions)
 {
   TissueParameters parameters;
   parameters.radius = 100.;
-  expect_same<2>(seed_and_gather<2>(parameters),
-                 enumerate<2>(Point<2>(), 10., 11, [](const Point<2> &x) {
-                   return x.norm() < 100. - 1e-8;
-                 }));
+  expect_same<2>(
+    seed_and_gather<2>(parameters),
+    lattice_points<2>(Point<2>(), 110., 10., [](const Point<2> &x) {
+      return x.norm() < 100. - 1e-8;
+    }));
 
   parameters.shape  = "box";
   parameters.size   = {40., 20.};
@@ -201,7 +166,7 @@ TEST(Seeding, TwoDimensions)
   parameters.size  = {100., 60.};
   expect_same<2>(
     seed_and_gather<2>(parameters),
-    enumerate<2>(Point<2>(20., 10.), 10., 8, [](const Point<2> &x) {
+    lattice_points<2>(Point<2>(20., 10.), 80., 10., [](const Point<2> &x) {
       return std::pow((x[0] - 20.) / 50., 2) + std::pow((x[1] - 10.) / 30., 2) <
              1. - 1e-9;
     }));

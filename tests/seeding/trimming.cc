@@ -1,82 +1,61 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/seeding/seeding.h>
+#include "seeding/room.h"
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/numbers.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace Morula;
-
-namespace
+struct Moments
 {
-  struct Moments
-  {
-    double volume = 0., first = 0., second = 0.;
-  };
+  double volume = 0., first = 0., second = 0.;
+};
 
-  /** Volume, |Σ V x| and Σ V x·x of the tissue of all ranks. */
-  template <int dim>
-  Moments
-  moments(const Founders<dim> &founders)
-  {
-    double         volume = 0., second = 0.;
-    Tensor<1, dim> first;
-    for (std::size_t i = 0; i < founders.volumes.size(); ++i)
-      {
-        volume += founders.volumes[i];
-        first += founders.volumes[i] * founders.positions[i];
-        second += founders.volumes[i] * founders.positions[i].square();
-      }
-    return {Utilities::MPI::sum(volume, MPI_COMM_WORLD),
-            Utilities::MPI::sum(first, MPI_COMM_WORLD).norm(),
-            Utilities::MPI::sum(second, MPI_COMM_WORLD)};
-  }
-
-  TissueParameters
-  sphere(const std::string &surface_cells)
-  {
-    TissueParameters parameters;
-    parameters.radius        = 83.;
-    parameters.cell_spacing  = 10.;
-    parameters.surface_cells = surface_cells;
-    return parameters;
-  }
-
-  template <int dim>
-  void
-  check_sphere()
-  {
-    const double R      = 83.;
-    const double volume = (dim == 3 ? 4. / 3. * R : 1.) * numbers::PI * R * R;
-    const double second = volume * R * R * dim / (dim + 2.);
-    const auto   whole =
-      moments(seed_founders<dim>(sphere("whole"), MPI_COMM_WORLD));
-    const auto trimmed =
-      moments(seed_founders<dim>(sphere("trimmed"), MPI_COMM_WORLD));
-    EXPECT_NEAR(trimmed.volume, volume, 3e-4 * volume);
-    EXPECT_LT(trimmed.first, 1e-4 * volume * 10.);
-    // What is left is that each part's own second moment is missing:
-    // V L_p^2 dim/12.
-    EXPECT_NEAR(trimmed.second + trimmed.volume * 100. * dim / 12.,
-                second,
-                1e-3 * second);
-    EXPECT_GT(std::abs(whole.volume - volume),
-              5. * std::abs(trimmed.volume - volume));
-  }
-} // namespace
-
-
-TEST(Trimming, GivesTheSphereItsMoments)
+/** Volume, |Σ V x| and Σ V x·x of the tissue of all ranks. */
+template <int dim>
+Moments
+moments(const Founders<dim> &founders)
 {
-  check_sphere<2>();
-  check_sphere<3>();
+  double         volume = 0., second = 0.;
+  Tensor<1, dim> first;
+  for (std::size_t i = 0; i < founders.volumes.size(); ++i)
+    {
+      volume += founders.volumes[i];
+      first += founders.volumes[i] * founders.positions[i];
+      second += founders.volumes[i] * founders.positions[i].square();
+    }
+  return {sum_over_ranks(volume),
+          sum_over_ranks(first).norm(),
+          sum_over_ranks(second)};
+}
+
+TissueParameters
+sphere(const std::string &surface_cells)
+{
+  TissueParameters parameters;
+  parameters.radius        = 83.;
+  parameters.cell_spacing  = 10.;
+  parameters.surface_cells = surface_cells;
+  return parameters;
+}
+
+
+TEST_2D_3D(Trimming, GivesTheSphereItsMoments)
+{
+  const double R      = 83.;
+  const double volume = (dim == 3 ? 4. / 3. * R : 1.) * numbers::PI * R * R;
+  const double second = volume * R * R * dim / (dim + 2.);
+  const auto   whole =
+    moments(seed_founders<dim>(sphere("whole"), MPI_COMM_WORLD));
+  const auto trimmed =
+    moments(seed_founders<dim>(sphere("trimmed"), MPI_COMM_WORLD));
+  EXPECT_NEAR(trimmed.volume, volume, 3e-4 * volume);
+  EXPECT_LT(trimmed.first, 1e-4 * volume * 10.);
+  // What is left is that each part's own second moment is missing:
+  // V L_p^2 dim/12.
+  EXPECT_NEAR(trimmed.second + trimmed.volume * 100. * dim / 12.,
+              second,
+              1e-3 * second);
+  EXPECT_GT(std::abs(whole.volume - volume),
+            5. * std::abs(trimmed.volume - volume));
 }
 
 

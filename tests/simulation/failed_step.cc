@@ -1,100 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/simulation/failed_step.h>
+#include "simulation/room.h"
 
-#include <gtest/gtest.h>
-
-using namespace Morula;
-
-namespace
+/** What is said of a step that was halved six times, and began with less force
+ *  each time, where something else about it is as @p change says. */
+std::string
+said(const std::function<void(FailedStep &)> &change)
 {
-  bool
-  says(const FailedStep &step, const std::string &words)
-  {
-    return diagnosis(step).find(words) != std::string::npos;
-  }
-
-  /** A step that was halved six times, and began with less force each time. */
-  FailedStep
-  halved()
-  {
-    FailedStep step;
-    step.first_force = 64.;
-    step.last_force  = 1.;
-    step.part        = 1. / 64.;
-    step.energy      = 10.;
-    step.smallest_J  = 0.8;
-    return step;
-  }
-} // namespace
-
-
-TEST(FailedStep, SaysNothingWithoutASign)
-{
-  EXPECT_EQ(diagnosis(halved()), "");
+  FailedStep step;
+  step.first_force = 64.;
+  step.last_force  = 1.;
+  step.part        = 1. / 64.;
+  step.energy      = 10.;
+  step.smallest_J  = 0.8;
+  change(step);
+  return diagnosis(step);
 }
 
 
-TEST(FailedStep, KnowsACrushedPoint)
+TEST(FailedStep, SaysWhatTheSignsMean)
 {
-  FailedStep step = halved();
-  step.symmetric  = true;
-  step.smallest_J = 1e-8;
-  step.energy     = -1e6;
-  EXPECT_TRUE(says(step, "A held point is crushed"));
+  EXPECT_EQ(said([](FailedStep &) {}), "");
   // A load may make the energy negative, another form has a least energy.
-  step.loaded = true;
-  EXPECT_FALSE(says(step, "crushed"));
-  step.loaded    = false;
-  step.symmetric = false;
-  EXPECT_FALSE(says(step, "crushed"));
-}
+  const auto crushed = [](const bool symmetric, const bool loaded) {
+    return said([=](FailedStep &step) {
+      step.symmetric  = symmetric;
+      step.loaded     = loaded;
+      step.smallest_J = 1e-8;
+      step.energy     = -1e6;
+    });
+  };
+  expect_parts(crushed(true, false), {"A held point is crushed"});
+  EXPECT_EQ(crushed(true, true).find("crushed"), std::string::npos);
+  EXPECT_EQ(crushed(false, false).find("crushed"), std::string::npos);
 
+  const auto volumes = [](const bool pointwise, const double min_J) {
+    return said([=](FailedStep &step) {
+      step.pointwise = pointwise;
+      step.min_J     = min_J;
+      step.max_J     = min_J < 0.5 ? 3.4 : 1.1;
+    });
+  };
+  expect_parts(volumes(true, 0.24), {"Material/Volumetric strain = pooled"});
+  EXPECT_EQ(volumes(false, 0.24).find("pooled"), std::string::npos);
+  EXPECT_EQ(volumes(true, 0.9).find("pooled"), std::string::npos);
 
-TEST(FailedStep, KnowsVolumesThatDoNotMatch)
-{
-  FailedStep step = halved();
-  step.pointwise  = true;
-  step.min_J      = 0.24;
-  step.max_J      = 3.4;
-  EXPECT_TRUE(says(step, "Set Material/Volumetric strain = pooled"));
-  step.pointwise = false;
-  EXPECT_FALSE(says(step, "pooled"));
-  step.pointwise = true;
-  step.min_J     = 0.9;
-  step.max_J     = 1.1;
-  EXPECT_FALSE(says(step, "pooled"));
-}
+  const auto jump = [](const double part) {
+    return said([=](FailedStep &step) {
+      step.last_force = 63.;
+      step.part       = part;
+    });
+  };
+  expect_parts(jump(1. / 64.), {"jumps in time"});
+  EXPECT_EQ(jump(0.5).find("jumps"), std::string::npos); // two attempts
 
-
-TEST(FailedStep, KnowsAJump)
-{
-  FailedStep step = halved();
-  step.last_force = 63.;
-  EXPECT_TRUE(says(step, "jumps in time"));
-  // Two attempts tell nothing.
-  step.part = 0.5;
-  EXPECT_FALSE(says(step, "jumps in time"));
-}
-
-
-TEST(FailedStep, KnowsAFormThatSeesNoCurvature)
-{
-  FailedStep step  = halved();
-  step.unsymmetric = true;
-  EXPECT_TRUE(says(step, "sees no curvature"));
-  step.smallest_J = 0.1; // squeezed: the step is too long
-  EXPECT_EQ(diagnosis(step), "");
+  const auto curved = [](const double smallest_J) {
+    return said([=](FailedStep &step) {
+      step.unsymmetric = true;
+      step.smallest_J  = smallest_J;
+    });
+  };
+  expect_parts(curved(0.8), {"sees no curvature"});
+  EXPECT_EQ(curved(0.1), ""); // squeezed: the step is too long
 }
 
 
 TEST(FailedStep, KnowsAFold)
 {
-  FailedStep step = halved();
-  step.curvature  = -1e-3;
-  step.friction   = friction_against(step.curvature, 2., 10., 0.05);
-  EXPECT_NEAR(step.friction, 1e-6, 1e-18);
-  EXPECT_TRUE(says(step, "The tissue folds or buckles"));
-  EXPECT_TRUE(says(step, "about 1e-06 kPa day/um^2"));
+  const double friction = friction_against(-1e-3, 2., 10., 0.05);
+  EXPECT_NEAR(friction, 1e-6, 1e-18);
+  expect_parts(said([=](FailedStep &step) {
+                 step.curvature = -1e-3;
+                 step.friction  = friction;
+               }),
+               {"The tissue folds or buckles", "about 1e-06 kPa day/um^2"});
 }

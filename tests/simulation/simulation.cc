@@ -1,36 +1,22 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/fixed.h>
-#include <morula/simulation/simulation.h>
+#include "simulation/room.h"
 
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
-#include "output/scratch_directory.h"
-
-using namespace Morula;
-
-namespace
+/** A held block, of whose surface the patches are longer than half a grid
+ *  cell: they are refined. */
+Scene
+block()
 {
-  /** A held block, of whose surface the patches are longer than half a grid
-   *  cell: they are refined. */
-  Scene
-  block()
-  {
-    Scene scene;
-    scene.tissue.shape                  = "box";
-    scene.tissue.size                   = {100., 100., 50.};
-    scene.tissue.boundary_points        = 30;
-    scene.tissue.refine_surface         = true;
-    scene.keys<FixedParameters>().where = "Z < -24";
-    return scene;
-  }
-} // namespace
+  Scene scene;
+  scene.tissue.shape                  = "box";
+  scene.tissue.size                   = {100., 100., 50.};
+  scene.tissue.boundary_points        = 30;
+  scene.tissue.refine_surface         = true;
+  scene.keys<FixedParameters>().where = "Z < -24";
+  return scene;
+}
 
 
 TEST(Simulation, StartsFromATissueThatIsSeeded)
@@ -41,12 +27,12 @@ TEST(Simulation, StartsFromATissueThatIsSeeded)
   Simulation<3>         seeds(scene, MPI_COMM_WORLD, false);
   const auto           &cells = given.state().cells();
   ASSERT_EQ(cells.size(), seeds.state().cells().size());
-  EXPECT_EQ(Utilities::MPI::sum(cells.size(), MPI_COMM_WORLD), 500u);
+  EXPECT_EQ(sum_over_ranks(cells.size()), 500u);
   for (unsigned int p = 0; p < cells.size(); ++p)
     EXPECT_EQ(cells.position(p), seeds.state().cells().position(p));
   const auto &points = given.state().boundary_points();
   EXPECT_EQ(points.size(), seeds.state().boundary_points().size());
-  EXPECT_GT(Utilities::MPI::sum(points.size(), MPI_COMM_WORLD),
+  EXPECT_GT(sum_over_ranks(points.size()),
             tissue.surface.n_global); // refined
   const unsigned int n = given.n_unknowns();
   EXPECT_EQ(n, seeds.n_unknowns());

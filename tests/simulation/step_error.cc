@@ -1,36 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
-// ranks: 1 2 3
+// ranks: 1 3
 
-#include <morula/simulation/step_error.h>
+#include "simulation/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "effects/small_tissue.h"
-
-using namespace Morula;
-
-namespace
+/** 60 cells of different volumes on all ranks. */
+void
+fill(Tissue<2> &tissue, const CellColumns<2> &columns)
 {
-  /** 60 cells of different volumes on all ranks. */
-  void
-  fill(Tissue<2> &tissue, const CellColumns<2> &columns)
-  {
-    PointList<2>       cells(columns.n_numbers());
-    const unsigned int n    = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-    for (unsigned int i = rank; i < 60; i += n)
-      {
-        const Point<2> X(20. * i, 0.);
-        const auto     row = columns.founder(X, 100. + i);
-        cells.add(i, X, make_array_view(row));
-      }
-    tissue.place(std::move(cells), PointList<2>());
-  }
-} // namespace
+  PointList<2>       cells(columns.n_numbers());
+  const unsigned int n    = number_of_ranks();
+  const unsigned int rank = this_rank();
+  for (unsigned int i = rank; i < 60; i += n)
+    {
+      const Point<2> X(20. * i, 0.);
+      const auto     row = columns.founder(X, 100. + i);
+      cells.add(i, X, make_array_view(row));
+    }
+  tissue.place(std::move(cells), PointList<2>());
+}
 
 
 TEST(StepError, IsAMeanOverTheTissue)

@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// ranks: 1 2
+// ranks: 1 3
 
-#include <morula/simulation/stop_signals.h>
+#include "simulation/room.h"
 
-#include <gtest/gtest.h>
-
-using namespace Morula;
-
-namespace
+struct sigaction
+action_of(const int number)
 {
-  struct sigaction
-  action_of(const int number)
-  {
-    struct sigaction action{};
-    sigaction(number, nullptr, &action);
-    return action;
-  }
+  struct sigaction action
+  {};
+  sigaction(number, nullptr, &action);
+  return action;
+}
 
-  bool
-  is_last_rank()
-  {
-    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) + 1 ==
-           dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-  }
-} // namespace
+bool
+is_last_rank()
+{
+  return this_rank() + 1 == number_of_ranks();
+}
 
 
 TEST(StopSignals, AllRanksHearOfTheSignalOfOne)

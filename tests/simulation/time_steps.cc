@@ -1,52 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/simulation/time_steps.h>
+#include "simulation/room.h"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
-using namespace Morula;
-
-namespace
+TimeParameters
+times(const double end, const double step, const double smallest = 1e-4)
 {
-  TimeParameters
-  times(const double end, const double step, const double smallest = 1e-4)
-  {
-    TimeParameters parameters;
-    parameters.end_time      = end;
-    parameters.step          = step;
-    parameters.smallest_step = smallest;
-    return parameters;
-  }
+  TimeParameters parameters;
+  parameters.end_time      = end;
+  parameters.step          = step;
+  parameters.smallest_step = smallest;
+  return parameters;
+}
 
-  /** Ends of all steps that follow, if none fails. */
-  std::vector<double>
-  all_ends(TimeSteps &steps)
-  {
-    std::vector<double> ends;
-    while (!steps.finished())
-      {
-        ends.push_back(steps.next());
-        EXPECT_GT(steps.next(), steps.time());
-        steps.accept();
-        EXPECT_EQ(steps.time(), ends.back());
-        if (ends.size() > 100000)
-          break;
-      }
-    return ends;
-  }
+/** Ends of all steps that follow, if none fails. */
+std::vector<double>
+all_ends(TimeSteps &steps)
+{
+  std::vector<double> ends;
+  while (!steps.finished())
+    {
+      ends.push_back(steps.next());
+      EXPECT_GT(steps.next(), steps.time());
+      steps.accept();
+      EXPECT_EQ(steps.time(), ends.back());
+      if (ends.size() > 100000)
+        break;
+    }
+  return ends;
+}
 
-  void
-  expect_times(const std::vector<double> &found,
-               const std::vector<double> &expected)
-  {
-    ASSERT_EQ(found.size(), expected.size());
-    for (std::size_t i = 0; i < found.size(); ++i)
-      EXPECT_NEAR(found[i], expected[i], 1e-14);
-  }
-} // namespace
+void
+expect_times(const std::vector<double> &found,
+             const std::vector<double> &expected)
+{
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i], expected[i], 1e-14);
+}
 
 
 TEST(TimeSteps, AreExactMultiples)
@@ -203,31 +194,28 @@ TEST(TimeSteps, AnotherStepContinuesAtItsOwnMultiples)
 }
 
 
-namespace
+TimeParameters
+tolerant(const double end, const double step, const double tolerance)
 {
-  TimeParameters
-  tolerant(const double end, const double step, const double tolerance)
-  {
-    TimeParameters parameters = times(end, step);
-    parameters.tolerance      = tolerance;
-    return parameters;
-  }
+  TimeParameters parameters = times(end, step);
+  parameters.tolerance      = tolerance;
+  return parameters;
+}
 
-  /** Runs on while each step misses @p rate times the square of its length.
-   *  @return the lengths */
-  std::vector<double>
-  lengths(TimeSteps &steps, const double rate, const unsigned int n)
-  {
-    std::vector<double> list;
-    for (unsigned int i = 0; i < n && !steps.finished(); ++i)
-      {
-        steps.adapt(rate * steps.past().length() * steps.past().length());
-        list.push_back(steps.next() - steps.time());
-        steps.accept();
-      }
-    return list;
-  }
-} // namespace
+/** Runs on while each step misses @p rate times the square of its length.
+ *  @return the lengths */
+std::vector<double>
+lengths(TimeSteps &steps, const double rate, const unsigned int n)
+{
+  std::vector<double> list;
+  for (unsigned int i = 0; i < n && !steps.finished(); ++i)
+    {
+      steps.adapt(rate * steps.past().length() * steps.past().length());
+      list.push_back(steps.next() - steps.time());
+      steps.accept();
+    }
+  return list;
+}
 
 
 TEST(TimeSteps, KnowTheStepThatLedHere)

@@ -1,210 +1,124 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/internal_force.h>
-#include <morula/mechanics/momentum_balance.h>
-#include <morula/solver/block_cholesky.h>
-#include <morula/solver/conjugate_gradients.h>
-#include <morula/solver/overlapping_cholesky.h>
+#include "solver/room.h"
 
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
-
-#include "common/body_on_grid.h"
-#include "common/linear_problem.h"
-#include "common/materials.h"
-
-using namespace Morula;
-
-namespace
+/** A symmetric matrix with random entries and rows of very different size,
+ *  some far from the diagonal without entries. Positive for a large
+ *  @p dominance. */
+FullMatrix<double>
+random_matrix(const unsigned int size, const double dominance)
 {
-  /** A symmetric matrix with random entries and rows of very different size,
-   *  some far from the diagonal without entries. Positive for a large
-   *  @p dominance. */
-  FullMatrix<double>
-  random_matrix(const unsigned int size, const double dominance)
-  {
-    std::mt19937                           generator(3);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    FullMatrix<double>                     A(size, size);
-    for (unsigned int i = 0; i < size; ++i)
-      for (unsigned int j = 0; j <= i; ++j)
-        if (const double entry = uniform(generator);
-            i == j || i - j < 8 || (i * j) % 5 == 0)
-          A(i, j) = A(j, i) = (i == j ? dominance : entry) *
-                              std::pow(10., 0.1 * (i % 20 + j % 20));
-    return A;
-  }
+  std::mt19937                           generator(3);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  FullMatrix<double>                     A(size, size);
+  for (unsigned int i = 0; i < size; ++i)
+    for (unsigned int j = 0; j <= i; ++j)
+      if (const double entry = uniform(generator);
+          i == j || i - j < 8 || (i * j) % 5 == 0)
+        A(i, j) = A(j, i) =
+          (i == j ? dominance : entry) * std::pow(10., 0.1 * (i % 20 + j % 20));
+  return A;
+}
 
-  IncompleteCholesky::Rows
-  rows_of(const FullMatrix<double> &A)
-  {
-    return [&A](const int row, IncompleteCholesky::Row &result) {
-      result.columns.clear();
-      result.values.clear();
-      for (int j = A.n() - 1; j >= 0; --j) // in any order
-        if (A(row, j) != 0.)
-          {
-            result.columns.push_back(j);
-            result.values.push_back(A(row, j));
-          }
-    };
-  }
+IncompleteCholesky::Rows
+rows_of(const FullMatrix<double> &A)
+{
+  return [&A](const int row, IncompleteCholesky::Row &result) {
+    result.columns.clear();
+    result.values.clear();
+    for (int j = A.n() - 1; j >= 0; --j) // in any order
+      if (A(row, j) != 0.)
+        {
+          result.columns.push_back(j);
+          result.values.push_back(A(row, j));
+        }
+  };
+}
 
-  IncompleteCholesky::Parameters
-  parameters(const double fill,
-             const double relative = 1.,
-             const double absolute = 0.)
-  {
-    IncompleteCholesky::Parameters result;
-    result.fill              = fill;
-    result.relative_diagonal = relative;
-    result.absolute_diagonal = absolute;
-    return result;
-  }
+IncompleteCholesky::Parameters
+parameters(const double fill,
+           const double relative = 1.,
+           const double absolute = 0.)
+{
+  IncompleteCholesky::Parameters result;
+  result.fill              = fill;
+  result.relative_diagonal = relative;
+  result.absolute_diagonal = absolute;
+  return result;
+}
 
-  /** With room for all blocks the factor is LAPACK's, in single precision. */
-  template <int n>
-  void
-  check_complete()
-  {
-    SCOPED_TRACE(n);
-    const unsigned int       size     = 60;
-    const FullMatrix<double> A        = random_matrix(size, 8.);
-    const double             relative = 1.1, absolute = 0.3;
-    const BlockCholesky<n>   factor(size,
-                                  rows_of(A),
-                                  parameters(1e3, relative, absolute));
-    ASSERT_TRUE(factor.is_positive());
+/** With room for all blocks the factor is LAPACK's, in single precision. */
+template <int n>
+void
+check_complete()
+{
+  SCOPED_TRACE(n);
+  const unsigned int       size     = 60;
+  const FullMatrix<double> A        = random_matrix(size, 8.);
+  const double             relative = 1.1, absolute = 0.3;
+  const BlockCholesky<n>   factor(size,
+                                rows_of(A),
+                                parameters(1e3, relative, absolute));
+  ASSERT_TRUE(factor.is_positive());
 
-    LAPACKFullMatrix<double> exact(size);
-    exact = A;
-    for (unsigned int i = 0; i < size; ++i)
-      exact(i, i) = relative * A(i, i) + absolute;
-    exact.set_property(LAPACKSupport::symmetric);
-    exact.compute_cholesky_factorization();
-    for (const double unit : {1., 1e-60, 1e60})
-      {
-        dealii::Vector<double> x(size), expected(size);
-        for (unsigned int i = 0; i < size; ++i)
-          x(i) = expected(i) = unit * std::sin(1. + i);
-        exact.solve(expected);
-        factor.solve(x.begin());
-        for (unsigned int i = 0; i < size; ++i)
-          EXPECT_NEAR(x(i) * std::sqrt(A(i, i)),
-                      expected(i) * std::sqrt(A(i, i)),
-                      1e-5 * unit)
-            << "row " << i;
-      }
-    dealii::Vector<double> zero(size);
-    factor.solve(zero.begin());
-    EXPECT_EQ(zero.l2_norm(), 0.);
-  }
-
-  /** An incomplete factor is symmetric and positive, too. */
-  template <int n>
-  void
-  check_incomplete()
-  {
-    SCOPED_TRACE(n);
-    const unsigned int       size = 60;
-    const FullMatrix<double> A    = random_matrix(size, 12.);
-    const BlockCholesky<n>   factor(size, rows_of(A), parameters(0.5));
-    ASSERT_TRUE(factor.is_positive());
-    const auto inverse_times = [&](const unsigned int i) {
-      dealii::Vector<double> x(size);
-      x(i) = 1.;
+  LAPACKFullMatrix<double> exact(size);
+  exact = A;
+  for (unsigned int i = 0; i < size; ++i)
+    exact(i, i) = relative * A(i, i) + absolute;
+  exact.set_property(LAPACKSupport::symmetric);
+  exact.compute_cholesky_factorization();
+  for (const double unit : {1., 1e-60, 1e60})
+    {
+      dealii::Vector<double> x(size), expected(size);
+      for (unsigned int i = 0; i < size; ++i)
+        x(i) = expected(i) = unit * std::sin(1. + i);
+      exact.solve(expected);
       factor.solve(x.begin());
-      return x;
-    };
-    double defect = 0.;
-    for (unsigned int i = 0; i < size; ++i)
-      {
-        const auto row = inverse_times(i);
-        EXPECT_GT(row(i), 0.);
-        for (unsigned int j = 0; j < size; ++j)
-          {
-            const double scale = std::sqrt(A(i, i) * A(j, j));
-            EXPECT_NEAR(row(j) * scale, inverse_times(j)(i) * scale, 1e-6);
-            double product = i == j ? -1. : 0.;
-            for (unsigned int k = 0; k < size; ++k)
-              product += row(k) * A(k, j);
-            defect = std::max(defect, std::abs(product));
-          }
-      }
-    EXPECT_GT(defect, 1e-3); // blocks were dropped
-  }
+      for (unsigned int i = 0; i < size; ++i)
+        EXPECT_NEAR(x(i) * std::sqrt(A(i, i)),
+                    expected(i) * std::sqrt(A(i, i)),
+                    1e-5 * unit)
+          << "row " << i;
+    }
+  dealii::Vector<double> zero(size);
+  factor.solve(zero.begin());
+  EXPECT_EQ(zero.l2_norm(), 0.);
+}
 
-  /** Iterations of conjugate gradients for the tangent of a ball that is held
-   *  by a soft bed, with @p P. */
-  template <int dim, typename Preconditioner>
-  unsigned int
-  iterations(const Equilibrium::Matrix &K,
-             const Equilibrium::Vector &b,
-             const Preconditioner      &P)
-  {
-    Equilibrium::Vector                    x(b);
-    const HaloProduct                      product(K, dim, true);
-    const std::vector<Equilibrium::Vector> none;
-    unsigned int                           n      = 0;
-    double                                 needed = 0.;
-    EXPECT_EQ(
-      conjugate_gradients(
-        ShiftedSystem{product, none, 0.}, P, x, b, 1e-6, 1000, n, needed),
-      CgOutcome::converged);
-    return n;
-  }
-
-  template <int dim>
-  void
-  check_tangent()
-  {
-    constexpr double      spacing = dim == 2 ? 5. : 15.;
-    const BodyOnGrid<dim> body(ball_points(Point<dim>(),
-                                           dim == 2 ? 400. : 120.,
-                                           spacing),
-                               std::pow(spacing, dim));
-    const auto            groups = body.group(body.particles);
-    MaterialPoints<dim>   points;
-    static_cast<GroupedPoints<dim> &>(points) =
-      body.grouped(body.particles, groups);
-    points.material = &neo_hookean();
-    points.lame     = {lame(1., 0.4)};
-    points.current  = std::vector<ElasticState<dim>>(groups.points.size(),
-                                                     {unit_tensor<dim>(),
-                                                      std::pow(spacing, dim)});
-    typename MomentumBalance<dim>::TermList terms;
-    terms.push_back(std::make_unique<InternalForce<dim>>(points));
-    QuietTimer           timer;
-    MomentumBalance<dim> balance(*body.space, terms, timer, MPI_COMM_WORLD);
-    EXPECT_EQ(balance.linear_problem(1., {}, 0).n_components, 1u * dim);
-
-    // A free body has rigid motions: something must hold it a bit.
-    Equilibrium::Matrix K;
-    K.copy_from(balance.tangent(balance.rest(), GrowthAt::previous));
-    Equilibrium::Vector b = balance.rest();
-    for (const auto row : K.locally_owned_range_indices())
-      {
-        K.add(row, row, 1e-3 * K.diag_element(row));
-        b(row) = std::sin(1. + 0.1 * row);
-      }
-    K.compress(VectorOperation::add);
-    b.compress(VectorOperation::insert);
-    const OverlappingCholesky P(K, dim, parameters(1.25, 1.02, 2e-5));
-    ASSERT_TRUE(P.is_positive());
-    // Ifpack's factors of single entries, with 0.6 times those of the triangle
-    // and with as many as these, took 33 and 19 in 2-D, 33 and 22 in 3-D.
-    EXPECT_LE(iterations<dim>(K, b, P), dim == 2 ? 19u : 22u);
-  }
-} // namespace
+/** An incomplete factor is symmetric and positive, too. */
+template <int n>
+void
+check_incomplete()
+{
+  SCOPED_TRACE(n);
+  const unsigned int       size = 60;
+  const FullMatrix<double> A    = random_matrix(size, 12.);
+  const BlockCholesky<n>   factor(size, rows_of(A), parameters(0.5));
+  ASSERT_TRUE(factor.is_positive());
+  const auto inverse_times = [&](const unsigned int i) {
+    dealii::Vector<double> x(size);
+    x(i) = 1.;
+    factor.solve(x.begin());
+    return x;
+  };
+  double defect = 0.;
+  for (unsigned int i = 0; i < size; ++i)
+    {
+      const auto row = inverse_times(i);
+      EXPECT_GT(row(i), 0.);
+      for (unsigned int j = 0; j < size; ++j)
+        {
+          const double scale = std::sqrt(A(i, i) * A(j, j));
+          EXPECT_NEAR(row(j) * scale, inverse_times(j)(i) * scale, 1e-6);
+          double product = i == j ? -1. : 0.;
+          for (unsigned int k = 0; k < size; ++k)
+            product += row(k) * A(k, j);
+          defect = std::max(defect, std::abs(product));
+        }
+    }
+  EXPECT_GT(defect, 1e-3); // blocks were dropped
+}
 
 
 TEST(BlockCholesky, IsCompleteWithRoomForAllBlocks)
@@ -221,10 +135,6 @@ TEST(BlockCholesky, IsSymmetricWithoutTheSmallBlocks)
   check_incomplete<2>();
   check_incomplete<3>();
 }
-
-
-TEST(BlockCholesky, TakesNoMoreIterationsThanSingleEntriesDid){
-  MORULA_BOTH_DIMENSIONS(check_tangent)}
 
 
 // Columns of dropped rows that keep no block leave the other rows alone.

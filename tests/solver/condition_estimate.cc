@@ -1,92 +1,52 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/condition_estimate.h>
+#include "solver/room.h"
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "common/linear_problem.h"
-
-using namespace Morula;
-
-namespace
+double
+even_spring(const unsigned int)
 {
-  /** A chain of springs on a foundation, and with a part @p skew that has no
-   *  energy. */
-  ChainProblem
-  chain(const unsigned int                         n,
-        const std::function<double(unsigned int)> &spring,
-        const double                               foundation,
-        const double                               skew = 0.)
-  {
-    ChainProblem problem(n);
-    problem.stiffness =
-      [=](const unsigned int i, const unsigned int j, const auto &) {
-        if (i != j)
-          return -spring(std::min(i, j)) + (i < j ? skew : -skew);
-        return foundation + (i > 0 ? spring(i - 1) : 0.) +
-               (i + 1 < n ? spring(i) : 0.);
-      };
-    problem.linear.symmetric = skew == 0.;
-    return problem;
-  }
+  return 1.;
+}
 
-  /** Between 1/100 and 100. */
-  double
-  uneven_spring(const unsigned int i)
-  {
-    return std::pow(10., 2. * std::sin(1. * i));
-  }
+/** All eigenvalues of the scaled symmetric part in ascending order, by
+ *  LAPACK. */
+std::vector<double>
+dense_eigenvalues(const ChainProblem &problem)
+{
+  const unsigned int       n = problem.n;
+  LAPACKFullMatrix<double> matrix(n);
+  const auto               K = [&](const unsigned int i, const unsigned int j) {
+    return problem.stiffness(i, j, {});
+  };
+  for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(i + 2, n); ++j)
+      matrix(i, j) =
+        0.5 * (K(i, j) + K(j, i)) / std::sqrt(std::abs(K(i, i) * K(j, j)));
+  matrix.set_property(LAPACKSupport::symmetric);
+  FullMatrix<double>     vectors;
+  dealii::Vector<double> values;
+  matrix.compute_eigenvalues_symmetric(-1e3, 1e3, 1e-14, values, vectors);
+  return {values.begin(), values.end()};
+}
 
-  double
-  even_spring(const unsigned int)
-  {
-    return 1.;
-  }
+ConditionEstimate
+estimate(ChainProblem &problem)
+{
+  return estimate_condition(problem, problem.linear, problem.zero());
+}
 
-  /** All eigenvalues of the scaled symmetric part in ascending order, by
-   *  LAPACK. */
-  std::vector<double>
-  dense_eigenvalues(const ChainProblem &problem)
-  {
-    const unsigned int       n = problem.n;
-    LAPACKFullMatrix<double> matrix(n);
-    const auto K = [&](const unsigned int i, const unsigned int j) {
-      return problem.stiffness(i, j, {});
-    };
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i == 0 ? 0 : i - 1; j < std::min(i + 2, n); ++j)
-        matrix(i, j) =
-          0.5 * (K(i, j) + K(j, i)) / std::sqrt(std::abs(K(i, i) * K(j, j)));
-    matrix.set_property(LAPACKSupport::symmetric);
-    FullMatrix<double>     vectors;
-    dealii::Vector<double> values;
-    matrix.compute_eigenvalues_symmetric(-1e3, 1e3, 1e-14, values, vectors);
-    return {values.begin(), values.end()};
-  }
-
-  ConditionEstimate
-  estimate(ChainProblem &problem)
-  {
-    return estimate_condition(problem, problem.linear, problem.zero());
-  }
-
-  void
-  check(ChainProblem &problem, const double smallest, const double largest)
-  {
-    const ConditionEstimate found = estimate(problem);
-    EXPECT_EQ(found.unknowns, problem.n);
-    EXPECT_NEAR(found.smallest / smallest, 1., 1e-6);
-    EXPECT_NEAR(found.largest / largest, 1., 1e-6);
-    EXPECT_NEAR(found.condition() / (largest / smallest), 1., 2e-6);
-    EXPECT_EQ(problem.tangents.back(), GrowthAt::previous);
-  }
-} // namespace
+void
+check(ChainProblem &problem, const double smallest, const double largest)
+{
+  const ConditionEstimate found = estimate(problem);
+  EXPECT_EQ(found.unknowns, problem.n);
+  EXPECT_NEAR(found.smallest / smallest, 1., 1e-6);
+  EXPECT_NEAR(found.largest / largest, 1., 1e-6);
+  EXPECT_NEAR(found.condition() / (largest / smallest), 1., 2e-6);
+  EXPECT_EQ(problem.tangents.back(), GrowthAt::previous);
+}
 
 /** Condition numbers from 3 to 10^8. */
 TEST(ConditionEstimate, AgreesWithADenseComputation)
@@ -94,7 +54,7 @@ TEST(ConditionEstimate, AgreesWithADenseComputation)
   for (const double foundation : {10., 1e-1, 1e-4, 1e-7})
     {
       SCOPED_TRACE(foundation);
-      ChainProblem problem = chain(60, uneven_spring, foundation);
+      ChainProblem problem = chain_of_springs(60, foundation);
       const auto   values  = dense_eigenvalues(problem);
       check(problem, values.front(), values.back());
     }
@@ -119,7 +79,7 @@ TEST(ConditionEstimate, LeavesOutWhatIsFree)
 {
   for (const auto &spring : {even_spring, uneven_spring})
     {
-      ChainProblem problem = chain(40, spring, 0.);
+      ChainProblem problem = chain_of_springs(40, 0., 0., spring);
       const auto   values  = dense_eigenvalues(problem);
       ASSERT_NEAR(values.front(), 0., 1e-14);
 
@@ -134,14 +94,14 @@ TEST(ConditionEstimate, LeavesOutWhatIsFree)
 
 TEST(ConditionEstimate, TakesTheSymmetricPart)
 {
-  ChainProblem problem = chain(50, uneven_spring, 0.01, 0.3);
+  ChainProblem problem = chain_of_springs(50, 0.01, 0.3);
   const auto   values  = dense_eigenvalues(problem);
   check(problem, values.front(), values.back());
 }
 
 TEST(ConditionEstimate, ShowsIndefiniteTangents)
 {
-  ChainProblem problem = chain(50, even_spring, -0.3);
+  ChainProblem problem = chain_of_springs(50, -0.3, 0., even_spring);
   const auto   values  = dense_eigenvalues(problem);
   ASSERT_LT(values.front(), 0.);
   const ConditionEstimate found = estimate(problem);

@@ -1,60 +1,47 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/halo_product.h>
+#include "solver/room.h"
 
-#include <gtest/gtest.h>
+using CoupledRows::couple, CoupledRows::n, CoupledRows::own_rows;
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "common/coupled_rows.h"
-
-using namespace Morula;
-
-namespace
+/** An entry of a matrix that is symmetric with @p skew = 0. */
+double
+entry(const unsigned int i, const unsigned int j, const double skew)
 {
-  using CoupledRows::couple, CoupledRows::n, CoupledRows::own_rows;
+  return std::sin(1. + i * j) + std::cos(1. * i + j) + skew * i;
+}
 
-  /** An entry of a matrix that is symmetric with @p skew = 0. */
-  double
-  entry(const unsigned int i, const unsigned int j, const double skew)
-  {
-    return std::sin(1. + i * j) + std::cos(1. * i + j) + skew * i;
-  }
+/** The largest difference of y = @p K x from the sum over all entries. */
+double
+error(const HaloProduct &K, const double skew)
+{
+  const auto          value = [](const auto j) { return std::cos(0.7 * j); };
+  HaloProduct::Vector x(own_rows(), MPI_COMM_WORLD), y(x);
+  for (const auto j : own_rows())
+    x(j) = value(j);
+  x.compress(VectorOperation::insert);
+  K.vmult(y, x);
+  double result = 0.;
+  for (const auto i : own_rows())
+    {
+      double expected = 0.;
+      for (unsigned int j = 0; j < n; ++j)
+        if (couple(i, j))
+          expected += entry(i, j, skew) * value(j);
+      result = std::max(result, std::abs(y(i) - expected));
+    }
+  return Utilities::MPI::max(result, MPI_COMM_WORLD);
+}
 
-  /** The largest difference of y = @p K x from the sum over all entries. */
-  double
-  error(const HaloProduct &K, const double skew)
-  {
-    const auto          value = [](const auto j) { return std::cos(0.7 * j); };
-    HaloProduct::Vector x(own_rows(), MPI_COMM_WORLD), y(x);
-    for (const auto j : own_rows())
-      x(j) = value(j);
-    x.compress(VectorOperation::insert);
-    K.vmult(y, x);
-    double result = 0.;
-    for (const auto i : own_rows())
-      {
-        double expected = 0.;
-        for (unsigned int j = 0; j < n; ++j)
-          if (couple(i, j))
-            expected += entry(i, j, skew) * value(j);
-        result = std::max(result, std::abs(y(i) - expected));
-      }
-    return Utilities::MPI::max(result, MPI_COMM_WORLD);
-  }
-
-  void
-  set(HaloProduct::Matrix &K, const double skew)
-  {
-    CoupledRows::set(K, [&](const auto i, const auto j) {
-      return entry(i, j, skew);
-    });
-  }
-} // namespace
+void
+set(HaloProduct::Matrix &K, const double skew)
+{
+  CoupledRows::set(K, [&](const auto i, const auto j) {
+    return entry(i, j, skew);
+  });
+}
 
 
 TEST(HaloProduct, IsTheMatrixs)

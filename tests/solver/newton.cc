@@ -1,105 +1,72 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/newton.h>
+#include "solver/room.h"
 
-#include <gtest/gtest.h>
+constexpr unsigned int n = 12;
 
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
-#include "common/linear_problem.h"
-
-using namespace Morula;
-
-namespace
+double
+solution(const unsigned int i)
 {
-  constexpr unsigned int n = 12;
+  return 1.5 * std::sin(1. + i);
+}
 
-  double
-  solution(const unsigned int i)
-  {
-    return 1.5 * std::sin(1. + i);
-  }
-
-  /** Springs with stiffening ends, whose loads have the equilibrium u_i =
-   *  solution(i); and a part @p skew that has no energy. */
-  ChainProblem
-  hardening(const double skew)
-  {
-    ChainProblem problem(n);
-    const auto   inner = [skew](const unsigned int         i,
-                              const std::vector<double> &u) {
-      double f = u[i] + u[i] * u[i] * u[i];
-      if (i > 0)
-        f += u[i] - u[i - 1] - skew * u[i - 1];
-      if (i + 1 < n)
-        f += u[i] - u[i + 1] + skew * u[i + 1];
-      return f;
-    };
-    std::vector<double> loads, goal;
-    for (unsigned int i = 0; i < n; ++i)
-      goal.push_back(solution(i));
-    for (unsigned int i = 0; i < n; ++i)
-      loads.push_back(inner(i, goal));
-
-    problem.force = [=](const unsigned int i, const std::vector<double> &u) {
-      return inner(i, u) - loads[i];
-    };
-    problem.stiffness = [=](const unsigned int         i,
-                            const unsigned int         j,
+/** Springs with stiffening ends, whose loads have the equilibrium u_i =
+ *  solution(i); and a part @p skew that has no energy. */
+ChainProblem
+hardening(const double skew)
+{
+  ChainProblem problem(n);
+  const auto   inner = [skew](const unsigned int         i,
                             const std::vector<double> &u) {
-      if (i != j)
-        return -1. + (i < j ? skew : -skew);
-      return 1. + 3. * u[i] * u[i] + (i > 0 ? 1. : 0.) + (i + 1 < n ? 1. : 0.);
-    };
-    if (skew == 0.)
-      problem.energy = [=](const std::vector<double> &u) {
-        double sum = 0.;
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            sum +=
-              0.5 * u[i] * u[i] + 0.25 * std::pow(u[i], 4) - loads[i] * u[i];
-            if (i + 1 < n)
-              sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
-          }
-        return sum;
-      };
-    problem.linear.symmetric = skew == 0.;
-    return problem;
-  }
-
-  struct Result
-  {
-    std::vector<double> u;
-    NewtonReport        report;
+    double f = u[i] + u[i] * u[i] * u[i];
+    if (i > 0)
+      f += u[i] - u[i - 1] - skew * u[i - 1];
+    if (i + 1 < n)
+      f += u[i] - u[i + 1] + skew * u[i + 1];
+    return f;
   };
+  std::vector<double> loads, goal;
+  for (unsigned int i = 0; i < n; ++i)
+    goal.push_back(solution(i));
+  for (unsigned int i = 0; i < n; ++i)
+    loads.push_back(inner(i, goal));
 
-  Result
-  solved(ChainProblem      &problem,
-         const double       tolerance,
-         const std::string &linear_solver = "automatic")
-  {
-    QuietTimer       timer;
-    SolverParameters parameters;
-    parameters.newton_tolerance = tolerance;
-    parameters.linear_solver    = linear_solver;
-    Equilibrium::Vector u       = problem.zero();
-    Result              result;
-    solve(problem,
-          problem.linear,
-          problem.scales,
-          parameters,
-          timer,
-          u,
-          result.report);
-    result.u = problem.gathered(u);
-    return result;
-  }
-} // namespace
+  problem.force = [=](const unsigned int i, const std::vector<double> &u) {
+    return inner(i, u) - loads[i];
+  };
+  problem.stiffness = [=](const unsigned int         i,
+                          const unsigned int         j,
+                          const std::vector<double> &u) {
+    if (i != j)
+      return -1. + (i < j ? skew : -skew);
+    return 1. + 3. * u[i] * u[i] + (i > 0 ? 1. : 0.) + (i + 1 < n ? 1. : 0.);
+  };
+  if (skew == 0.)
+    problem.energy = [=](const std::vector<double> &u) {
+      double sum = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          sum += 0.5 * u[i] * u[i] + 0.25 * std::pow(u[i], 4) - loads[i] * u[i];
+          if (i + 1 < n)
+            sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
+        }
+      return sum;
+    };
+  problem.linear.symmetric = skew == 0.;
+  return problem;
+}
+
+Outcome
+solved(ChainProblem      &problem,
+       const double       tolerance,
+       const std::string &linear_solver = "automatic")
+{
+  const Outcome result = outcome(problem, tolerance, linear_solver);
+  EXPECT_EQ(result.failure, "");
+  return result;
+}
 
 
 TEST(Newton, FindsTheEquilibrium)
@@ -108,8 +75,8 @@ TEST(Newton, FindsTheEquilibrium)
     for (const double skew : {0., 0.4})
       {
         SCOPED_TRACE(linear_solver + (skew == 0. ? "" : ", without energy"));
-        ChainProblem problem = hardening(skew);
-        const Result result  = solved(problem, 1e-11, linear_solver);
+        ChainProblem  problem = hardening(skew);
+        const Outcome result  = solved(problem, 1e-11, linear_solver);
         for (unsigned int i = 0; i < n; ++i)
           EXPECT_NEAR(result.u[i], solution(i), 1e-9);
         EXPECT_LE(result.report.residual, 1e-11);
@@ -162,8 +129,8 @@ TEST(Newton, KeepsACostlyTangentWhileTheResidualFalls)
         SCOPED_TRACE(linear_solver + (skew == 0. ? "" : ", without energy"));
         ChainProblem dear = hardening(skew), cheap = hardening(skew);
         cheap.linear.costly = false;
-        const Result all    = solved(cheap, 1e-11, linear_solver);
-        const Result kept   = solved(dear, 1e-11, linear_solver);
+        const Outcome all   = solved(cheap, 1e-11, linear_solver);
+        const Outcome kept  = solved(dear, 1e-11, linear_solver);
         EXPECT_EQ(cheap.tangents.size(), all.report.newton_iterations);
 
         EXPECT_LT(dear.tangents.size(), cheap.tangents.size());
@@ -185,7 +152,7 @@ TEST(Newton, KeepsNoTangentWhoseStepWasShortened)
     },
     [](double u) { return u - 0.8; },
     [](double u) { return u == 0. ? 0.8 / 1.5 : 1.; });
-  const Result result = solved(problem, 1e-10, "direct");
+  const Outcome result = solved(problem, 1e-10, "direct");
   EXPECT_EQ(result.report.newton_iterations, 2u);
   EXPECT_EQ(problem.tangents.size(), 2u);
 }
@@ -199,7 +166,7 @@ TEST(Newton, KeepsNoTangentInALongRow)
     [](double u) { return 0.5 * u * u - u; },
     [](double u) { return u - 1.; },
     [](double) { return 1. / 0.81; });
-  const Result result = solved(problem, 1e-12, "direct");
+  const Outcome result = solved(problem, 1e-12, "direct");
   ASSERT_GT(result.report.newton_iterations, 12u);
   EXPECT_EQ(problem.tangents.size(), result.report.newton_iterations - 9);
 }
@@ -213,7 +180,7 @@ TEST(Newton, DoesNothingAtEquilibrium)
       [](double u) { return 0.5 * u * u; },
       [](double u) { return u; },
       [](double) { return 1.; });
-    const Result result = solved(problem, 1e-6);
+    const Outcome result = solved(problem, 1e-6);
     EXPECT_EQ(result.report.newton_iterations, 0u);
     EXPECT_EQ(result.report.residual, 0.);
   }
@@ -240,7 +207,7 @@ TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
     ChainProblem problem  = hardening(0.);
     problem.scales.length = length;
     problem.linear.costly = false;
-    const Result result   = solved(problem, 1e-2, "direct");
+    const Outcome result  = solved(problem, 1e-2, "direct");
     iterations            = result.report.newton_iterations;
     double largest        = 0.;
     for (unsigned int i = 0; i < n; ++i)
@@ -268,7 +235,7 @@ TEST(Newton, StepsBackFromInversion)
     },
     [](double u) { return 1. / (1. - u) - 20.; },
     [](double u) { return 1. / ((1. - u) * (1. - u)); });
-  const Result result = solved(problem, 1e-8);
+  const Outcome result = solved(problem, 1e-8);
   for (const double u : result.u)
     EXPECT_NEAR(u, 0.95, 1e-8);
 }
@@ -282,7 +249,7 @@ TEST(Newton, GoesDownFromAHill)
     [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
     [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
     [](double u) { return 12. * u * u - 4.; });
-  const Result result = solved(problem, 1e-10);
+  const Outcome result = solved(problem, 1e-10);
   // Where one was indefinite none is kept.
   EXPECT_EQ(problem.tangents.size(), result.report.newton_iterations);
   for (const double u : result.u)
@@ -301,14 +268,14 @@ TEST(Newton, FailsWithoutASolution)
     [](double u) { return -0.5 * u * u - u; },
     [](double u) { return -u - 1.; },
     [](double) { return -1.; });
-  EXPECT_THROW(solved(endless, 1e-6), StepFailed);
+  EXPECT_NE(outcome(endless, 1e-6).failure, "");
 
   ChainProblem inverted = alike(
     n,
     [](double) { return std::numeric_limits<double>::infinity(); },
     [](double) { return 1.; },
     [](double) { return 1.; });
-  EXPECT_THROW(solved(inverted, 1e-6), StepFailed);
+  EXPECT_NE(outcome(inverted, 1e-6).failure, "");
 
   // Without energy: |R| has a minimum where R is not zero.
   ChainProblem stuck = alike(
@@ -317,7 +284,7 @@ TEST(Newton, FailsWithoutASolution)
     [](double u) { return u * u - u + 1.; },
     [](double u) { return 2. * u - 1.; });
   stuck.linear.symmetric = false;
-  EXPECT_THROW(solved(stuck, 1e-6), StepFailed);
+  EXPECT_NE(outcome(stuck, 1e-6).failure, "");
 }
 
 
@@ -332,18 +299,9 @@ TEST(Newton, EndsWithASearchThatFindsNothing)
     },
     [](double) { return -1.; },
     [](double) { return 1.; });
-  QuietTimer          timer;
-  NewtonReport        report;
-  Equilibrium::Vector u = problem.zero();
-  EXPECT_THROW(solve(problem,
-                     problem.linear,
-                     problem.scales,
-                     SolverParameters(),
-                     timer,
-                     u,
-                     report),
-               StepFailed);
-  EXPECT_EQ(report.newton_iterations, 1u);
+  const Outcome result = outcome(problem, SolverParameters().newton_tolerance);
+  EXPECT_NE(result.failure, "");
+  EXPECT_EQ(result.report.newton_iterations, 1u);
 }
 
 
@@ -363,18 +321,14 @@ TEST(Newton, FailsWhereNoxGivesUp)
   const char *const        message = "NOX Error";
   const std::runtime_error error("NOX Error"), other("the disk is full");
   ChainProblem             before_14_2 = throws(message);
-  EXPECT_THROW(solved(before_14_2, 1e-6), StepFailed);
+  EXPECT_NE(outcome(before_14_2, 1e-6).failure, "");
   ChainProblem since = throws(error);
-  EXPECT_THROW(solved(since, 1e-6), StepFailed);
+  EXPECT_NE(outcome(since, 1e-6).failure, "");
   ChainProblem elsewhere = throws(other);
   try
     {
-      solved(elsewhere, 1e-6);
+      outcome(elsewhere, 1e-6);
       FAIL() << "it must fail";
-    }
-  catch (const StepFailed &failure)
-    {
-      FAIL() << failure.what();
     }
   catch (const std::runtime_error &failure)
     {
@@ -391,18 +345,9 @@ TEST(Newton, ReportsNegativeCurvature)
     [](double u) { return -std::exp(u); },
     [](double u) { return -std::exp(u); },
     [](double u) { return -std::exp(u); });
-  QuietTimer          timer;
-  NewtonReport        report;
-  Equilibrium::Vector u = problem.zero();
-  EXPECT_THROW(solve(problem,
-                     problem.linear,
-                     problem.scales,
-                     SolverParameters(),
-                     timer,
-                     u,
-                     report),
-               StepFailed);
-  EXPECT_NEAR(report.curvature, -1., 1e-9);
+  const Outcome result = outcome(problem, SolverParameters().newton_tolerance);
+  EXPECT_NE(result.failure, "");
+  EXPECT_NEAR(result.report.curvature, -1., 1e-9);
 }
 
 
@@ -452,7 +397,7 @@ TEST(Newton, LeavesAnUnbalancedLoadOut)
       };
       problem.linear.null_space.push_back(
         problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n))));
-      const Result result = solved(problem, 1e-9, linear_solver);
+      const Outcome result = solved(problem, 1e-9, linear_solver);
 
       double mean = 0., sum = 0.;
       for (unsigned int i = 0; i < n; ++i)

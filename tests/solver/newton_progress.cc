@@ -1,64 +1,11 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
 // When Newton's method goes on, when it ends, and what it notes down.
-#include <morula/solver/newton.h>
+#include "solver/room.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "common/linear_problem.h"
-
-using namespace Morula;
-
-namespace
-{
-  constexpr unsigned int n_unknowns = 12;
-
-  struct Outcome
-  {
-    std::vector<double> u;
-    NewtonReport        report;
-    std::string         failure; // empty where it has converged
-  };
-
-  Outcome
-  outcome(ChainProblem      &problem,
-          const double       tolerance,
-          const std::string &linear_solver = "automatic",
-          const unsigned int iterations = SolverParameters().newton_iterations)
-  {
-    problem.linear.costly = false;
-    QuietTimer       timer;
-    SolverParameters parameters;
-    parameters.newton_tolerance  = tolerance;
-    parameters.linear_solver     = linear_solver;
-    parameters.newton_iterations = iterations;
-    Equilibrium::Vector u        = problem.zero();
-    Outcome             result;
-    result.report.wants_trace = true;
-    try
-      {
-        solve(problem,
-              problem.linear,
-              problem.scales,
-              parameters,
-              timer,
-              u,
-              result.report);
-      }
-    catch (const StepFailed &failure)
-      {
-        result.failure = failure.what();
-      }
-    result.u = problem.gathered(u);
-    return result;
-  }
-} // namespace
+constexpr unsigned int n_unknowns = 12;
 
 
 // Rosenbrock's valley in each pair of unknowns: a search that must lower the
@@ -94,7 +41,8 @@ TEST(NewtonProgress, GoesOnAlongACurvedValley)
       return -4. * stiff * x;
     return i % 2 == 1 ? 2. * stiff : 12. * stiff * x * x - 4. * stiff * y + 2.;
   };
-  const Outcome result = outcome(problem, 1e-10, "direct");
+  problem.linear.costly = false;
+  const Outcome result  = outcome(problem, 1e-10, "direct");
   EXPECT_EQ(result.failure, "");
   EXPECT_GT(result.report.newton_iterations, 30u);
   EXPECT_LT(result.report.newton_iterations, 65u);
@@ -111,8 +59,9 @@ TEST(NewtonProgress, EndsWithoutIt)
     [](double) { return 1e14; },
     [](double) { return 1.; },
     [](double) { return 1.; });
-  const Outcome result = outcome(problem, 1e-6);
-  EXPECT_NE(result.failure.find("20 iterations"), std::string::npos);
+  problem.linear.costly = false;
+  const Outcome result  = outcome(problem, 1e-6);
+  expect_parts(result.failure, {"20 iterations"});
   EXPECT_EQ(result.report.newton_iterations, 20u);
 }
 
@@ -127,8 +76,9 @@ TEST(NewtonProgress, IsMoreThanAResidualThatCreeps)
     [](double u) { return 1. + 1. / (1. + u); },
     [](double) { return -3000.; });
   problem.linear.symmetric = false;
+  problem.linear.costly    = false;
   const Outcome result     = outcome(problem, 1e-6);
-  EXPECT_NE(result.failure.find("20 iterations"), std::string::npos);
+  expect_parts(result.failure, {"20 iterations"});
   const auto &trace = result.report.trace;
   ASSERT_EQ(trace.size(), 21u);
   for (std::size_t k = 1; k < trace.size(); ++k)
@@ -144,9 +94,9 @@ TEST(NewtonProgress, EndsAtTheLimitOfIterations)
     [](double u) { return -u; },
     [](double) { return -1.; },
     [](double) { return 1.; });
-  const Outcome result = outcome(problem, 1e-6, "automatic", 37);
-  EXPECT_NE(result.failure.find("Solver/Newton iterations = 37"),
-            std::string::npos);
+  problem.linear.costly = false;
+  const Outcome result  = outcome(problem, 1e-6, "automatic", 37);
+  expect_parts(result.failure, {"Solver/Newton iterations = 37"});
   EXPECT_EQ(result.report.newton_iterations, 37u);
 }
 
@@ -158,8 +108,9 @@ TEST(NewtonProgress, IsNotedDown)
     [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
     [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
     [](double u) { return 12. * u * u - 4.; });
-  const Outcome result = outcome(problem, SolverParameters().newton_tolerance);
-  const auto   &trace  = result.report.trace;
+  problem.linear.costly = false;
+  const Outcome result  = outcome(problem, SolverParameters().newton_tolerance);
+  const auto   &trace   = result.report.trace;
   ASSERT_EQ(trace.size(), result.report.newton_iterations + 1);
   EXPECT_NEAR(trace[0].evaluation.energy, n_unknowns, 1e-12);
   EXPECT_NEAR(trace[0].residual, 0.1 * std::sqrt(n_unknowns), 1e-12);

@@ -1,101 +1,85 @@
-// ranks: 1 2 3
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/overlapping_cholesky.h>
+#include "solver/room.h"
 
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
+using CoupledRows::couple, CoupledRows::n, CoupledRows::own_rows,
+  CoupledRows::rows_of;
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "common/coupled_rows.h"
-
-using namespace Morula;
-
-namespace
+double
+entry(const unsigned int i, const unsigned int j, const double diagonal)
 {
-  using CoupledRows::couple, CoupledRows::n, CoupledRows::own_rows,
-    CoupledRows::rows_of;
+  if (i == j)
+    return diagonal + 0.1 * i;
+  return -1. / (1. + (i > j ? i - j : j - i));
+}
 
-  double
-  entry(const unsigned int i, const unsigned int j, const double diagonal)
-  {
-    if (i == j)
-      return diagonal + 0.1 * i;
-    return -1. / (1. + (i > j ? i - j : j - i));
-  }
+void
+fill(TrilinosWrappers::SparseMatrix &K, const double diagonal)
+{
+  CoupledRows::fill(K, [&](const auto i, const auto j) {
+    return entry(i, j, diagonal);
+  });
+}
 
-  void
-  fill(TrilinosWrappers::SparseMatrix &K, const double diagonal)
-  {
-    CoupledRows::fill(K, [&](const auto i, const auto j) {
-      return entry(i, j, diagonal);
-    });
-  }
+/** Rows of lower ranks that a rank's rows couple with. */
+IndexSet
+others_of(const unsigned int rank)
+{
+  IndexSet   others(n);
+  const auto own = rows_of(rank);
+  for (const auto i : own)
+    for (unsigned int j = 0; j < own.nth_index_in_set(0); ++j)
+      if (couple(i, j))
+        others.add_index(j);
+  others.compress();
+  return others;
+}
 
-  /** Rows of lower ranks that a rank's rows couple with. */
-  IndexSet
-  others_of(const unsigned int rank)
-  {
-    IndexSet   others(n);
-    const auto own = rows_of(rank);
-    for (const auto i : own)
-      for (unsigned int j = 0; j < own.nth_index_in_set(0); ++j)
-        if (couple(i, j))
-          others.add_index(j);
-    others.compress();
-    return others;
-  }
+/** Adds @p factor (R K Rᵀ)⁻¹ R x, in some rows R, to y. */
+void
+add_inverse(const IndexSet            &rows,
+            const double               diagonal,
+            const double               factor,
+            const std::vector<double> &x,
+            std::vector<double>       &y)
+{
+  const unsigned int       m = rows.n_elements();
+  LAPACKFullMatrix<double> block(m);
+  dealii::Vector<double>   part(m);
+  for (unsigned int a = 0; a < m; ++a)
+    {
+      const auto i = rows.nth_index_in_set(a);
+      part[a]      = x[i];
+      for (unsigned int b = 0; b < m; ++b)
+        if (const auto j = rows.nth_index_in_set(b); couple(i, j))
+          block(a, b) = entry(i, j, diagonal);
+    }
+  if (m == 0)
+    return;
+  block.compute_lu_factorization();
+  block.solve(part);
+  for (unsigned int a = 0; a < m; ++a)
+    y[rows.nth_index_in_set(a)] += factor * part[a];
+}
 
-  /** Adds @p factor (R K Rᵀ)⁻¹ R x, in some rows R, to y. */
-  void
-  add_inverse(const IndexSet            &rows,
-              const double               diagonal,
-              const double               factor,
-              const std::vector<double> &x,
-              std::vector<double>       &y)
-  {
-    const unsigned int       m = rows.n_elements();
-    LAPACKFullMatrix<double> block(m);
-    dealii::Vector<double>   part(m);
-    for (unsigned int a = 0; a < m; ++a)
-      {
-        const auto i = rows.nth_index_in_set(a);
-        part[a]      = x[i];
-        for (unsigned int b = 0; b < m; ++b)
-          if (const auto j = rows.nth_index_in_set(b); couple(i, j))
-            block(a, b) = entry(i, j, diagonal);
-      }
-    if (m == 0)
-      return;
-    block.compute_lu_factorization();
-    block.solve(part);
-    for (unsigned int a = 0; a < m; ++a)
-      y[rows.nth_index_in_set(a)] += factor * part[a];
-  }
-
-  /** The second form of doc/theory.md (7.2): of each block's inverse that of
-   *  its others is taken off. */
-  std::vector<double>
-  exact(const std::vector<double> &x, const double diagonal)
-  {
-    std::vector<double> y(n, 0.);
-    for (unsigned int rank = 0;
-         rank < Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-         ++rank)
-      {
-        const IndexSet others = others_of(rank);
-        IndexSet       all    = others;
-        all.add_indices(rows_of(rank));
-        add_inverse(all, diagonal, 1., x, y);
-        add_inverse(others, diagonal, -1., x, y);
-      }
-    return y;
-  }
-} // namespace
+/** The second form of doc/theory.md (7.2): of each block's inverse that of
+ *  its others is taken off. */
+std::vector<double>
+exact(const std::vector<double> &x, const double diagonal)
+{
+  std::vector<double> y(n, 0.);
+  for (unsigned int rank = 0; rank < number_of_ranks(); ++rank)
+    {
+      const IndexSet others = others_of(rank);
+      IndexSet       all    = others;
+      all.add_indices(rows_of(rank));
+      add_inverse(all, diagonal, 1., x, y);
+      add_inverse(others, diagonal, -1., x, y);
+    }
+  return y;
+}
 
 
 /** With room for all entries the factorisations are complete, in single

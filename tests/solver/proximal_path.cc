@@ -1,68 +1,56 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/proximal_path.h>
+#include "solver/room.h"
 
-#include <gtest/gtest.h>
+constexpr unsigned int n = 6;
 
-#include <cmath>
-#include <vector>
-
-#include "common/linear_problem.h"
-
-using namespace Morula;
-
-namespace
+/** Double wells in a row whose tangent at the start is negative, tied to each
+ *  other by springs. */
+ChainProblem
+wells()
 {
-  constexpr unsigned int n = 6;
+  ChainProblem problem(n);
+  problem.energy = [](const std::vector<double> &u) {
+    double sum = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        sum += std::pow(u[i] * u[i] - 1., 2) - 0.1 * u[i];
+        if (i + 1 < n)
+          sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
+      }
+    return sum;
+  };
+  problem.force = [](const unsigned int i, const std::vector<double> &u) {
+    double f = 4. * u[i] * (u[i] * u[i] - 1.) - 0.1;
+    if (i > 0)
+      f += u[i] - u[i - 1];
+    if (i + 1 < n)
+      f += u[i] - u[i + 1];
+    return f;
+  };
+  problem.stiffness = [](const unsigned int         i,
+                         const unsigned int         j,
+                         const std::vector<double> &u) {
+    if (i != j)
+      return -1.;
+    return 12. * u[i] * u[i] - 4. + (i > 0 ? 1. : 0.) + (i + 1 < n ? 1. : 0.);
+  };
+  problem.linear.costly = false;
+  return problem;
+}
 
-  /** Double wells in a row whose tangent at the start is negative, tied to each
-   *  other by springs. */
-  ChainProblem
-  wells()
-  {
-    ChainProblem problem(n);
-    problem.energy = [](const std::vector<double> &u) {
-      double sum = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          sum += std::pow(u[i] * u[i] - 1., 2) - 0.1 * u[i];
-          if (i + 1 < n)
-            sum += 0.5 * std::pow(u[i] - u[i + 1], 2);
-        }
-      return sum;
-    };
-    problem.force = [](const unsigned int i, const std::vector<double> &u) {
-      double f = 4. * u[i] * (u[i] * u[i] - 1.) - 0.1;
-      if (i > 0)
-        f += u[i] - u[i - 1];
-      if (i + 1 < n)
-        f += u[i] - u[i + 1];
-      return f;
-    };
-    problem.stiffness = [](const unsigned int         i,
-                           const unsigned int         j,
-                           const std::vector<double> &u) {
-      if (i != j)
-        return -1.;
-      return 12. * u[i] * u[i] - 4. + (i > 0 ? 1. : 0.) + (i + 1 < n ? 1. : 0.);
-    };
-    problem.linear.costly = false;
-    return problem;
-  }
-
-  std::vector<double>
-  followed(ChainProblem &problem, NewtonReport &report)
-  {
-    QuietTimer          timer;
-    SolverParameters    parameters;
-    Equilibrium::Vector u = problem.zero();
-    follow_proximal_path(
-      problem, problem.linear, problem.scales, parameters, timer, u, report);
-    return problem.gathered(u);
-  }
-} // namespace
+std::vector<double>
+followed(ChainProblem &problem, NewtonReport &report)
+{
+  QuietTimer          timer;
+  SolverParameters    parameters;
+  Equilibrium::Vector u = problem.zero();
+  follow_proximal_path(
+    problem, problem.linear, problem.scales, parameters, timer, u, report);
+  return problem.gathered(u);
+}
 
 
 // The friction is gone at the end, and the energy has fallen from part to part.

@@ -1,72 +1,63 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/turns.h>
+#include "solver/room.h"
 
-#include <gtest/gtest.h>
-
-#include "common/linear_problem.h"
-
-using namespace Morula;
-
-namespace
+/** Asks for so many further turns. */
+class Wish : public TurnParticipant
 {
-  /** Asks for so many further turns. */
-  class Wish : public TurnParticipant
+public:
+  explicit Wish(const unsigned int n)
+    : n(n)
+  {}
+
+  bool
+  renew(const Equilibrium::Vector &) override
   {
-  public:
-    explicit Wish(const unsigned int n)
-      : n(n)
-    {}
+    ++n_asked;
+    return n_asked <= n;
+  }
 
-    bool
-    renew(const Equilibrium::Vector &) override
-    {
-      ++n_asked;
-      return n_asked <= n;
-    }
-
-    std::string
-    unfinished() const override
-    {
-      return "a wish is left";
-    }
-
-    const unsigned int n;
-    unsigned int       n_asked = 0;
-  };
-
-  /** Counts its solutions, and remembers when it was told that it goes on. */
-  struct Count : public ChainProblem
+  std::string
+  unfinished() const override
   {
-    Count()
-      : ChainProblem(2)
-    {}
+    return "a wish is left";
+  }
 
-    void
-    use_growth_at_end() override
-    {
-      ++n_goes_on;
-    }
+  const unsigned int n;
+  unsigned int       n_asked = 0;
+};
 
-    unsigned int n_solved = 0, n_goes_on = 0;
-  };
+/** Counts its solutions, and remembers when it was told that it goes on. */
+struct Count : public ChainProblem
+{
+  Count()
+    : ChainProblem(2)
+  {}
 
   void
-  balance(Count &problem, std::vector<Wish *> wishes, NewtonReport &report)
+  use_growth_at_end() override
   {
-    balance_in_turns(
-      problem,
-      std::vector<TurnParticipant *>(wishes.begin(), wishes.end()),
-      [&]() {
-        ++problem.n_solved;
-        return Equilibrium::Evaluation();
-      },
-      problem.zero(),
-      report);
+    ++n_goes_on;
   }
-} // namespace
+
+  unsigned int n_solved = 0, n_goes_on = 0;
+};
+
+void
+balance(Count &problem, std::vector<Wish *> wishes, NewtonReport &report)
+{
+  balance_in_turns(
+    problem,
+    std::vector<TurnParticipant *>(wishes.begin(), wishes.end()),
+    [&]() {
+      ++problem.n_solved;
+      return Equilibrium::Evaluation();
+    },
+    problem.zero(),
+    report);
+}
 
 
 TEST(Turns, OneIsEnoughWithoutParticipants)

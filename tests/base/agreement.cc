@@ -8,16 +8,10 @@ using namespace dealii;
 
 const MPI_Comm comm = MPI_COMM_WORLD;
 
-unsigned int
-rank()
-{
-  return Utilities::MPI::this_mpi_process(comm);
-}
-
 bool
 is_last()
 {
-  return rank() + 1 == Utilities::MPI::n_mpi_processes(comm);
+  return this_rank() + 1 == number_of_ranks();
 }
 
 /** Where the action fails on the last rank, all fail with its exception. */
@@ -29,16 +23,15 @@ check_all_throw()
     {
       everywhere(comm, []() {
         if (is_last())
-          throw Exception("on rank " + std::to_string(rank()));
+          throw Exception("on rank " + std::to_string(this_rank()));
       });
-      ADD_FAILURE() << "rank " << rank() << " threw nothing";
+      ADD_FAILURE() << "rank " << this_rank() << " threw nothing";
     }
   catch (const std::exception &error)
     {
       EXPECT_EQ(typeid(error), typeid(Exception));
       EXPECT_EQ(error.what(),
-                "on rank " +
-                  std::to_string(Utilities::MPI::n_mpi_processes(comm) - 1));
+                "on rank " + std::to_string(number_of_ranks() - 1));
     }
 }
 
@@ -63,7 +56,7 @@ TEST(Everywhere, TheLowestRankCounts)
 {
   EXPECT_THROW(everywhere(comm,
                           []() {
-                            if (rank() == 0)
+                            if (this_rank() == 0)
                               throw StepFailed("of the first");
                             throw InputError("of the others");
                           }),

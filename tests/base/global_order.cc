@@ -27,12 +27,6 @@ struct Event
   }
 };
 
-unsigned int
-rank()
-{
-  return Utilities::MPI::this_mpi_process(comm);
-}
-
 /** Compares with the order of all keys, gathered and sorted. */
 template <typename Key>
 void
@@ -59,11 +53,11 @@ expect_as_gathered(const std::vector<Key> &keys)
 std::vector<Event>
 random_events(const unsigned int n, const unsigned int n_times)
 {
-  std::mt19937       generator(5 + rank());
+  std::mt19937       generator(5 + this_rank());
   std::vector<Event> events;
-  const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+  const unsigned int n_ranks = number_of_ranks();
   for (unsigned int i = 0; i < n; ++i)
-    events.push_back({(generator() % n_times) / 7., i * n_ranks + rank()});
+    events.push_back({(generator() % n_times) / 7., i * n_ranks + this_rank()});
   std::shuffle(events.begin(), events.end(), generator);
   return events;
 }
@@ -100,12 +94,12 @@ TEST(GlobalOrder, SomeRanksHaveNone)
 {
   for (const unsigned int n : {3u, 500u})
     {
-      expect_as_gathered(rank() == 0 ? random_events(n, 50) :
-                                       std::vector<Event>());
-      expect_as_gathered(rank() == 1 ? random_events(n, 50) :
-                                       std::vector<Event>());
-      expect_as_gathered(rank() == 2 ? random_events(n, 50) :
-                                       random_events(n / 100, 50));
+      expect_as_gathered(this_rank() == 0 ? random_events(n, 50) :
+                                            std::vector<Event>());
+      expect_as_gathered(this_rank() == 1 ? random_events(n, 50) :
+                                            std::vector<Event>());
+      expect_as_gathered(this_rank() == 2 ? random_events(n, 50) :
+                                            random_events(n / 100, 50));
     }
 }
 
@@ -115,7 +109,7 @@ TEST(GlobalOrder, SeparateKeys)
 {
   std::vector<double> keys;
   for (unsigned int i = 0; i < 400; ++i)
-    keys.push_back(std::sqrt(400. - i) - 1000. * rank());
+    keys.push_back(std::sqrt(400. - i) - 1000. * this_rank());
   expect_as_gathered(keys);
 }
 

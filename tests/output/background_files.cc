@@ -4,18 +4,6 @@
 
 #include "output/room.h"
 
-unsigned int
-rank()
-{
-  return this_rank();
-}
-
-unsigned int
-n_ranks()
-{
-  return number_of_ranks();
-}
-
 /** What rank @p r writes into the file. */
 std::string
 part(const unsigned int r)
@@ -27,7 +15,7 @@ std::string
 all_parts()
 {
   std::string all;
-  for (unsigned int r = 0; r < n_ranks(); ++r)
+  for (unsigned int r = 0; r < number_of_ranks(); ++r)
     all += part(r);
   return all;
 }
@@ -38,8 +26,8 @@ one_file(const std::string &path, std::shared_future<void> go)
 {
   std::vector<std::unique_ptr<PendingFile>> files;
   files.push_back(
-    pending(SharedFile::make(path, n_ranks() * 1000, MPI_COMM_WORLD, 0),
-            [go, r = rank()](SharedFile &file) {
+    pending(SharedFile::make(path, number_of_ranks() * 1000, MPI_COMM_WORLD, 0),
+            [go, r = this_rank()](SharedFile &file) {
               go.wait();
               file.write(part(r), r * 1000);
             }));
@@ -132,7 +120,7 @@ TEST(BackgroundFiles, FailTogetherLater)
     std::promise<void>      go;
     std::optional<FullDisk> full;
     background.start(one_file(directory / "a", go.get_future()), false);
-    if (rank() + 1 == n_ranks())
+    if (this_rank() + 1 == number_of_ranks())
       full.emplace(1);
     go.set_value();
     EXPECT_THROW(background.finish(), std::runtime_error);

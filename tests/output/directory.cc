@@ -23,11 +23,6 @@ complaint(const std::string &directory, const RunSetup &run)
     [&] { prepare_directory(directory, run, MPI_COMM_WORLD); });
 }
 
-TEST(Directory, NumbersFiles)
-{
-  EXPECT_EQ(numbered_file("cells", 0, "csv"), "cells-0000.csv");
-  EXPECT_EQ(numbered_file("surface", 12345, "vtu"), "surface-12345.vtu");
-}
 
 TEST(Directory, LosesTheOldRunAndNothingElse)
 {

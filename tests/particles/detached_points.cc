@@ -139,11 +139,3 @@ TEST(DetachedPoints, BelongLessToTheTissue)
   EXPECT_NEAR(attachment(40. / 3., 10.), 0., 1e-14);
   EXPECT_EQ(attachment(1e3, 10.), 0.);
 }
-
-
-TEST(DetachedPoints, NeedASurface)
-{
-  Tissue<2> tissue(grid_of_spacing(25.), CellColumns<2>(), MPI_COMM_WORLD);
-  tissue.place(dealt(cells<2>(unit_tensor<2>())), PointList<2>());
-  EXPECT_EQ(pull_back_detached_points(tissue), 0u);
-}

@@ -99,14 +99,3 @@ TEST_2D_3D(SurfaceFit, IsRestored)
         EXPECT_EQ((points.F(p) - unit_tensor<dim>()).norm(), 0.);
     }
 }
-
-
-TEST(SurfaceFit, NeedsASurface)
-{
-  Tissue<2> tissue(grid_of_spacing(25.), CellColumns<2>(), MPI_COMM_WORLD);
-  tissue.place(dealt(Cube<2>(0.).cells), PointList<2>());
-  const SurfaceFit fit = surface_fit(tissue);
-  EXPECT_EQ(fit.distance, 0.);
-  EXPECT_EQ(fit.enclosed, 0.);
-  EXPECT_GT(fit.cells, 0.);
-}

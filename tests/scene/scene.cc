@@ -214,7 +214,7 @@ TEST(Scene, MayHaveAnEffectSwitchedOffOnPurpose)
 }
 
 
-TEST(Scene, HasShorterVectorsAndFewerShapesInThePlane)
+TEST(Scene, HasShorterVectorsInThePlane)
 {
   const std::string bc = "Boundary conditions/";
   EXPECT_EQ(complaint("",
@@ -225,11 +225,4 @@ TEST(Scene, HasShorterVectorsAndFewerShapesInThePlane)
                        bc + "Displacement=t; 0",
                        "Body force/Force density=0; -1; 0"}),
             "");
-  expect_parts(complaint("", {"Dimension=2", "Tissue/Shape=cylinder"}),
-               {"Tissue/Shape", "cylinder"});
-  expect_parts(complaint("",
-                         {"Dimension=2",
-                          "Proliferation/Law=cell cycle",
-                          "Proliferation/Cell cycle/Division axis=fixed"}),
-               {"Proliferation/Cell cycle/Fixed axis", "zero"});
 }

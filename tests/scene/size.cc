@@ -4,18 +4,6 @@
 
 #include "scene/room.h"
 
-unsigned int
-rank()
-{
-  return this_rank();
-}
-
-unsigned int
-n_ranks()
-{
-  return number_of_ranks();
-}
-
 /** Patches on the faces z = -1 and z = 1, one of each on every rank. */
 SurfacePatches<3>
 two_faces()
@@ -23,7 +11,7 @@ two_faces()
   SurfacePatches<3> surface;
   for (const double z : {-1., 1.})
     {
-      surface.positions.emplace_back(rank(), 0., z);
+      surface.positions.emplace_back(this_rank(), 0., z);
       surface.normals.push_back(Tensor<1, 3>({0., 0., z}));
       surface.areas.push_back(1.);
     }
@@ -84,7 +72,7 @@ TEST(SceneSize, CountsDescendants)
   Scene                       scene;
   const std::vector<Point<3>> founders = {Point<3>(-1., 0., 0.),
                                           Point<3>(1., 0., 0.)};
-  const double                n        = n_ranks();
+  const double                n        = number_of_ranks();
   const auto                  size     = [&] {
     return expected_size(scene, founders, MPI_COMM_WORLD);
   };
@@ -103,7 +91,7 @@ TEST(SceneSize, CountsDescendants)
   const double many = 1. + expected_cells(1., 1., 10., false);
   EXPECT_NEAR(size().cells, many * n, 1e-9 * many * n);
 
-  scene.time.stop_at_cells = 10 * n_ranks();
+  scene.time.stop_at_cells = 10 * number_of_ranks();
   EXPECT_DOUBLE_EQ(size().cells, 20. * n);
   scene.keys<CellCycleParameters>().size_checkpoint = "0.8";
   EXPECT_DOUBLE_EQ(size().cells, 2. * n);
@@ -265,8 +253,8 @@ TEST(SceneSize, EstimatesRuns)
 TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
 {
   // bad at one cell of the last rank: all ranks must refuse
-  const std::string           bad = std::to_string(n_ranks() - 1);
-  const std::vector<Point<3>> founders(1, Point<3>(rank(), 0., 0.));
+  const std::string           bad = std::to_string(number_of_ranks() - 1);
+  const std::vector<Point<3>> founders(1, Point<3>(this_rank(), 0., 0.));
   const auto                  check = [&](const Scene &scene) {
     return complaint_of(
       [&] { check_at_cells(scene, founders, MPI_COMM_WORLD); });
@@ -312,16 +300,16 @@ TEST(SceneChecks, CountTheBoundaryConditions)
   pressure.where         = "X == 0 && Z > 0";
   pressure.pressure      = "1/(1 + X)";
   ConditionCounts counts = check();
-  EXPECT_EQ(counts.points, 2 * n_ranks());
-  EXPECT_EQ(counts.fixed, n_ranks());
+  EXPECT_EQ(counts.points, 2 * number_of_ranks());
+  EXPECT_EQ(counts.fixed, number_of_ranks());
   // fixed wins over slip, slip over pressure
-  EXPECT_EQ(counts.acting.at("slip"), n_ranks());
+  EXPECT_EQ(counts.acting.at("slip"), number_of_ranks());
   EXPECT_EQ(counts.acting.at("traction"), 0u);
   EXPECT_EQ(counts.acting.at("pressure"), 0u);
 
   slip.where = "Z < 0";
   counts     = check();
-  EXPECT_EQ(counts.fixed, n_ranks());
+  EXPECT_EQ(counts.fixed, number_of_ranks());
   EXPECT_EQ(counts.acting.at("slip"), 0u);
   EXPECT_EQ(counts.acting.at("pressure"), 1u);
   slip.where = "1";

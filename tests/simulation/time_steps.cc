@@ -269,15 +269,6 @@ TEST(TimeSteps, ChooseTheirLengthByTheError)
 }
 
 
-TEST(TimeSteps, WithoutToleranceErrorsDoNotMatter)
-{
-  TimeSteps steps(times(3., 1.));
-  steps.begin_anew();
-  steps.adapt(1e9);
-  EXPECT_EQ(steps.next(), 1.);
-}
-
-
 TEST(TimeSteps, ToleranceNeverGoesBelowTheSmallestStep)
 {
   TimeParameters parameters = times(1., 1., 0.2);

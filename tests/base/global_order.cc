@@ -23,7 +23,7 @@ struct Event
   void
   serialize(Archive &archive, const unsigned int)
   {
-    archive &time &id;
+    archive & time & id;
   }
 };
 

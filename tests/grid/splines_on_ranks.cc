@@ -21,7 +21,7 @@ long_bodies()
       const bool thick = dim == 2 || within(dim - 1, 0., 2.3);
       const bool arms =
         (within(1, 0., 2.) || within(1, 4., 6.)) && within(0, -30., 30.);
-      const bool bend  = within(0, 27., 30.) && within(1, 0., 6.);
+      const bool bend = within(0, 27., 30.) && within(1, 0., 6.);
       const bool block = within(0, -29., -26.) && within(1, 9., 12.);
       const bool needle = std::abs(x[1] - 8. * h - 0.3 * x[0]) < 0.3 * h &&
                           within(0, 0., 20.) &&

@@ -78,7 +78,7 @@ TEST(BackgroundFiles, HaveStages)
     std::vector<std::unique_ptr<PendingFile>> files;
     files.push_back(std::make_unique<PendingFile>(
       PendingFile{[go = first.get_future().share()]() { go.wait(); },
-                  {},
+                              {},
                   [path = directory / "a", go = second.get_future().share()]() {
                     return std::move(one_file(path, go)[0]);
                   }}));

@@ -109,7 +109,7 @@ TEST(SceneSize, LetsCellsGrowFreely)
                                       "Time/End time=4",
                                       "Time/Step=0.25"})
       settings.push_back(setting);
-    const Scene scene    = Scene::read(empty.path, settings);
+    const Scene scene = Scene::read(empty.path, settings);
     const auto  founders = seed_founders<3>(scene.tissue, MPI_COMM_WORLD);
     const auto  found =
       free_growth(scene,
@@ -164,7 +164,7 @@ TEST(SceneSize, KnowsHowUnequallyCellsGrow)
 {
   const TemporaryFile empty(".prm", "");
   const Scene         scene = Scene::read(empty.path,
-                                  {"Tissue/Shape=box",
+                                          {"Tissue/Shape=box",
                                            "Tissue/Size=100, 100, 100",
                                            "Time/End time=2",
                                            "Time/Step=0.25",

@@ -127,7 +127,7 @@ TEST(SceneWarnings, OfRatesThatAreFastForTheStep)
                             const std::string &law = "none") {
     const Scene scene =
       Scene::read(empty.path,
-                  {"Tissue/Shape=box",
+                           {"Tissue/Shape=box",
                    "Tissue/Size=100, 100, 100",
                    "Time/Step=0.1",
                    "Death/Shrinking time=0",

@@ -79,31 +79,32 @@ check_amounts(const std::vector<std::string> &settings,
   double       before = 0., spread = 0., way = 0.;
   Tensor<1, 2> start;
   std::size_t  n_cells = 0;
-  run_field<2>(
-    settings, [&](const auto &cells, const auto &values, const auto &row) {
-      std::vector<double> sums(4);
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        {
-          sums[0] += cells.volume(p) * values[p];
-          sums[1] += cells.volume(p) * values[p] * values[p];
-          for (unsigned int d = 0; d < 2; ++d)
-            sums[2 + d] += cells.position(p)[d];
-        }
-      Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
-      n_cells = sum_over_ranks<std::size_t>(cells.size());
-      const Tensor<1, 2> mean({sums[2] / n_cells, sums[3] / n_cells});
-      if (row.step == 0)
-        {
-          before = sums[0];
-          spread = sums[1];
-          start  = mean;
-        }
-      way = std::max(way, (mean - start).norm());
-      EXPECT_NEAR(sums[0], before, 1e-12 * before);
-      EXPECT_LE(sums[1], (1. + 1e-12) * spread);
-      EXPECT_EQ(row.of_effect("signal_clipped"), 0.);
-      spread = sums[1];
-    });
+  run_field<2>(settings,
+               [&](const auto &cells, const auto &values, const auto &row) {
+                 std::vector<double> sums(4);
+                 for (unsigned int p = 0; p < cells.size(); ++p)
+                   {
+                     sums[0] += cells.volume(p) * values[p];
+                     sums[1] += cells.volume(p) * values[p] * values[p];
+                     for (unsigned int d = 0; d < 2; ++d)
+                       sums[2 + d] += cells.position(p)[d];
+                   }
+                 Utilities::MPI::sum(sums, MPI_COMM_WORLD, sums);
+                 n_cells = sum_over_ranks<std::size_t>(cells.size());
+                 const Tensor<1, 2> mean(
+                   {sums[2] / n_cells, sums[3] / n_cells});
+                 if (row.step == 0)
+                   {
+                     before = sums[0];
+                     spread = sums[1];
+                     start  = mean;
+                   }
+                 way = std::max(way, (mean - start).norm());
+                 EXPECT_NEAR(sums[0], before, 1e-12 * before);
+                 EXPECT_LE(sums[1], (1. + 1e-12) * spread);
+                 EXPECT_EQ(row.of_effect("signal_clipped"), 0.);
+                 spread = sums[1];
+               });
   EXPECT_GT(n_cells, least_cells);
   return way;
 }

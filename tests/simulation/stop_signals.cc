@@ -8,8 +8,7 @@
 struct sigaction
 action_of(const int number)
 {
-  struct sigaction action
-  {};
+  struct sigaction action{};
   sigaction(number, nullptr, &action);
   return action;
 }

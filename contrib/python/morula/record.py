@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What is known of a run: whether it finished, and what it cost."""
-import csv
 import json
 import shutil
 from pathlib import Path
 
 from .files import write
-from .run import read_csv, time_of
+from .run import Run
 
 
 class Record:
@@ -76,17 +75,12 @@ class Record:
         writing of cells and surface before it, which takes about equally long
         each time. On a busy machine one file can take far longer than the
         others: a tenth of the wall time is left at least."""
-        statistics = self.statistics()
-        written = [time_of(file) for file
-                   in self.output.glob("cells-[0-9]*.csv")]
-        with open(self.output / "timings.csv", encoding="utf-8") as stream:
-            spent = sum(float(row["wall_seconds"])
-                        for row in csv.DictReader(stream)
-                        if row["section"] == "output")
-        return [float(max(seconds - spent * sum(t < time for t in written)
-                          / max(1, len(written)), 0.1 * seconds))
-                for time, seconds in zip(statistics["time"],
-                                         statistics["wall_seconds"])]
+        run = self.run
+        spent = run.timings["wall_seconds"].get("output", 0.0)
+        return [float(max(seconds - spent * sum(run.times < time)
+                          / max(1, len(run.times)), 0.1 * seconds))
+                for time, seconds in zip(run.statistics["time"],
+                                         run.statistics["wall_seconds"])]
 
     @property
     def finished(self):
@@ -106,8 +100,10 @@ class Record:
         """Failed for a reason that is not the program's own (1 and 2)."""
         return any(r["exit"] not in (0, 1, 2) for r in self.repeats)
 
-    def statistics(self):
-        return read_csv(self.output / "statistics.csv")
+    @property
+    def run(self):
+        """What the last execution has written, read anew."""
+        return Run(self.output)
 
     def row_seconds(self, row):
         """Least wall time from the start to the end of a step, without the

@@ -265,6 +265,16 @@ class Run:
         """The boundary points of state i, likewise."""
         return self._read("surface", i)
 
+    def at(self, kind, day):
+        """The state of kind "cells" or "surface" on a day."""
+        times = [time for time, _ in states(self.directory, kind)]
+        for i, time in enumerate(times):
+            if same_time(time, day):
+                return self._read(kind, i)
+        raise Refused("The day", day, f"one on which {kind} were written: "
+                      + ", ".join(f"{time:g}" for time in times),
+                      "Output/Interval says when.")
+
     def _read(self, kind, i):
         found = states(self.directory, kind)
         if not -len(found) <= i < len(found):

@@ -23,14 +23,6 @@ class Sample:
     seed: int = None
     moved: tuple = None
 
-    def words(self):
-        """For messages about this run; empty without either."""
-        text = f", seed {self.seed}" if self.seed is not None else ""
-        if self.moved:
-            text += ", grid moved by (" + ", ".join(
-                f"{part:g}" for part in self.moved) + ") h"
-        return text
-
     def overrides(self, keys):
         """(key, value) beside those of the point, which has these keys."""
         result = []
@@ -47,8 +39,7 @@ def read_offsets(text, plan):
         return None
     number = whole_number(OPTION, text)
     if not 2 <= number <= MOST:
-        raise Refused(OPTION, text, f"an integer from 2 to {MOST}",
-                      "A power of two divides the grid cell evenly.")
+        raise Refused(OPTION, text, f"an integer from 2 to {MOST}")
     if KEY in plan.keys:
         raise Refused("--vary", KEY, f"another key with {OPTION}",
                       "That option moves the grid already.")

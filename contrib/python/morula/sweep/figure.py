@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Columns of statistics.csv against time: a line for each combination, with a
 band of one standard deviation over the seeds."""
+from morula.columns import pretty
 from morula.files import replaced
 from morula.style import COLOURS, RC, colour, plt
 
@@ -41,8 +42,7 @@ def _panel(request, axes, shown, column):
                           color=ink, alpha=0.18, linewidth=0)
     name = column.replace("_", " ")
     found = unit(request, column)
-    pretty = found.replace("um", "µm").replace("^2", "²").replace("^3", "³")
-    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty}" if found else name)
+    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty(found)}" if found else name)
 
 
 def _colour(number, total):

@@ -38,13 +38,13 @@ def _rows_of_runs(request, ensembles):
     """The last row of statistics.csv of every run, nan if it failed."""
     for ensemble in ensembles:
         for seed, record in zip(seeds(request), ensemble.records):
-            table = record.statistics() if record.finished else None
+            table = record.run.statistics if record.finished else {}
             yield [*ensemble.point, seed,
                    record.output.relative_to(request.output),
                    record.repeats[-1]["exit"],
-                   *(format(table[column][-1] if record.finished
-                            and column in table.dtype.names else math.nan,
-                            ".10g") for column in request.all_columns)]
+                   *(format(table[column].iloc[-1] if column in table
+                            else math.nan, ".10g")
+                     for column in request.all_columns)]
 
 
 def seeds(request):

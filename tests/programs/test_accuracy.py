@@ -2,7 +2,6 @@
 # Copyright (C) 2026 by the Morula authors
 """contrib/accuracy: its estimates against made-up values whose limit, order, noise
 and front are known, and what it refuses. Only the refusals ask the program."""
-import functools
 import math
 
 import numpy
@@ -14,9 +13,9 @@ from morula.accuracy.measures import read_measure
 from morula.accuracy.options import parser
 from morula.accuracy.wanted import Wanted, read_wanted
 from morula.ladder import Plan, read_ladder, read_seeds
-from morula.program import Program
 from morula.refusal import Refused
-from morula.scene import Scene, normal
+from morula.scene import normal
+from tests.common import requests
 from tests.common.program import TESTS
 
 pytestmark = pytest.mark.quick
@@ -338,15 +337,8 @@ BAD_REFERENCES = [
 
 @pytest.fixture(scope="module")
 def asked(runs):
-    """Words to a Request; the program is asked about each scene once."""
-    patch = pytest.MonkeyPatch()
-    patch.setattr(request, "Program", functools.cache(Program))
-    known = functools.cache(Scene)
-    patch.setattr(request, "Scene",
-                  lambda path, program, keys: known(path, program, tuple(keys)))
-    yield lambda *words: request.Request(parser().parse_args(
-        ["--morula", str(runs.options.morula), *map(str, words)]))
-    patch.undo()
+    with requests.asked(request, parser, runs.options.morula) as ask:
+        yield ask
 
 
 @pytest.mark.parametrize("said, words", NONSENSE)

@@ -57,7 +57,8 @@ def explained(runs):
     return lambda scene: json.loads(runs.execute(scene, "--explain=json").stdout)
 
 
-@pytest.mark.parametrize("dim, name, days", [(3, "ball", 1), (2, "ring", 5)])
+@pytest.mark.parametrize("dim, name, days", [
+    (2, "ring", 5), pytest.param(3, "ball", 3, marks=pytest.mark.release)])
 def test_hollow_ball(runs, make, cells, dim, name, days):
     """From an anisotropic image with touching labels, a hole and a torn label to a
     run: volumes, the surface's and the lumen's are the image's; the lumen stays."""
@@ -77,7 +78,7 @@ def test_hollow_ball(runs, make, cells, dim, name, days):
     assert first["enclosed_volume"] == pytest.approx(total, 0.02)
     hole = [np.pi, 4 / 3 * np.pi][dim - 2] * INNER**dim
     assert first["lumen_volume"] == pytest.approx(hole, 0.05)
-    assert last["time"] == days and last["cells"] > (1 + 0.04 * days) * first["cells"]
+    assert last["time"] == days and last["cells"] > 1.2 * first["cells"]
     assert last["lumen_volume"] == pytest.approx(first["lumen_volume"], 1e-3)
     places = run.cells(-1)[list("xyz"[:dim])].to_numpy() - EDGE / 2
     assert np.linalg.norm(places, axis=1).min() > INNER / 4

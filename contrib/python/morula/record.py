@@ -121,11 +121,6 @@ class Record:
         """Peak resident memory: that of the largest rank times the ranks."""
         return max(r["peak_bytes"] * r["ranks"] for r in self.repeats)
 
-    @property
-    def crowded(self):
-        """Whether other runs went on at the same time."""
-        return any(repeat["jobs"] > 1 for repeat in self.repeats)
-
     def summary(self):
         if self.finished:
             resumed = any(r.get("resumed") for r in self.repeats)
@@ -141,6 +136,6 @@ class Record:
         file = self.directory / "stderr"
         lines = file.read_text(errors="replace").split("\n") if (
             file.is_file()) else []
-        words = [line.strip() for line in lines if line.startswith("morula")]
-        words = words or [line.strip() for line in lines if line.strip()]
-        return words[-1] if words else "it said nothing"
+        words = [line.strip() for line in lines if line.strip()]
+        own = [line for line in words if line.startswith("morula")]
+        return (own or words or ["it said nothing"])[-1]

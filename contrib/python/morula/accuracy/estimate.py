@@ -45,8 +45,8 @@ class Estimate:
 
     @property
     def compared_with(self):
-        """The point whose own value stands for the right one, where no ladder
-        tells a limit: its own error is not known. Else None."""
+        """The point whose value stands for the right one where no ladder tells a
+        limit, so that its own error is not known; or None."""
         rounding = ROUNDING * max(abs(self.right), 1e-300)
         extrapolated = any(len(part.limit.weights) > 1 for part in self.parts
                            if part.used)
@@ -54,6 +54,17 @@ class Estimate:
             return None
         return next((point for point, error in self.errors.items()
                      if abs(error) <= rounding), None)
+
+    @property
+    def base(self):
+        """What differences are told against."""
+        return self.right
+
+    @property
+    def sum_of_parts(self):
+        """The changes of the ladders that count, and their uncertainty."""
+        used = [part for part in self.parts if part.used]
+        return sum(p.change for p in used), sum(p.uncertainty for p in used)
 
     @property
     def source(self):
@@ -90,22 +101,21 @@ class Estimate:
 
 
 def center_of(plan, kinds):
-    """The point that all lines go through: the scene itself, in a full grid
-    the finest corner (the scene's own value, or the first rung, where no value
-    is finer)."""
+    """The point that all lines go through: the scene itself, in a full grid the
+    finest corner."""
     if not plan.full_grid:
         return plan.own
     values = dict(zip(plan.keys, plan.own))
     for ladder in plan.ladders:
         own = [normal(values[key]) for key in ladder.keys]
         kind = kinds.get(ladder.keys[0], "none")
-        sized = [(size_of(rung[0], kind, plan.scene.dimension), rung)
-                 for rung in ladder.rungs]
-        fine = [pair for pair in sized if pair[0] is not None]
-        rung = min(fine)[1] if fine else next(
-            (r for r in ladder.rungs if list(map(normal, r)) == own),
-            ladder.rungs[0])
-        values.update(zip(ladder.keys, rung))
+
+        def coarseness(rung):
+            """Sizes first; without one the scene's own value."""
+            size = size_of(rung[0], kind, plan.scene.dimension)
+            return (math.inf if size is None else size,
+                    list(map(normal, rung)) != own)
+        values.update(zip(ladder.keys, min(ladder.rungs, key=coarseness)))
     return plan.known(tuple(values.values()))
 
 
@@ -140,7 +150,7 @@ def estimate(plan, center, kinds, measure, time, values, reference=None):
 
 
 def _part(plan, ladder, center, kinds, values):
-    """The Part of a ladder, and its limit, an array over the seeds, or None."""
+    """The Part of a ladder, and its limit, an array over the seeds."""
     points = plan.line(ladder, center)
     there = [values.get(point) for point in points]
     kind = kinds.get(ladder.keys[0], "none")
@@ -151,7 +161,7 @@ def _part(plan, ladder, center, kinds, values):
     known = [float(v.mean()) for v in there if v is not None]
     part = Part(ladder, limit_of(sizes, there, kind), max(known) - min(known))
     if part.limit is None:
-        return part, None
+        return part, values[center]
     limit = part.limit.apply(there)
     part.change = float((limit - values[center]).mean())
     part.uncertainty = part.limit.uncertainty

@@ -106,7 +106,7 @@ def style(number):
 def ladder_panel(axes, plan, found, number):
     """One measure along one ladder: values less the centre's, the limit as a
     line with the band of its uncertainty."""
-    unit, factor = scale_of(found.measure, found.right)
+    unit, factor = scale_of(found)
     ladder, part = plan.ladders[number], found.parts[number]
     center = found.values[found.center]
     points = [p for p in plan.path(ladder, found.center) if p in found.values]
@@ -138,7 +138,7 @@ def offsets_panel(axes, plan, scatters, measure, direction):
     """Differences from the mean, or the right value, against the grid's place:
     the direction in which they fall on a line is the one that matters."""
     for s in (s for s in scatters if s.measure == measure):
-        unit, factor = scale_of(measure, s.base)
+        unit, factor = scale_of(s)
         number = plan.points.index(s.point)
         axes.plot([sample.moved[direction] for sample in s.samples],
                   factor * (s.values - s.base), linestyle="none", markersize=4,

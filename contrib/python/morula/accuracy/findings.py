@@ -2,24 +2,20 @@
 # Copyright (C) 2026 by the Morula authors
 """All estimates with what the runs cost: verdicts and warnings."""
 import functools
+from collections import namedtuple
 from dataclasses import dataclass
 
 import numpy
 from morula.error_in_time import error_in_time
-from morula.execute import cores
 from morula.run import row_at
 
 from .estimate import center_of, estimate
 
 
-@dataclass(frozen=True)
-class Cost:
-    """What a point takes until a time; means over the samples."""
-
-    wall: float      # s, from the start to the end of that step
-    unknowns: float  # the most of any step until then
-    memory: float    # MB, peak of the whole run
-    in_time: float   # its own estimate of its error in time, or nan
+# What a point takes until a time, means over the samples: s, from the start to the
+# end of that step; the most unknowns of any step until then; MB, peak of the whole
+# run; and its own estimate of its error in time, or nan.
+Cost = namedtuple("Cost", "wall unknowns memory in_time")
 
 
 @dataclass(frozen=True)
@@ -112,7 +108,7 @@ class Findings:
         """The answers to --wanted, a sentence each."""
         for found in self.estimates:
             wanted = self.request.wanted.get(found.measure)
-            if wanted is None:
+            if not wanted:
                 continue
             name, best = f"{found.measure.text} to {wanted.text}", self.cheapest(found)
             if best is not None:
@@ -129,28 +125,17 @@ class Findings:
     def warnings(self):
         """What a reader must know before believing the tables."""
         request, label = self.request, self.plan.label
-        failed = {point for (point, sample), record in self.records.items()
-                  if not record.finished}
         for (point, sample), record in self.records.items():
             if not record.finished:
                 words = "".join(f", {key} = {value}" for key, value
                                 in sample.overrides(request.keys_at(point)))
                 yield f"{label(point)}{words}: left out, it {record.summary()}"
-        halved = [label(point) for point in self.plan.points if point not in failed
-                  and any(self.records[point, sample].run.statistics[
-                      "rejected_steps"].any() for sample in request.samples)]
-        if halved:
-            yield ("steps failed and were halved, so that the time step is not what "
-                   "the scene says: " + "; ".join(halved))
+            elif record.run.statistics["rejected_steps"].any():
+                yield (f"{label(point)}: steps failed and were halved, so that the "
+                       "time step is not what the scene says")
         if request.plan.random and len(request.seeds or []) < 2:
             yield ("one random seed: how much of a difference is noise is not "
                    "known; --seeds 1..8 tells")
-        if any(record.crowded for record in self.records.values()):
-            yield ("runs went on at the same time: their wall times are less "
-                   "certain than with --jobs 1")
-        if request.ranks > cores():
-            yield (f"{request.ranks} ranks on {cores()} cores: wall times mean "
-                   "nothing")
 
     def summary(self):
         """Scatter, verdicts and warnings, line by line."""

@@ -54,9 +54,8 @@ def size_of(value, kind, dimension):
 
 @dataclass
 class Limit:
-    """The limit as a combination of the values on the rungs (so that it can be
-    taken seed by seed), by how much it may be wrong, and why, in the words of
-    doc/accuracy-and-cost.md."""
+    """The limit as a combination of the values on the rungs, taken seed by seed; by
+    how much it may be wrong, and why, in the words of doc/accuracy-and-cost.md."""
 
     weights: dict
     uncertainty: float
@@ -95,7 +94,7 @@ def limit_of(sizes, values, kind):
     if len(q) < 3:
         return finest(spread + noise, "two values")
     return (_richardson(fine, q, noise)
-            or _fit(rungs, [float(values[i].mean()) for _, i in rungs], noise)
+            or _fit(rungs, numpy.array([values[i].mean() for _, i in rungs]), noise)
             or finest(spread + noise, "not asymptotic"))
 
 
@@ -112,12 +111,10 @@ def _richardson(fine, q, noise):
 
 def _fit(rungs, q, noise):
     """Q* + C s^p through all rungs by least squares, for values that scatter a
-    little because grid lines cut a tissue anew at each spacing; None where it
-    does not describe them, or where there are too few to tell."""
+    little; None where it does not describe them, or where rungs are too few."""
     if len(rungs) < 4:
         return None
     sizes = numpy.array([size for size, _ in rungs]) / rungs[-1][0]
-    q = numpy.array(q)
 
     def solve(order):
         """Rows of the pseudo-inverse, and the mean square mismatch."""
@@ -141,16 +138,13 @@ def _fit(rungs, q, noise):
 def observed_order(sizes, values):
     """p of Q(s) = Q* + C s^p through three values, fine to coarse; not a number
     if they are not monotone, or if p is outside 0.05 ... 20."""
-    s1, s2, s3 = sizes
-    q1, q2, q3 = values
-    if (q3 - q2) * (q2 - q1) <= 0:
-        return math.nan
-    ratio = (q3 - q2) / (q2 - q1)
+    (s1, s2, s3), (q1, q2, q3) = sizes, values
 
     def mismatch(p):
-        return math.log((s3**p - s2**p) / (s2**p - s1**p)) - math.log(ratio)
+        return (math.log((s3**p - s2**p) / (s2**p - s1**p))
+                - math.log((q3 - q2) / (q2 - q1)))
 
-    if mismatch(0.05) >= 0 or mismatch(20.0) <= 0:
+    if (q3 - q2) * (q2 - q1) <= 0 or mismatch(0.05) >= 0 or mismatch(20.0) <= 0:
         return math.nan
     return brentq(mismatch, 0.05, 20.0, xtol=1e-6)
 

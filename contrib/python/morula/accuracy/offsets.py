@@ -25,12 +25,12 @@ class Sample:
 
     def overrides(self, keys):
         """(key, value) beside those of the point, which has these keys."""
-        result = []
+        found = {}
         if self.moved and any(self.moved):
-            result.append((KEY, moved_offset(keys, self.moved)))
+            found[KEY] = moved_offset(keys, self.moved)
         if self.seed is not None:
-            result.append(("Random seed", str(self.seed)))
-        return result
+            found["Random seed"] = str(self.seed)
+        return list(found.items())
 
 
 def read_offsets(text, plan):
@@ -53,10 +53,8 @@ def samples(seeds, n_offsets, dimension):
 
 
 def fractions(number, dimension):
-    """The first points of Sobol's sequence, which begins at the scene's own
-    offset. Of 2^k points each direction has the positions i/2^k once each; a
-    larger number has the points of every smaller one, so that their runs are
-    used again."""
+    """The first points of Sobol's sequence: of 2^k points each direction has the
+    positions i/2^k once; a larger number has the points of every smaller one."""
     points = qmc.Sobol(dimension, scramble=False).random_base2(
         max(1, math.ceil(math.log2(number))))
     return [tuple(map(float, point)) for point in points[:number]]

@@ -12,16 +12,9 @@ COLUMN_OPTION = "--reference-column"
 
 
 class Reference:
-    """A CSV file with a column for every measure, named like it, and
-
-    - time: day; one row for every time that is asked for. Without it, one row;
-    - MEASURE_error: by how much the value may be wrong; without it, nothing is
-      known of that and it counts as zero.
-
-    Columns of other names become these by --reference-column NEW=EXPRESSION,
-    computed from the file's columns: zmax=apex, time=10*(theta-1). The error of
-    a column that is only renamed goes with it.
-    """
+    """A CSV file with a column for every measure, named like it, MEASURE_error (by
+    how much the value may be wrong; without it zero), and time (day), unless it has
+    a single row. `definitions` NEW=EXPRESSION make further columns."""
 
     def __init__(self, file, definitions=()):
         self.file = file

@@ -68,14 +68,11 @@ def run_table(findings, estimates):
     rows = []
     for point in findings.plan.points:
         cost = findings.cost(point, estimates[0].time)
-        row = [findings.plan.label(point)]
-        if cost:
-            row += [f"{cost.wall:.3g}", f"{cost.unknowns:.0f}", f"{cost.memory:.0f}",
-                    f"{digits(100 * cost.in_time, False)} %",
-                    *(error_cell(findings, e, point) for e in estimates)]
-        else:
-            row += ["failed"] + ["–"] * (len(head) - 2)
-        rows.append(row)
+        rows.append([findings.plan.label(point)] + (
+            [f"{cost.wall:.3g}", f"{cost.unknowns:.0f}", f"{cost.memory:.0f}",
+             f"{digits(100 * cost.in_time, False)} %",
+             *(error_cell(findings, e, point) for e in estimates)]
+            if cost else ["failed"] + ["–"] * (len(head) - 2)))
     rows.append(["**right value**", "", "", "", "",
                  *(f"{e.source}: {e.right:.6g} ± {e.uncertainty:.1g} "
                    f"{pretty(e.measure.unit)}" for e in estimates)])
@@ -95,17 +92,17 @@ def error_cell(findings, estimate, point):
             + " ★" * (point == findings.cheapest(estimate)))
 
 
-def scale_of(measure, value):
-    """The unit in which differences from a value are told, and the factor to it:
-    lengths in um, everything else in per cent where there is a value."""
-    if measure.unit != "um" and abs(value) > ROUNDING:
-        return "%", 100 / abs(value)
-    return pretty(measure.unit), 1.0
+def scale_of(found):
+    """The unit in which differences of an Estimate or a Scatter are told, and the
+    factor to it: lengths in um, everything else in per cent of its base."""
+    if found.measure.unit != "um" and abs(found.base) > ROUNDING:
+        return "%", 100 / abs(found.base)
+    return pretty(found.measure.unit), 1.0
 
 
-def shown(estimate, number, uncertainty=0.0, sign=True):
-    """A difference, against the right value."""
-    unit, factor = scale_of(estimate.measure, estimate.right)
+def shown(found, number, uncertainty=0.0, sign=True):
+    """A difference of an Estimate or a Scatter."""
+    unit, factor = scale_of(found)
     text, uncertain = digits(factor * number, sign), digits(factor * uncertainty, False)
     return f"{text}{'' if uncertain == '0' else f' ± {uncertain}'} {unit}".strip()
 
@@ -131,17 +128,14 @@ def scatter_table(findings, there):
         head += ["error of the mean", "errors, from", "to"]
     rows = []
     for s in there:
-        unit, factor = scale_of(s.measure, s.base)
         numbers = (s.values.mean(), s.values.min(), s.values.max())
-        row = [findings.plan.label(s.point), s.measure.text, f"{len(s.values)}"
-               + (f", {s.n_failed} failed" if s.n_failed else "")]
-        row += [f"{number:.6g} {pretty(s.measure.unit)}".strip()
-                for number in numbers]
-        row.append(f"{digits(factor * s.deviation, False)} {unit}".strip())
-        if s.right is not None:
-            row += [f"{digits(factor * (number - s.right), True)} {unit}".strip()
-                    for number in numbers]
-        rows.append(row)
+        rows.append([
+            findings.plan.label(s.point), s.measure.text, f"{len(s.values)}"
+            + (f", {s.n_failed} failed" if s.n_failed else ""),
+            *(f"{number:.6g} {pretty(s.measure.unit)}".strip() for number in numbers),
+            shown(s, s.deviation, sign=False),
+            *(shown(s, number - s.right) for number in numbers
+              if s.right is not None)])
     return table(head, rows)
 
 
@@ -156,7 +150,9 @@ def ladder_table(findings, estimates):
         own = findings.plan.rung_label(part.ladder, first.center)
         rows.append([f"{part.ladder.name}, from {own}",
                      *(part_cell(e, e.parts[i]) for e in estimates)])
-    rows.append(["**all that count**", *(sum_cell(e) for e in estimates)])
+    rows.append(["**all that count**", *(
+        shown(e, *e.sum_of_parts) if any(part.used for part in e.parts)
+        else "–" for e in estimates)])
     if first.from_file:
         rows.append(["the reference file", *(
             shown(e, -e.errors[e.center], e.uncertainty) for e in estimates)])
@@ -172,18 +168,9 @@ def ladder_table(findings, estimates):
 def part_cell(estimate, part):
     if part.limit is None:
         return f"spread {shown(estimate, part.spread, sign=False)}"
-    text = shown(estimate, part.change, part.uncertainty)
-    if part.limit.note:
-        text += f", {part.limit.note}"
+    text = ", ".join(filter(None, [shown(estimate, part.change, part.uncertainty),
+                                   part.limit.note]))
     return text if part.used else f"[{text}]"
-
-
-def sum_cell(estimate):
-    used = [part for part in estimate.parts if part.used]
-    if not used:
-        return "–"
-    return shown(estimate, sum(part.change for part in used),
-                 sum(part.uncertainty for part in used))
 
 
 def rows_of_errors(findings):

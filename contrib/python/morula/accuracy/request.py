@@ -27,8 +27,7 @@ NOT_VARIED = {"Random seed": "Use --seeds.", "Output directory": "Use --output."
 
 
 class Request:
-    """Everything asked for, and found to make sense but for what the program
-    itself says of each point."""
+    """Everything asked for; only the program itself judges each point."""
 
     def __init__(self, options):
         self.options = options
@@ -38,17 +37,14 @@ class Request:
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
         self.measures = read_measures(options.measure, self.scene.keys)
-        if not self.scene.explained["boundary points"]:
-            for measure in self.measures:
-                if measure.of_surface:
-                    raise Refused("--measure", measure.text, "a measure of the "
-                                  "cells", "The tissue has no surface, as 'Tissue/"
-                                  "Points surface' does not ask for one.")
+        of_surface = [m.text for m in self.measures if m.of_surface]
+        if of_surface and not self.scene.explained["boundary points"]:
+            raise Refused("--measure", of_surface[0], "a measure of the cells",
+                          "The tissue has no surface (Tissue/Points surface).")
         self.plan = self._plan()
         check_method(self.plan)
         self.n_offsets = read_offsets(options.offsets, self.plan)
-        self.samples = samples(self.seeds, self.n_offsets,
-                               self.scene.dimension)
+        self.samples = samples(self.seeds, self.n_offsets, self.scene.dimension)
         self.kinds = read_kinds(options.limit, self.scene)
         self.times = self._times()
         self.wanted = read_wanted(options.wanted, self.measures)
@@ -65,10 +61,9 @@ class Request:
 
     @property
     def sampled(self):
-        """What the runs of a point differ by, in words; empty if there is one
-        run a point."""
-        words = ["seeds"] if len(self.seeds or []) > 1 else []
-        return " and ".join(words + (["offsets"] if self.n_offsets else []))
+        """What the runs of a point differ by, in words; empty for one run."""
+        return " and ".join(["seeds"] * (len(self.seeds or []) > 1)
+                            + ["offsets"] * bool(self.n_offsets))
 
     @property
     def tissue_center(self):
@@ -89,10 +84,8 @@ class Request:
                         "a key that changes how well the same state is computed")
         names = [ladder.name for ladder in ladders]
         if len(set(names)) < len(names):
-            raise Refused("--vary", ", ".join(names),
-                          "one ladder for the same keys",
-                          "Put all values into one, or give them names: "
-                          "\"fine: Grid/Spacing=...\".")
+            raise Refused("--vary", ", ".join(names), "one ladder for the same keys",
+                          'Or give them names: "fine: Grid/Spacing=...".')
         return Plan(self.scene, ladders, options.grid)
 
     def _times(self):

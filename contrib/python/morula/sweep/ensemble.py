@@ -1,35 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What the runs of one combination with different seeds have in common."""
-import math
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy
+import pandas
 
-
-@dataclass(frozen=True)
-class Summary:
-    """Of n numbers; a scatter needs two of them, and is nan of fewer.
-    deviation: standard deviation of the single numbers (divided by n - 1);
-    error: standard error, that is the standard deviation of the mean."""
-
-    n: int
-    mean: float
-    deviation: float
-    error: float
-    smallest: float
-    largest: float
+# Of n numbers: mean; standard deviation of the single ones (divided by n - 1), and of
+# the mean, nan for fewer than two; extremes.
+Summary = namedtuple("Summary", "n mean deviation error smallest largest")
 
 
 def summary(values):
-    values = numpy.asarray(values, dtype=float)
-    n = len(values)
-    if n == 0:
-        return Summary(0, *[math.nan] * 5)
-    deviation = float(numpy.std(values, ddof=1)) if n > 1 else math.nan
-    return Summary(n, float(values.mean()), deviation,
-                   deviation / math.sqrt(n), float(values.min()),
-                   float(values.max()))
+    values = pandas.Series(values, dtype=float)
+    return Summary(len(values), values.mean(), values.std(), values.sem(),
+                   values.min(), values.max())
 
 
 class Ensemble:

@@ -36,19 +36,14 @@ def draw(request, ensembles, file):
 def _panel(request, axes, shown, column):
     for number, ensemble in enumerate(shown):
         times, mean, deviation = ensemble.course(column)
-        ink = _colour(number, len(shown))
+        ink = (colour(number) if len(shown) <= len(COLOURS) else
+               plt.get_cmap("viridis")(0.95 * number / (len(shown) - 1)))
         axes.plot(times, mean, color=ink, linewidth=1.4, label=ensemble.label)
         axes.fill_between(times, mean - deviation, mean + deviation,
                           color=ink, alpha=0.18, linewidth=0)
     name = column.replace("_", " ")
     found = unit(request, column)
     axes.set(xlabel="time, day", ylabel=f"{name}, {pretty(found)}" if found else name)
-
-
-def _colour(number, total):
-    if total <= len(COLOURS):
-        return colour(number)
-    return plt.get_cmap("viridis")(0.95 * number / (total - 1))
 
 
 def _legend(axes, shown):

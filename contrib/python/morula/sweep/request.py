@@ -5,21 +5,17 @@ import difflib
 
 from morula import columns
 from morula.command_line import output_directory, ranks_and_jobs
-from morula.kept_runs import Job, job_name
+from morula.kept_runs import Job, job_name, with_snapshots
 from morula.ladder import (Plan, SamplesPlan, check_method, check_seeds,
                            read_ladder, read_samples, read_seeds, refuse_keys)
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
-from morula.scene import Scene, as_number
+from morula.scene import Scene
 
 # Keys that cannot be varied, and why.
 NOT_VARIED = {"Random seed": "Use --seeds.", "Output directory": "Use --output."}
 CHANGES = "a key that changes results"
-
-# Snapshots in a run of a scene that asks for none before its end: what an
-# interruption may lose.
-N_SNAPSHOTS = 10
 
 
 class Request:
@@ -86,19 +82,9 @@ class Request:
         if seed is not None:
             special.append(("Random seed", str(seed)))
         overrides = (*self.scene.overrides, *special,
-                     *self._snapshots({**self.scene.keys, **dict(special)}))
+                     *with_snapshots({**self.scene.keys, **dict(special)}))
         return Job(job_name(special, overrides), overrides,
                    ("cells", "surface", "snapshot"))
-
-    @staticmethod
-    def _snapshots(keys):
-        """Without snapshots nothing could be resumed; they never change the
-        steps."""
-        end = as_number(keys["Time/End time"])
-        if as_number(keys["Output/Snapshot interval"]) != 0 or not end:
-            return ()
-        return (("Output/Snapshot interval",
-                 format(end / N_SNAPSHOTS, ".6g")),)
 
 
 def read_columns(text, known):

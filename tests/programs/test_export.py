@@ -3,7 +3,6 @@
 """contrib/export: tracks give back the lineage that they were made of; what others
 read is after their specifications; labels fill the cells' regions."""
 import json
-import os
 
 import h5py
 import numpy as np
@@ -309,15 +308,3 @@ def test_tissue_without_a_surface(runs, export):
     for tool, *words in (["cell-shapes"], ["render", "--shapes"]):
         said = runs.call([CONTRIB / tool, run.directory, *words], 1).stderr
         assert "allowed is tissue with boundary points" in said
-
-
-@pytest.mark.parametrize("library, words", [
-    ("zarr", ["a.geff"]), ("h5py", ["a.h5ad"]),
-    ("tifffile", ["a.tif", "--voxel", "10"])])
-def test_missing_libraries(runs, cube, tmp_path, library, words):
-    (tmp_path / f"{library}.py").write_text(
-        f"raise ModuleNotFoundError('No module named {library}', name='{library}')\n")
-    path = f"PYTHONPATH={tmp_path}:{CONTRIB / 'python'}"
-    said = runs.call(["env", path, "/usr/bin/python3", "-P", "-m", "morula", "export",
-                      cube.directory, *words], 1, cwd=tmp_path)
-    assert f"Debian's package python3-{library} has it" in said.text

@@ -6,7 +6,7 @@ import re
 import tomllib
 
 import pytest
-from morula.__main__ import TOOLS
+from morula.__main__ import PACKAGES, TOOLS, missing
 from tests.common.program import TESTS
 
 pytestmark = pytest.mark.quick
@@ -49,6 +49,13 @@ def test_an_installed_package_needs_no_other():
     for file in (PYTHON / "morula").rglob("*.py"):
         assert not re.search(r"(?m)^\s*(from|import) (tests|upkeep|reproduction)\b",
                              file.read_text()), file
+
+
+def test_missing_libraries():
+    """Debian's package is named; what is no library of the tools is no such error."""
+    for library, package in PACKAGES.items():
+        assert package in missing(ModuleNotFoundError(name=f"{library}.part"))
+    assert missing(ModuleNotFoundError(name="morula")) is None
 
 
 def test_unknown_tool(runs):

@@ -214,6 +214,7 @@ def test_interrupted(runs, found, words, sweep):
     assert_same_file(whole / "lineage.csv", resumed / "lineage.csv")
 
 
+@pytest.mark.release
 def test_stopped(runs, found, words, sweep):
     """SIGTERM: no run is left over, nothing that has been done is lost."""
     process = subprocess.Popen(words(*SLOW), text=True, stdout=subprocess.DEVNULL,

@@ -58,11 +58,10 @@ def figure_of(findings, time):
 def cost_panel(axes, findings, found):
     """Errors against wall time: each ladder, the Pareto front, what is wanted."""
     plan, walls, wanted = findings.plan, findings.walls(found), findings.wanted(found)
-    errors = [abs(error) for error in found.errors.values() if error != 0]
-    largest = max([*errors, wanted or 0]) or 1.0
-    low = 0.4 * max(min([*errors, wanted or largest], default=largest),
-                    0.1 * found.floor, 1e-5 * largest)
-    limits = low, 2.2 * max(largest, found.floor)
+    shown = [abs(error) for error in found.errors.values()] + [wanted or 0]
+    largest = max(*shown, found.floor) or 1.0
+    low = 0.4 * max(min(filter(None, shown), default=largest), 1e-5 * largest)
+    limits = low, 2.2 * largest
     heights = {point: max(abs(error), 1.25 * low)
                for point, error in found.errors.items()}
     axes.set(xscale="log", yscale="log", ylim=limits, xlim=padded(walls.values()),
@@ -82,9 +81,7 @@ def cost_panel(axes, findings, found):
         points = [p for p in plan.path(ladder, found.center) if p in walls]
         axes.plot([walls[p] for p in points], [heights[p] for p in points],
                   label=ladder.name, **style(number))
-        for point in points:
-            if point == found.center:
-                continue
+        for point in (p for p in points if p != found.center):
             axes.annotate(plan.rung_label(ladder, point),
                           (walls[point], heights[point]), (4, 3), fontsize=6,
                           textcoords="offset points", color=colour(number))
@@ -111,20 +108,19 @@ def ladder_panel(axes, plan, found, number):
     center = found.values[found.center]
     points = [p for p in plan.path(ladder, found.center) if p in found.values]
     x = [as_number(plan.value(p, ladder.keys[0])) for p in points]
-    if not all(x) or len(set(x)) < len(x):  # words, 0 for 'automatic'
+    if not all(x) or min(x) < 0 or len(set(x)) < len(x):  # words; 0: automatic
         x = [plan.rung_label(ladder, p) for p in points]
     else:
         axes.set(xscale="log", xlim=padded(x))
         log_ticks(axes.xaxis, *axes.get_xlim(), short=True)
     pairs = sorted(zip(x, points), key=lambda pair: as_number(str(pair[0])) or 0)
-    axes.axhline(0, color="0.8", linewidth=0.8, zorder=0)
     if found.from_file:
         axes.axhline(factor * (found.right - center), color="black", linewidth=0.9,
                      linestyle=DOTTED)
     if part.limit is not None:
-        low, high = (factor * (part.change + sign * part.uncertainty)
-                     for sign in (-1, 1))
-        axes.axhspan(low, high, color=colour(number), alpha=0.15, linewidth=0)
+        axes.axhspan(factor * (part.change - part.uncertainty),
+                     factor * (part.change + part.uncertainty),
+                     color=colour(number), alpha=0.15, linewidth=0)
         axes.axhline(factor * part.change, color=colour(number), linewidth=0.9,
                      linestyle=DASHED)
     axes.errorbar([a for a, _ in pairs],

@@ -10,8 +10,6 @@ from morula.tables import markdown as table_of
 
 from .limits import ROUNDING
 
-TENS = ".10g"
-
 
 def write_tables(findings, directory):
     """table.md; with ladders table.csv, with offsets scatter.csv and offsets.csv."""
@@ -145,24 +143,21 @@ def ladder_table(findings, estimates):
     first = estimates[0]
     if not first.parts:
         return "The run that all ladders share has failed."
-    rows = []
-    for i, part in enumerate(first.parts):
-        own = findings.plan.rung_label(part.ladder, first.center)
-        rows.append([f"{part.ladder.name}, from {own}",
-                     *(part_cell(e, e.parts[i]) for e in estimates)])
-    rows.append(["**all that count**", *(
-        shown(e, *e.sum_of_parts) if any(part.used for part in e.parts)
-        else "–" for e in estimates)])
+    cells = {
+        f"{part.ladder.name}, from "
+        + findings.plan.rung_label(part.ladder, first.center):
+        lambda e, i=i: part_cell(e, e.parts[i]) for i, part in enumerate(first.parts)}
+    cells["**all that count**"] = lambda e: (
+        shown(e, *e.sum_of_parts) if any(part.used for part in e.parts) else "–")
     if first.from_file:
-        rows.append(["the reference file", *(
-            shown(e, -e.errors[e.center], e.uncertainty) for e in estimates)])
+        cells["the reference file"] = lambda e: shown(
+            e, -e.errors[e.center], e.uncertainty)
     if findings.request.sampled:
-        rows.append([f"scatter between {findings.request.sampled} "
-                     "(standard deviation)", *(
-                         shown(e, e.scatter[e.center], sign=False)
-                         for e in estimates)])
+        cells[f"scatter between {findings.request.sampled} (standard deviation)"] = (
+            lambda e: shown(e, e.scatter[e.center], sign=False))
     return table(["ladder", *(f"{e.measure.text}, change" for e in estimates)],
-                 rows) + "\n\nIn square brackets: does not count."
+                 [[name, *map(cell, estimates)] for name, cell in cells.items()]
+                 ) + "\n\nIn square brackets: does not count."
 
 
 def part_cell(estimate, part):
@@ -183,12 +178,10 @@ def rows_of_errors(findings):
         front, best = findings.front(e), findings.cheapest(e)
         for point in e.values:
             cost = findings.cost(point, e.time)
-            numbers = [e.values[point], e.scatter[point], e.right,
-                       e.uncertainty, e.errors[point], e.noise[point],
-                       int(point in front), int(point == best), cost.wall,
-                       cost.unknowns, cost.memory]
-            yield [*point, format(e.time, TENS), e.measure.text, e.measure.unit,
-                   *(format(number, TENS) for number in numbers), e.source]
+            yield [*point, tens(e.time), e.measure.text, e.measure.unit, *map(tens, (
+                e.values[point], e.scatter[point], e.right, e.uncertainty,
+                e.errors[point], e.noise[point], int(point in front),
+                int(point == best), *cost[:3])), e.source]
 
 
 def rows_of_scatter(findings):
@@ -196,10 +189,10 @@ def rows_of_scatter(findings):
     yield [*findings.plan.keys, "time", "measure", "unit", "runs", "failed",
            "mean", "smallest", "largest", "standard_deviation", "right_value"]
     for s in findings.scatters:
-        numbers = (s.values.mean(), s.values.min(), s.values.max(), s.deviation)
-        yield [*s.point, format(s.time, TENS), s.measure.text, s.measure.unit,
-               len(s.values), s.n_failed,
-               *(format(number, TENS) for number in numbers), right_of(s)]
+        yield [*s.point, tens(s.time), s.measure.text, s.measure.unit,
+               len(s.values), s.n_failed, *map(tens, (
+                   s.values.mean(), s.values.min(), s.values.max(), s.deviation,
+                   s.right))]
 
 
 def rows_of_runs(findings):
@@ -210,10 +203,10 @@ def rows_of_runs(findings):
     for s in findings.scatters:
         for sample, value in zip(s.samples, s.values):
             yield [*s.point, "" if sample.seed is None else sample.seed,
-                   *(format(part, TENS) for part in sample.moved),
-                   format(s.time, TENS), s.measure.text, s.measure.unit,
-                   format(value, TENS), right_of(s)]
+                   *map(tens, (*sample.moved, s.time)), s.measure.text,
+                   s.measure.unit, *map(tens, (value, s.right))]
 
 
-def right_of(scatter):
-    return "" if scatter.right is None else format(scatter.right, TENS)
+def tens(number):
+    """Ten digits; nothing for what is not known."""
+    return "" if number is None else format(number, ".10g")

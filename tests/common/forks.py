@@ -67,7 +67,9 @@ def call_tool(words, cwd, timeout):
             os.dup2(out.fileno(), 1)
             os.dup2(err.fileno(), 2)
             os.chdir(cwd or ".")
-            os.environ.update(execute.ENVIRONMENT)
+            # what contrib/python/launch sets, for processes that the tool starts
+            os.environ.update(execute.ENVIRONMENT, PYTHONPATH=os.pathsep.join(
+                map(str, (CONTRIB / "python", CONTRIB.parent))))
             execute.Processes.call = forked(execute.Processes.call)
             sys.argv = ["morula", tool, *words[1:]]
             sys.exit(main())

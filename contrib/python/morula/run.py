@@ -41,8 +41,11 @@ WHOLE = ("id", "parent", "generation", "phase", "type", "condition",
 TIME_SLACK = 1e-9
 
 
-class NoStates(Exception):
+class NoStates(Refused):
     """A run has written none of the states asked for."""
+
+    def __init__(self, text):
+        Exception.__init__(self, text)
 
 
 def read_csv(file):

@@ -42,8 +42,8 @@ def scene(runs):
 
 @pytest.fixture(scope="module")
 def whole(runs):
-    """A run to day 0.5 by the program itself."""
-    return runs.run("whole", CUBE, {"Time/End time": 0.5})
+    """A run by the program itself."""
+    return runs.run("whole", CUBE)
 
 
 def test_scene(runs, scene):

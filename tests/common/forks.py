@@ -53,8 +53,11 @@ def is_tool(path):
 def is_program(morula):
     """Whether this is the program itself where it was built: no script in its
     place, and no copy, which a test may want to change."""
-    return (morula.name == "morula" and (morula.parent / "tests").is_dir()
-            and morula.is_file() and morula.open("rb").read(4) == b"\x7fELF")
+    if (morula.name != "morula" or not morula.is_file()
+            or not (morula.parent / "tests").is_dir()):
+        return False
+    with morula.open("rb") as file:
+        return file.read(4) == b"\x7fELF"
 
 
 def call_tool(words, cwd, timeout):

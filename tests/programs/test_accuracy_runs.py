@@ -224,7 +224,7 @@ def test_two_ranks(accuracy, table):
     accuracy(SCENES.parent / "programs/small-cube.prm", "--ranks", "2", "--vary",
              "Grid/Spacing,Tissue/Cell spacing=60:20,40:12", "--vary",
              "Solver/Linear solver=iterative,direct", "--measure", "zmax")
-    heights = {(row["Grid/Spacing"], row["Solver/Linear solver"]): float(row["value"])
-               for row in table()}
-    assert heights["35", "direct"] == pytest.approx(heights["35", "iterative"], 1e-5)
-    assert abs(heights["60", "iterative"] - heights["35", "iterative"]) > 1e-3
+    heights = {row["Grid/Spacing"]: float(row["value"]) for row in table()}
+    solved = [float(row["value"]) for row in table() if row["Grid/Spacing"] == "35"]
+    assert len(solved) >= 2 and solved == pytest.approx([solved[0]] * len(solved), 1e-5)
+    assert abs(heights["60"] - heights["35"]) > 1e-3

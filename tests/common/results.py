@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What a run has written, and how to judge it."""
+"""A run with the closed forms of its material, and how to judge them."""
 import sys
 from pathlib import Path
 
 import numpy
 from morula.prm import parse
-from morula.run import read_csv
+from morula.run import Run, places, read_csv
+
+__all__ = ["Results", "agree", "initial_positions", "positions", "read_csv",
+           "read_keys", "root", "stresses"]
+positions = places  # current ones, of cells or boundary points, one row each
 
 
 def read_keys(file):
@@ -14,13 +18,8 @@ def read_keys(file):
     return parse(Path(file).read_text(encoding="utf-8"))
 
 
-class Results:
-    """The files in an output directory, read on demand."""
-
-    def __init__(self, directory):
-        self.directory = Path(directory)
-        self.keys = read_keys(self.directory / "parameters.prm")
-        self.dimension = int(self.keys["Dimension"])
+class Results(Run):
+    """A Run whose tables are arrays."""
 
     def statistics(self):
         return read_csv(self.directory / "statistics.csv")
@@ -38,9 +37,6 @@ class Results:
     def last_surface(self):
         return read_csv(self.outputs("surface")[-1])
 
-    def number(self, key):
-        return float(self.keys[key])
-
     def numbers(self, key):
         """Components of a key with several, without those 2-D lacks."""
         values = [float(value) for value in self.keys[key].split(",")]
@@ -48,18 +44,12 @@ class Results:
 
     def function(self, key, X, t):
         """A key that is an expression, at positions X (rows) and time t."""
-        def value(text):
-            names = dict(zip("XYZ", [*X.T, numpy.zeros(len(X))]), t=t,
-                         **{name: getattr(numpy, name)
-                            for name in ("sin", "cos", "exp", "sqrt")})
-            formula = text.replace("^", "**")
-            return numpy.broadcast_to(eval(formula, {}, names), len(X))
-
-        components = self.keys[key].split(";")
-        if len(components) == 1:
-            return value(components[0])
-        return numpy.array(
-            [value(text) for text in components[: self.dimension]]).T
+        names = {name: getattr(numpy, name) for name in ("sin", "cos", "exp", "sqrt")}
+        names |= dict(zip("XYZ", [*X.T, numpy.zeros(len(X))]), t=t)
+        components = self.keys[key].replace("^", "**").split(";")[:self.dimension]
+        values = [numpy.broadcast_to(eval(text, {}, names), len(X))
+                  for text in components]
+        return values[0] if len(values) == 1 else numpy.array(values).T
 
     def lame(self):
         """The Lame constants (lambda, mu) in kPa of a homogeneous tissue."""
@@ -86,26 +76,16 @@ class Results:
         return self.keys["Material/Energy per"] == "grown volume"
 
 
-def positions(points):
-    """Current positions of cells or boundary points, one row each."""
-    return numpy.array([points["x"], points["y"], points["z"]]).T
-
-
 def initial_positions(points):
     """Initial (founders') positions, one row each."""
-    return numpy.array([points["X"], points["Y"], points["Z"]]).T
+    return numpy.stack([points[axis] for axis in "XYZ"], axis=1)
 
 
 def stresses(cells):
     """Cauchy stresses in kPa, one 3 x 3 tensor a cell."""
-    sigma = numpy.empty((len(cells), 3, 3))
-    for i, a in enumerate("xyz"):
-        for j, b in enumerate("xyz"):
-            name = f"sigma_{a}{b}"
-            if name not in cells.dtype.names:
-                name = f"sigma_{b}{a}"
-            sigma[:, i, j] = cells[name]
-    return sigma
+    return numpy.stack([numpy.asarray(cells[f"sigma_{name}"]) for name in
+                        ("xx", "xy", "zx", "xy", "yy", "yz", "zx", "yz", "zz")],
+                       axis=1).reshape(-1, 3, 3)
 
 
 def agree(what, computed, exact, tolerance):
@@ -118,12 +98,6 @@ def agree(what, computed, exact, tolerance):
 
 
 def root(function, low, high):
-    """The zero of a function with a sign change, by bisection."""
-    positive_at_low = function(low) > 0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        if (function(middle) > 0) == positive_at_low:
-            low = middle
-        else:
-            high = middle
-    return 0.5 * (low + high)
+    """The zero of a function with a sign change."""
+    from scipy.optimize import brentq
+    return brentq(function, low, high, xtol=1e-15 * max(abs(low), abs(high)))

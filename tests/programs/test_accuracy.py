@@ -1,391 +1,378 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""contrib/accuracy: what it makes of scenes that it has never seen, and whether
-its estimates are right where the truth is known.
-"""
-import csv
+"""contrib/accuracy: its estimates against made-up values whose limit, order, noise
+and front are known, and what it refuses. Only the refusals ask the program."""
 import math
-import shutil
-import statistics
-from pathlib import Path
 
-from morula import columns
-from tests.common.program import ProgramTest, read_csv
+import numpy
+import pytest
+from morula.accuracy import offsets, request
+from morula.accuracy.estimate import center_of, estimate
+from morula.accuracy.limits import DEFAULT_KINDS, limit_of, observed_order, size_of
+from morula.accuracy.measures import read_measure
+from morula.accuracy.options import parser
+from morula.accuracy.wanted import Wanted, read_wanted
+from morula.ladder import Plan, read_ladder, read_seeds
+from morula.refusal import Refused
+from morula.scene import normal
+from tests.common import requests
+from tests.common.program import TESTS
 
-from tests.verification.radial import GrowingBall, Layer
-
-ROOT = Path(__file__).resolve().parents[2]
-
-# A disc whose cells divide at random.
-DISC = """
-set Dimension = 2
-subsection Time
-  set End time = 1
-  set Step = 0.25
-end
-subsection Tissue
-  set Radius = 80
-  set Cell spacing = 10
-end
-subsection Grid
-  set Spacing = 40
-end
-subsection Proliferation
-  set Law = cell cycle
-end
-"""
-
-# A disc that grows most at its rim, with nothing random.
-GRADED_DISC = """
-set Dimension = 2
-subsection Time
-  set End time = 1
-  set Step = 1
-end
-subsection Tissue
-  set Radius = 250
-  set Cell spacing = 10
-end
-subsection Grid
-  set Spacing = 50
-end
-subsection Growth
-  set Law = isotropic
-  subsection Isotropic
-    set Stretch = 1 + 0.4*t*(X^2+Y^2)/250^2
-  end
-end
-subsection Solver
-  set Newton tolerance = 1e-9
-end
-"""
-
-# A cylinder under pressure that stands on a slip plane.
-CYLINDER = """
-subsection Time
-  set End time = 1
-  set Step = 1
-end
-subsection Tissue
-  set Shape = cylinder
-  set Center = 0, 0, 60
-  set Radius = 60
-  set Size = 0, 0, 120
-  set Cell spacing = 12
-end
-subsection Grid
-  set Spacing = 40
-end
-subsection Boundary conditions
-  set Slip where = Z <= 0
-  set Slip normal = 0, 0, 1
-  set Pressure where = Z >= 120
-  set Pressure = 0.1 * t
-end
-"""
+pytestmark = pytest.mark.quick
+SPACE = {"Dimension": "3"}  # keys of a scene
+COARSE = "Grid/Spacing=100,75,50"
+DISC = TESTS / "programs/disc.prm"
 
 
-class AccuracyTest(ProgramTest):
-    """With the tool, the program and a directory."""
+class MadeUpScene:
+    """Keys without a program behind them."""
 
-    def accuracy(self, scene, *arguments, code=0):
-        words = [ROOT / "contrib/accuracy", scene, "--output",
-                 self.work / "found"]
-        if "--morula" not in arguments:
-            words += ["--morula", self.options.morula, "--mpiexec",
-                      self.options.mpiexec]
-        return self.run_words([*map(str, words), *arguments], code)
+    dimension = 3
+    keys = {"Grid/Spacing": "50", "Tissue/Cell spacing": "10",
+            "Time/Step": "1", "Grid/Occupation parameter": "0.85",
+            "Solver/Newton tolerance": "1e-6", "Tissue/Size": "1, 2, 3"}
 
-    def rows(self):
-        """table.csv as dictionaries of text."""
-        with (self.work / "found/table.csv").open(encoding="utf-8") as stream:
-            return list(csv.DictReader(stream))
+    def __getitem__(self, key):
+        return self.keys[key]
 
-    def table(self):
-        return (self.work / "found/table.md").read_text(encoding="utf-8")
+    def require_key(self, key, option):
+        assert key in self.keys, (key, option)
 
 
-class UnseenScenes(AccuracyTest):
-    def test_disc_that_proliferates(self):
-        """Means over seeds, cells' files, a grid of combinations; and the same
-        command again does no run twice."""
-        scene = self.write("disc.prm", DISC)
-        command = [scene, "--grid", "--vary", "Grid/Spacing=80,40",
-                   "--vary", "Time/Step=0.25,0.125",
-                   "--seeds", "1..3", "--at", "0.5,1", "--measure",
-                   "cells,cells:p90(energy_density),surface:max(radius)",
-                   "--wanted", "surface:max(radius)=20%"]
-        first = self.accuracy(*command)
-        rows = self.rows()
-        self.assertEqual(len(rows), 4 * 2 * 3)
-        scatter = {(row["time"], row["measure"]): float(row["seed_scatter"])
-                   for row in rows}
-        self.assertTrue(all(value > 0 for (time, _), value in scatter.items()
-                            if time == "1"))
-        last = [row for row in rows if row["measure"] == "cells"
-                and row["time"] == "1" and row["Grid/Spacing"] == "40"
-                and row["Time/Step"] == "0.25"]
-        counts = [read_csv(file)["cells"][-1] for file in
-                  sorted((self.work / "found/runs").glob(
-                      "Random-seed=*/output/statistics.csv"))]
-        self.assertEqual(len(counts), 3)
-        self.assertAlmostEqual(float(last[0]["value"]), sum(counts) / 3)
-        for name in ("cells-day-1.png", "alone-day-0.5.png",
-                     "surface-max-radius-day-1.png"):
-            self.assertTrue((self.work / "found" / name).is_file(), name)
-        self.assertNotIn("from before", first.stdout)
-
-        second = self.accuracy(*command)
-        self.assertEqual(second.stdout.count("from before"), 12)
-        self.assertEqual(self.rows(), rows)
-
-    def test_executable_that_changes(self):
-        """Runs of two builds must not be compared: those of the old one are
-        done anew, and a build in mid-run ends the command."""
-        scene = self.write("disc.prm", DISC)
-        copy = self.work / "morula"
-        command = [scene, "--morula", str(copy), "--vary",
-                   "Grid/Spacing=80,40", "--measure", "xmax"]
-        shutil.copy(self.options.morula, copy)
-        self.accuracy(*command)
-        self.assertEqual(self.accuracy(*command).stdout.count("from before"),
-                         2)
-        with copy.open("ab") as stream:
-            stream.write(b"another build")
-        self.assertNotIn("from before", self.accuracy(*command).stdout)
-
-        script = self.write("replaces-itself", "#!/bin/sh\n"
-                            "case $* in *--parameters*|*--explain*) ;;\n"
-                            f"*) echo '# new' >> {copy} ;; esac\n"
-                            f"exec {self.options.morula} \"$@\"\n")
-        shutil.copy(script, copy)
-        copy.chmod(0o755)
-        self.assertIn("nobody replaces",
-                      self.accuracy(*command, code=1).stderr)
-
-    def test_cylinder_under_pressure_on_two_ranks(self):
-        scene = self.write("cylinder.prm", CYLINDER)
-        result = self.accuracy(
-            scene, "--ranks", "2", "--vary",
-            "Grid/Spacing,Tissue/Cell spacing=60:20,40:12,30:10", "--vary",
-            "Solver/Linear solver=iterative,direct", "--measure",
-            "zmax,mean_energy_density")
-        self.assertIn("tables and figures", result.stdout)
-        rows = self.rows()
-        self.assertEqual({row["Grid/Spacing"] for row in rows},
-                         {"60", "40", "30"})
-        for row in rows:
-            self.assertGreater(float(row["memory_mb"]), 50)
-            self.assertGreater(float(row["wall_seconds"]), 0)
-        # the solver makes no difference, the grid does
-        heights = [float(row["value"]) for row in rows
-                   if row["measure"] == "zmax"]
-        self.assertIn("spread", self.table())
-        self.assertGreater(max(heights) - min(heights), 1e-3)
-
-    def test_runs_that_fail(self):
-        """Without extension and with grid lines that barely cut the tissue,
-        no step converges."""
-        scene = ROOT / "tests/scenes/without-extension-fails.prm"
-        result = self.accuracy(
-            scene, "--vary", "Grid/Extension=false,true", "-s",
-            "Grid/Extension=true", "--measure", "zmax")
-        self.assertIn("Extension = false: left out, it failed with exit "
-                      "code 2", result.stdout)
-        self.assertIn("| failed |", self.table())
-        self.assertEqual(len(self.rows()), 1)
-
-        # without the run that all ladders share, only a file knows the truth
-        words = [scene, "--vary", "Grid/Extension=false,true", "--measure",
-                 "zmax"]
-        self.assertIn("-s", self.accuracy(*words, code=2).stderr)
-        reference = self.write("reference.csv", "zmax\n250\n")
-        self.accuracy(*words, "--reference", str(reference))
-        self.assertEqual(len(self.rows()), 1)
+class MadeUpReference:
+    def value(self, _measure, _time):
+        return 5.0, 0.1
 
 
-# A disc, half of whose rim is held, that grows.
-HELD_DISC = """
-set Dimension = 2
-subsection Time
-  set End time = 2
-  set Step = 1
-end
-subsection Tissue
-  set Radius = 120
-  set Cell spacing = 8
-end
-subsection Grid
-  set Spacing = 40
-  set Offset = 3, 5
-end
-subsection Growth
-  set Law = isotropic
-  subsection Isotropic
-    set Stretch = 1 + 0.1*t
-  end
-end
-subsection Boundary conditions
-  set Fixed where = Y <= 0
-end
-"""
+def plan_of(*ladders, full_grid=False):
+    scene = MadeUpScene()
+    return Plan(scene, [read_ladder(text, scene) for text in ladders], full_grid)
 
 
-class Offsets(AccuracyTest):
-    def csv(self, name):
-        with (self.work / "found" / name).open(encoding="utf-8") as stream:
-            return list(csv.DictReader(stream))
-
-    def test_scatter_is_that_of_the_runs(self):
-        """Every run stands where it says, and the table is made of them."""
-        scene = self.write("disc.prm", HELD_DISC)
-        measure = ["--measure", "ymax,mean_energy_density"]
-        result = self.accuracy(scene, *measure, "--offsets", "4")
-        self.assertIn("standard deviation", result.stdout)
-        runs = self.csv("offsets.csv")
-        self.assertEqual(len(runs), 4 * 2)
-        moved = {(row["moved_x"], row["moved_y"]) for row in runs}
-        self.assertEqual(moved, {("0", "0"), ("0.5", "0.5"), ("0.75", "0.25"),
-                                 ("0.25", "0.75")})
-        for row in runs:
-            offset = [3 + 40 * float(row["moved_x"]),
-                      5 + 40 * float(row["moved_y"])]
-            words = ("" if offset == [3, 5]
-                     else f"-s Grid/Offset={offset[0]:g},{offset[1]:g}")
-            output = self.work / f"by-hand/{offset[0]:g}"
-            self.execute(scene, *words.split(), output=output)
-            there = read_csv(output / "statistics.csv")[row["measure"]][-1]
-            self.assertAlmostEqual(float(row["value"]) / there, 1, places=8)
-        for row in self.csv("scatter.csv"):
-            values = [float(run["value"]) for run in runs
-                      if run["measure"] == row["measure"]]
-            self.assertAlmostEqual(float(row["mean"]), statistics.mean(values))
-            self.assertAlmostEqual(float(row["standard_deviation"]),
-                                   statistics.stdev(values))
-            self.assertAlmostEqual(float(row["smallest"]), min(values))
-            self.assertAlmostEqual(float(row["largest"]), max(values))
-            # and there is something to see
-            self.assertGreater(max(values) / min(values), 1.0001)
-            self.assertEqual(row["runs"], "4")
-        self.assertIn("## Scatter at day 2", self.table())
-        self.assertTrue((self.work / "found/offsets.png").is_file())
-
-        # a larger number has the runs of the smaller one
-        again = self.accuracy(scene, *measure, "--offsets", "6")
-        self.assertEqual(again.stdout.count("from before"), 4)
-
-    def test_method_with_offsets_and_a_reference(self):
-        """Beside a ladder and a file of right values: the unsymmetric form
-        scatters less, at either spacing the grid is moved by parts of it."""
-        scene = self.write("disc.prm", "set Method = paper\n" + HELD_DISC)
-        reference = self.write("right.csv", "mean_energy_density\n0.05\n")
-        form = "Boundary conditions/Nitsche form"
-        penalty = "Boundary conditions/Nitsche penalty"
-        self.accuracy(scene, "--vary",
-                      f"{form},{penalty}=symmetric:1000,unsymmetric:20",
-                      "--vary", "Grid/Spacing=40,60", "--measure", "mean_energy_density",
-                      "--offsets", "4", "--reference", str(reference))
-        rows = {(row[form], row["Grid/Spacing"]): row
-                for row in self.csv("scatter.csv")}
-        self.assertEqual(len(rows), 3)
-        self.assertLess(float(rows["unsymmetric", "40"]["standard_deviation"]),
-                        0.5 * float(rows["symmetric", "40"]
-                                    ["standard_deviation"]))
-        offsets = {tuple(map(float, line.partition("=")[2].split(",")))
-                   for file in (self.work / "found/runs").glob(
-                       "*/output/parameters.prm")
-                   for line in file.read_text().splitlines()
-                   if line.strip().startswith("set Offset")}
-        self.assertEqual(offsets, {(3, 5), (23, 25), (33, 15), (13, 35),
-                                   (33, 35), (48, 20), (18, 50)})
-        self.assertIn("errors, from", self.table())
-        self.assertIn("scatter between offsets", self.table())
-        self.assertEqual(len(self.rows()), 3)
+def estimate_of(plan, function, seeds=(0.0,), reference=None):
+    """With the values function(number of each key, seed)."""
+    center = center_of(plan, DEFAULT_KINDS)
+    values = {point: numpy.array([function(*map(float, point), seed)
+                                  for seed in seeds]) for point in plan.points}
+    return estimate(plan, center, DEFAULT_KINDS, read_measure("zmax", SPACE), 1.0,
+                    values, reference)
 
 
-class Truth(AccuracyTest):
-    def test_estimate_of_the_right_value(self):
-        """Where the exact solution is known, the limit of the ladders must
-        agree with it within the uncertainty that is stated."""
-        scene = self.write("graded.prm", GRADED_DISC)
-        ladder = ["--vary", "Grid/Spacing,Tissue/Cell spacing="
-                  "100:20,70:14,50:10,35:7", "--measure",
-                  "surface:mean(radius),total_volume"]
-        self.accuracy(scene, *ladder)
-        exact = self.exact_radius()
-        rows = self.rows()
-        for row in rows:
-            right = (exact if row["measure"].startswith("surface")
-                     else math.pi * exact**2)
-            error = abs(float(row["right_value"]) - right)
-            stated = float(row["right_value_uncertainty"])
-            self.assertLess(error, stated, row["measure"])
-            # and no excuse: the radius to 0.2 um, the volume to 3 %
-            self.assertLess(stated, 0.2 if row["unit"] == "um"
-                            else 0.03 * right, row["measure"])
-
-        reference = self.write("exact.csv", f"r,total_volume\n{exact},"
-                               f"{math.pi * exact**2}\n")
-        self.accuracy(scene, *ladder, "--reference", str(reference),
-                      "--reference-column", "surface:mean(radius)=r",
-                      "--wanted", "1%")
-        for row in self.rows():
-            self.assertAlmostEqual(
-                float(row["error"]),
-                float(row["value"]) - float(row["right_value"]), places=4)
-            self.assertEqual(float(row["right_value_uncertainty"]), 0)
-        best = [row for row in self.rows()
-                if row["least_time_for_wanted"] == "1"]
-        self.assertEqual(len(best), 2)
-
-    @staticmethod
-    def exact_radius():
-        constants = (0.4 / 1.4 / 0.2, 0.5 / 1.4)  # E = 1 kPa, nu = 0.4
-        ball = GrowingBall(
-            [Layer(0, 250, lambda R: 1 + 0.4 * R**2 / 250**2,
-                   lambda R: 0.8 * R / 250**2)], constants, 2, False)
-        return float(250 * ball.stretches([250.0])[1][0])
+def limits_of(sizes, values, kind="zero"):
+    return limit_of(sizes, [numpy.atleast_1d(value) for value in values], kind)
 
 
-class Documentation(AccuracyTest):
-    def test_short_ladders(self):
-        """Ladders of doc/accuracy-and-cost.md, few and coarse: what they
-        are to show must show."""
-        self.run_words([str(ROOT / "contrib/upkeep/accuracy-ladders"), "--short",
-                        "half-fixed-sphere", "grid-offsets",
-                        "--morula", self.options.morula, "--output",
-                        str(self.work / "found")])
-        with (self.work / "found/half-fixed-sphere.short/table.csv").open(
-                encoding="utf-8") as stream:
-            energy = {row["Grid/Spacing"]: float(row["value"])
-                      for row in csv.DictReader(stream)
-                      if row["measure"] == "mean_energy_density"}
-        # the clamp edge: too stiff a grid stores too much energy
-        self.assertGreater(energy["100"], energy["75"])
-        # and less with the consistent method, wherever the grid lies
-        with (self.work / "found/grid-offsets.short/scatter.csv").open(
-                encoding="utf-8") as stream:
-            scatter = {(row["measure"], row["Method"]): row
-                       for row in csv.DictReader(stream)}
-        paper, consistent = (scatter["mean_energy_density", method]
-                             for method in ("paper", "consistent"))
-        self.assertLess(float(consistent["largest"]), float(paper["smallest"]))
+def near(value, tolerance=1e-6):
+    return pytest.approx(value, rel=0, abs=tolerance)
 
 
-class Columns(AccuracyTest):
-    def test_names(self):
-        """The names that measures may have are those that Morula writes."""
-        scene = self.write("disc.prm", DISC)
-        # Only cells of some type have one.
-        self.execute(scene, "-s", "Output/Formats=csv",
-                     "-s", "Cell types/Names=only")
-        output = self.work / "output"
-        written = set(read_csv(output / "statistics.csv").dtype.names)
-        written.remove("cells_only")
-        # Only scenes whose rates look at the state have an error of this kind.
-        self.assertEqual(written | {"step_error"},
-                         {*columns.STATISTICS, *columns.EFFORT})
-        for kind, known in columns.POINTS.items():
-            written = set(read_csv(output / f"{kind}-0000.csv").dtype.names)
-            self.assertLessEqual(set(known) - {"radius"}, written)
+@pytest.mark.parametrize("order", [0.6, 1.0, 2.0, 3.5])
+def test_order_and_limit_are_found(order):
+    sizes = (100.0, 33.0, 50.0, 75.0)
+    values = [numpy.array([7.0 + 1e-4 * size**order]) for size in sizes]
+    limit = limit_of(sizes, values, "zero")
+    assert limit.order == near(order, 1e-5)
+    assert limit.apply(values) == near(7.0)
+    assert limit.uncertainty == near(1e-4 * 33.0**order)
 
+
+@pytest.mark.parametrize("values", [(1.0, 3.0, 2.0), (1.0, 2.0, 2.2),
+                                    (1.0, 1.0001, 9.0)])
+def test_no_order_is_made_up(values):
+    """Values that turn round, that hardly converge, that jump: the finest
+    one, with the spread as its uncertainty."""
+    limit = limits_of((1.0, 2.0, 4.0), values)
+    assert (limit.note, limit.weights) == ("not asymptotic", {0: 1.0})
+    assert limit.uncertainty == near(max(values) - min(values))
+
+
+def test_power_law_through_values_that_scatter():
+    """7 + 0.01 s with a disturbance that spoils the three finest."""
+    sizes = (100.0, 75.0, 50.0, 33.0, 25.0)
+    values = [7 + 0.01 * size + error for size, error in
+              zip(sizes, (0.01, -0.02, 0.015, 0.03, -0.02))]
+    assert not 0.5 <= observed_order(sizes[:1:-1], values[:1:-1]) <= 4.5
+    limit = limits_of(sizes, values)
+    assert limit.note.startswith("fit of order")
+    assert abs(limit.apply(values) - 7.0) < limit.uncertainty < 0.5
+    assert sum(limit.weights.values()) == near(1.0)
+
+
+def test_values_that_show_no_order():
+    limit = limits_of((50.0, 100.0), (2.0, 3.0))
+    assert (limit.note, limit.uncertainty) == ("two values", 1.0)
+    sizes = (1e-2, 1e-4, 1e-6)
+    limit = limits_of(sizes, [1.0 + size for size in sizes], "tolerance")
+    assert limit.weights == {2: 1.0}
+    assert limit.uncertainty == near(1e-4 - 1e-6, 1e-12)
+    seeds = 1.0 + 0.1 * numpy.random.default_rng(1).standard_normal((3, 8))
+    assert limits_of((1.0, 2.0, 4.0), seeds).note == "noise"
+    assert math.isnan(observed_order((1, 2, 4), (1, 3, 2)))
+
+
+@pytest.mark.parametrize("value, kind, dimension, size", [
+    ("50", "zero", 3, 50), ("400", "large", 3, 0.05), ("400", "large", 2, 0.0025),
+    ("0", "tolerance", 3, None), ("iterative", "zero", 3, None),
+    ("1", "none", 3, None)])
+def test_sizes(value, kind, dimension, size):
+    assert size_of(value, kind, dimension) == size
+
+
+def test_errors_that_add_up():
+    """Q = 5 + h^2 + 3 dt: the star finds 5 though no run is near it, and what
+    either ladder has in it; a grid goes from its finest corner."""
+    def law(h, dt, _):
+        return 5 + 1e-4 * h**2 + 3 * dt
+
+    plan = plan_of(COARSE, "Time/Step=4,2,1")
+    assert len(plan.points) == 5
+    found = estimate_of(plan, law)
+    assert found.right == near(5.0)
+    assert found.errors[plan.own] == near(0.25 + 3)
+    assert [part.change for part in found.parts] == [near(-0.25), near(-3.0)]
+    assert found.uncertainty == near(3.25)
+    plan = plan_of("Grid/Spacing=100,75,25", "Time/Step=4,2,0.5", full_grid=True)
+    assert len(plan.points) == 9
+    assert center_of(plan, DEFAULT_KINDS) == ("25", "0.5")
+    assert estimate_of(plan, law).right == near(5.0)
+
+
+def test_a_key_counts_once():
+    """The same grid spacing alone and with the cells': one of the two."""
+    plan = plan_of(COARSE, "Grid/Spacing,Tissue/Cell spacing=100:20,75:15,50:10")
+    found = estimate_of(plan, lambda h, _, __: 5 + 1e-4 * h**2)
+    assert [part.used for part in found.parts] == [True, False]
+    assert found.right == near(5.0)
+
+
+@pytest.mark.parametrize("ladder, law, compared_with, source", [
+    ("Grid/Spacing=100,50", lambda h, _: 5 + h, ("50",), "finest run"),
+    (COARSE, lambda h, _: {75: 9}.get(h, h), ("50",), "finest run"),
+    (COARSE, lambda h, _: 5 + 1e-4 * h**2, None, "ladders"),
+    (COARSE, lambda h, _: 5, None, "ladders"),
+    ("Grid/Occupation parameter=0.5,0.85,1", lambda C, _: 5 + C, ("0.85",),
+     "scene's run")])
+def test_finest_run_is_no_right_value(ladder, law, compared_with, source):
+    """Two rungs, or three without an order: the finest run's value, whose
+    own error nobody knows; one order, or a file, tells more."""
+    found = estimate_of(plan_of(ladder), law)
+    assert (found.compared_with, found.source) == (compared_with, source)
+    found = estimate_of(plan_of(ladder), law, reference=MadeUpReference())
+    assert (found.compared_with, found.source) == (None, "reference file")
+
+
+def test_setting_without_a_limit():
+    plan = plan_of("Grid/Occupation parameter=0.5,0.85,1")
+    found = estimate_of(plan, lambda C, _: 5 + C)
+    assert found.uncertainty == near(0.5)
+    assert found.errors[plan.own] == 0
+
+
+def test_noise():
+    """What seeds add to all runs alike is scatter of the values, not noise
+    of the differences."""
+    plan, seeds = plan_of(COARSE), (-1.0, 0.0, 1.0)
+    found = estimate_of(plan, lambda h, s: 5 + 1e-4 * h**2 + s, seeds)
+    assert found.scatter[plan.own] == near(1.0)
+    assert found.noise[plan.own] == near(0.0, 1e-9)
+    assert found.right == near(5.0)
+    found = estimate_of(plan, lambda h, s: 5 + 1e-4 * h**2 + s, seeds,
+                        MadeUpReference())
+    assert found.noise[plan.own] == near(2 / math.sqrt(3))
+    assert found.bound(plan.own) == near(0.25 + 0.1 + 2 / math.sqrt(3))
+
+
+def test_front():
+    """Errors 9, 5, 6, ... at the costs 1, 2, 3, ...; the cheapest within 2.5."""
+    laws = {100: 9, 90: 5, 80: 6, 70: 1, 60: 1, 50: 4}
+    found = estimate_of(plan_of("Grid/Occupation parameter="
+                                + ",".join(map(str, laws)) + ",0.85"),
+                        lambda C, _: 5 + laws.get(C, 100), reference=MadeUpReference())
+    costs = dict(zip(found.errors, (99, 1, 2, 3, 4, 5, 2)))
+    assert found.front(costs) == [("100",), ("50",), ("70",)]
+    assert found.cheapest(costs, 2.5) == ("70",)
+    assert found.cheapest(costs, 1.05) is None
+
+
+def test_offsets_fill_the_grid_cell():
+    """Of 2^k offsets each direction has the multiples of 1/2^k once, the
+    first being the scene's own; more of them add to fewer."""
+    for dimension in (2, 3):
+        found = offsets.fractions(16, dimension)
+        assert found[0] == (0.0,) * dimension
+        for axis in range(dimension):
+            assert sorted(point[axis] for point in found) == [
+                i / 16 for i in range(16)]
+        for number in (2, 3, 7):
+            assert offsets.fractions(number, dimension) == found[:number]
+
+
+def test_samples():
+    """Every seed at every offset, which are parts of the spacing."""
+    keys = {"Grid/Offset": "1, 2.5", "Grid/Spacing": "40"}
+    assert offsets.moved_offset(keys, (0.5, 0.25, 0.75)) == "21,12.5,30"
+    found = offsets.samples([1, 2], 2, 2)
+    assert [(s.seed, s.moved) for s in found] == [
+        (1, (0.0, 0.0)), (2, (0.0, 0.0)), (1, (0.5, 0.5)), (2, (0.5, 0.5))]
+    assert found[0].overrides(keys) == [("Random seed", "1")]
+    assert found[3].overrides(keys) == [("Grid/Offset", "21,22.5"),
+                                        ("Random seed", "2")]
+    assert offsets.samples(None, None, 3) == [offsets.Sample(None, None)]
+
+
+def test_measures_that_a_scene_has():
+    """Numbers of cells by type and values of fields, by their names."""
+    keys = {**SPACE, "Cell types/Names": "stem, leaf", "Fields/Names": "oxygen"}
+    for word in ("cells_stem", "cells_leaf", "oxygen_mean"):
+        assert read_measure(word, keys).column == word
+        with pytest.raises(Refused, match=word):
+            read_measure(word, SPACE)
+    with pytest.raises(Refused, match="Did you mean 'cells_leaf'"):
+        read_measure("cells_leave", keys)
+
+
+def test_wanted():
+    zmax, volume = (read_measure(word, SPACE) for word in ("zmax", "total_volume"))
+    found = read_wanted("zmax=0.5um, 1%", [zmax, volume])
+    assert found[volume] == Wanted("1%", 1.0, "%")
+    assert found[volume].absolute(-300.0) == 3.0
+    assert set(read_wanted("0.5um", [zmax, volume])) == {zmax}
+
+
+def test_ladders():
+    """Values with commas; the same keys under two names; only what changes is in a
+    label; a scene beside the path is on the line, but not on the path."""
+    assert len(plan_of("Tissue/Size=1,2,3.0|2,2,2").points) == 2
+    assert normal(" 1e1, 2.50") == "10,2.5"
+    plan = plan_of("coarse: Grid/Spacing,Time/Step=100:2,75:2",
+                   "fine: Grid/Spacing,Time/Step=75:0.5,25:0.5")
+    coarse, fine = plan.ladders
+    assert (coarse.name, fine.name) == ("coarse", "fine")
+    assert [plan.rung_label(coarse, point)
+            for point in plan.path(coarse, plan.own)] == ["100", "75"]
+    assert plan.own in plan.line(coarse, plan.own)
+    assert read_seeds("1..3, 7") == [1, 2, 3, 7]
+
+
+@pytest.mark.parametrize("times, interval", [
+    ([2.0], "0"), ([0.5, 2.0], "0.5"), ([0.3, 0.5, 1.0], "0.1")])
+def test_outputs_meet_all_times(times, interval):
+    assert request.output_interval(times) == interval
+
+
+SPACING = ["--vary", "Grid/Spacing=80,40"]
+GOOD = [*SPACING, "--measure", "xmax,total_volume"]
+MEASURE = GOOD[2:]
+
+# What the refusal must say, and the words after the scene.
+NONSENSE = [
+    ("Did you mean 'Grid/Spacing'", ["--vary", "Grid/Spcing=80,40", *MEASURE]),
+    ("at least one ladder", MEASURE),
+    ("at least two values", ["--vary", "Grid/Spacing", *MEASURE]),
+    ("Not so: ''", ["--vary", "Grid/Spacing=80,,40", *MEASURE]),
+    ("at least two values", ["--vary", "Grid/Spacing=80", *MEASURE]),
+    ("80.0, is the same", ["--vary", "Grid/Spacing=80,40,80.0", *MEASURE]),
+    ("one ladder for", [*SPACING, "--vary", "Grid/Spacing=20,10", *MEASURE]),
+    ("Not so: '40'", ["--vary", "Grid/Spacing,Tissue/Cell spacing=80:20,40",
+                      *MEASURE]),
+    ("each key once", ["--vary", "Grid/Spacing,Grid/Spacing=8:8,4:4", *MEASURE]),
+    ("in one ladder", ["--grid", *SPACING, "--vary",
+                       "Grid/Spacing,Tissue/Cell spacing=8:2,4:1", *MEASURE]),
+    ("Use --seeds", ["--vary", "Random seed=1,2", *MEASURE]),
+    ("use --at", ["--vary", "Time/End time=1,2", *MEASURE]),
+    ("how well", ["--vary", "Output/Formats=csv|vtu", *MEASURE]),
+    ("up to the end", ["--vary", "Time/Step=0.5,0.25,2", *MEASURE]),
+    ("from 2 to 256", [*MEASURE, "--offsets", "1"]),
+    ("moves the grid", ["--vary", "Grid/Offset=0,0|5,5", *MEASURE, "--offsets", "4"]),
+    ("at least one ladder", [*MEASURE, "--offsets", "4", "--wanted", "1%"]),
+    ("1200 runs", [*GOOD, "--seeds", "1..3", "--offsets", "200"]),
+    ("vary Method alone", ["--vary", "Method=paper,consistent", "--vary",
+                           "Boundary conditions/Nitsche penalty=20,1000", *MEASURE]),
+    ("mean 'total_volume'", [*SPACING, "--measure", "total_volum"]),
+    ("wall_seconds", [*SPACING, "--measure", "wall_seconds"]),
+    ("once", [*SPACING, "--measure", "xmax,xmax"]),
+    *(("reductions are", [*SPACING, "--measure", word]) for word in (
+        "", "cell:volume", "cells:average(volume)", "cells:p101(volume)",
+        "cells:max(volume", "statistics:max(xmax)", "max(xmax)")),
+    ("'zmax'", [*SPACING, "--measure", "zmax"]),
+    ("from low to high", [*GOOD, "--seeds", "8..1"]),
+    ("each seed once", [*GOOD, "--seeds", "1..3,2"]),
+    ("'1..8'", [*GOOD, "--seeds", "one"]),
+    ("nothing is random", [*GOOD, "--seeds", "1..3", "-s", "Proliferation/Law=none"]),
+    ("1998 runs", [*GOOD, "--seeds", "1..999"]),
+    *(("rising times", [*GOOD, "--at", word]) for word in ("2", "1,0.5", "x")),
+    ("step of 0.25", [*GOOD, "--at", "0.3,1"]),
+    ("use -s", [*GOOD, "-s", "Time/Stop at cells=300"]),
+    ("integer >= 1", [*GOOD, "--jobs", "0"]),
+    ("cores", [*GOOD, "--jobs", "4096"]),
+    ("integer >= 1", [*GOOD, "--repeat", "-1"]),
+    *(("errors > 0 of xmax", [*GOOD, "--wanted", word]) for word in (
+        "0%", "good", "xmax=1kPa", "ymax=1um", "1")),
+    ("zero, large", [*GOOD, "--limit", "Grid/Spacing=small"]),
+    ("can be read", [*GOOD, "--reference", "nowhere.csv"]),
+    ("--reference only", [*GOOD, "--reference-column", "xmax=r"]),
+    ("between the key", [*GOOD, "-s", "Grid/Spacing"]),
+    ("sphere", [*GOOD, "-s", "Tissue/Shape=cube"]),
+    ("executable", [*GOOD, "--morula", "nowhere/morula"]),
+    ("what --help shows", [*GOOD, "--meausre", "xmax"]),
+]
+
+# What the refusal must say, the reference file, and further words.
+BAD_REFERENCES = [
+    ("'xmax'", "apex\n310\n", []),
+    ("'large'", "xmax,total_volume\n310,large\n", []),
+    ("finite", "xmax,total_volume\nnan,3\n", []),
+    ("''", "xmax,total_volume\n310\n", []),
+    ("as many values", "xmax,total_volume\n310,1,2\n", []),
+    ("as many values", "xmax,total_volume\n", []),
+    ("2 rows", "xmax,total_volume\n1,2\n3,4\n", []),
+    ("days 0.5", "time,xmax,total_volume\n0.5,1,2\n", []),
+    ("errors >= 0", "xmax,xmax_error,total_volume\n1,-1,2\n", []),
+    *((said, "r,total_volume\n1,2\n", ["--reference-column", f"xmax={text}"])
+      for said, text in (("the columns are r, total_volume", "2*(r+"),
+                         ("Not so", "open('r')"), ("NEW=EXPRESSION", ""),
+                         ("finite", "r/(total_volume-2)"), ("finite", "(-r)^0.5"))),
+]
+
+
+@pytest.fixture(scope="module")
+def asked(runs):
+    with requests.asked(request, parser, runs.options.morula) as ask:
+        yield ask
+
+
+@pytest.mark.parametrize("said, words", NONSENSE)
+def test_refusals(asked, said, words):
+    with pytest.raises(Refused) as refused:
+        asked(DISC, *words)
+    assert said in str(refused.value)
+
+
+@pytest.mark.parametrize("said, text, words", BAD_REFERENCES)
+def test_bad_references(asked, runs, said, text, words):
+    with pytest.raises(Refused) as refused:
+        asked(DISC, *GOOD, "--reference", runs.write("reference.csv", text), *words)
+    assert said in str(refused.value)
+
+
+def test_references(asked, runs):
+    """A column that is only renamed keeps its error; one that is computed has none."""
+    file = runs.write("reference.csv", "# days\ntheta,apex,apex_error\n"
+                      "1.05,310,0.5\n1.1,320,0.25\n")
+    reference = asked(DISC, *SPACING, "--measure", "xmax,ymax", "--reference", file,
+                      *(word for text in ("time=10*(theta-1)", "xmax=apex",
+                                          "ymax=2*apex")
+                        for word in ("--reference-column", text))).reference
+    xmax, ymax = (read_measure(word, SPACE) for word in ("xmax", "ymax"))
+    assert reference.value(xmax, 1.0) == (320.0, 0.25)
+    assert reference.value(ymax, 0.5) == (620.0, 0.0)
+
+
+def test_scenes_that_are_refused(asked, runs):
+    with pytest.raises(Refused, match="can be read"):
+        asked("nowhere.prm", *GOOD)
+    points = runs.write("points.csv", "x,y,z\n0,0,0\n20,0,0\n0,20,0\n")
+    scene = runs.write("points.prm", "subsection Tissue\n  set Shape = points\n"
+                       f"  set Points file = {points}\nend\n")
+    with pytest.raises(Refused, match="no surface"):
+        asked(scene, *GOOD)

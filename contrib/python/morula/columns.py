@@ -71,6 +71,11 @@ def unit_in(unit, dimension):
             "um^(dim-1)": "um^2" if dimension == 3 else "um"}.get(unit, unit)
 
 
+def pretty(unit):
+    """A unit as pictures and tables show it."""
+    return unit.replace("um", "µm").replace("^2", "²").replace("^3", "³")
+
+
 def unit_of(name, dimension):
     """The unit of any column of the cells; those that only VTU files have, too.
     Empty for numbers, and for fields, which have that of the scene's."""

@@ -3,6 +3,7 @@
 """The command line of programs that do many runs of a scene."""
 import argparse
 import contextlib
+import math
 import signal
 import sys
 from pathlib import Path
@@ -51,6 +52,18 @@ def whole_number(option, text):
     return number
 
 
+def lengths(option, text, numbers):
+    """A number in um, or several with commas, so many as one of `numbers`."""
+    try:
+        found = [float(word) for word in (text or "").split(",")]
+    except ValueError:
+        found = []
+    if len(found) not in numbers or not all(0 < x < math.inf for x in found):
+        raise Refused(option, text or "", " or ".join(map(str, numbers))
+                      + " numbers > 0 in um, in the order x,y,z")
+    return found
+
+
 def ranks_and_jobs(options):
     """Both as numbers that fit this machine."""
     ranks = whole_number("--ranks", options.ranks)
@@ -94,8 +107,8 @@ def run_tool(name, tool):
     try:
         with like_ctrl_c():
             return tool()
-    except Refused as refusal:
-        print(f"{name}: {refusal}", file=sys.stderr)
+    except (Refused, OSError) as error:
+        print(f"{name}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print(f"{name}: stopped; the same command goes on with what is "

@@ -15,9 +15,11 @@ from .command_line import tell
 from .execute import Processes
 from .record import Record
 from .refusal import Refused
+from .scene import as_number
 from .served import Server
 
 FEW = 3  # runs a process, for which it is not worth its start
+N_SNAPSHOTS = 10  # what an interruption may lose is a part of so many
 LONGEST_NAME = 255  # of a file; expressions may be longer
 
 
@@ -30,6 +32,15 @@ class Job:
     name: str
     overrides: tuple
     keep: tuple = ("cells", "surface")
+
+
+def with_snapshots(keys):
+    """Overrides for a run with these keys that asks for no snapshots before its end,
+    so that it can be resumed; they never change the steps."""
+    end = as_number(keys["Time/End time"])
+    if as_number(keys["Output/Snapshot interval"]) != 0 or not end:
+        return ()
+    return (("Output/Snapshot interval", format(end / N_SNAPSHOTS, ".6g")),)
 
 
 def job_name(special, overrides):

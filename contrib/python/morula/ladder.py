@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Which keys take which values: ladders, the points they make, the seeds."""
-import csv
 import itertools
 import re
 from dataclasses import dataclass
 
 from .refusal import Refused
 from .scene import clean_path, normal
+from .tables import read_table
 
-FORM = ('"Section/Key=value,value,...", for values with commas '
-        '"Section/Key=value|value|...", for keys that change together '
+FORM = ('at least two values, "Section/Key=value,value,..."; values with commas '
+        '"Section/Key=value|value|..."; keys that change together '
         '"Section/Key,Section/Key=value:value,value:value,..."')
 MAX_RUNS = 1000
 
@@ -37,36 +37,45 @@ def read_ladder(text, scene):
     left = names_of_keys if colon else left
     keys = tuple(clean_path(key) for key in left.split(","))
     if not equals or not all(keys):
-        raise Refused("--vary", text, FORM, "Put '=' between key and values.")
-    for key in keys:
-        scene.require_key(key, "--vary")
-    if len(set(keys)) < len(keys):
-        raise Refused("--vary", text, "each key once")
+        raise Refused("--vary", text, FORM)
+    _require_once("--vary", keys, scene)
     words = [w.strip() for w in right.split("|" if "|" in right else ",")]
-    if not all(words):
-        raise Refused("--vary", text, FORM, "One of the values is empty.")
     rungs = tuple(tuple(v.strip() for v in word.split(":", len(keys) - 1))
-                  if len(keys) > 1 else (word,) for word in words)
-    for word, rung in zip(words, rungs):
-        if len(rung) != len(keys):
-            raise Refused("--vary", text, FORM,
-                          f"'{word}' has {len(rung)} values for the "
-                          f"{len(keys)} keys.")
-    _refuse_short_or_double(text, words, rungs)
+                  for word in words)
+    wrong = [word for word, rung in zip(words, rungs)
+             if len(rung) != len(keys) or not all(rung)]
+    if len(rungs) < 2 or wrong:
+        raise Refused("--vary", text, FORM, f"Not so: '{wrong[0]}'." if wrong
+                      else "-s sets a single value.")
+    _refuse_double("--vary", text, rungs)
     return Ladder(keys, rungs, name.strip() or " and ".join(keys))
 
 
-def _refuse_short_or_double(text, words, rungs):
+def _require_once(option, keys, scene):
+    """Refuses keys that the scene has not, or that are given twice."""
+    for key in keys:
+        scene.require_key(key, option)
+    if len(set(keys)) < len(keys):
+        raise Refused(option, ", ".join(keys), "each key once")
+
+
+def refuse_keys(option, keys, not_varied, allowed):
+    """Refuses keys that must not be varied ({key: why}), and those of output."""
+    for key in keys:
+        if key in not_varied or key.startswith("Output/"):
+            raise Refused(option, key, allowed, not_varied.get(
+                key, "-s sets it for all runs."))
+
+
+def _refuse_double(option, text, points):
+    """Refuses points of equal values, as they would be one run."""
     seen = {}
-    for word, rung in zip(words, rungs):
-        same = tuple(normal(value) for value in rung)
+    for number, point in enumerate(points, 1):
+        same = tuple(map(normal, point))
         if same in seen:
-            raise Refused("--vary", text, "each value once",
-                          f"'{seen[same]}' and '{word}' are the same.")
-        seen[same] = word
-    if len(rungs) < 2:
-        raise Refused("--vary", text, "at least two values",
-                      "-s sets a single one.")
+            raise Refused(option, text, "other values in each run", f"Number {number}, "
+                          f"{':'.join(point)}, is the same as number {seen[same]}.")
+        seen[same] = number
 
 
 def read_seeds(text):
@@ -81,11 +90,9 @@ def read_seeds(text):
             raise Refused("--seeds", text, "a range '1..8' or '1-8' or a list '1,2,5' "
                           "of integers >= 0")
         first, last = int(match[1]), int(match[2] or match[1])
-        if last < first:
-            raise Refused("--seeds", text, "a range from low to high",
-                          f"Write {last}..{first}.")
-        if last - first >= MAX_RUNS:
-            raise Refused("--seeds", text, f"at most {MAX_RUNS} seeds")
+        if not first <= last < first + MAX_RUNS:
+            raise Refused("--seeds", text, f"a range from low to high of at most "
+                          f"{MAX_RUNS} seeds")
         seeds += range(first, last + 1)
     if len(set(seeds)) < len(seeds):
         raise Refused("--seeds", text, "each seed once")
@@ -216,34 +223,12 @@ class SamplesPlan(Plan):
 
 
 def read_samples(file, scene):
-    """--samples: the keys, and a tuple of values a row. Lines that begin with
-    '#' are comments; equal rows are refused, as they would be one run."""
-    try:
-        with open(file, encoding="utf-8-sig", newline="") as stream:
-            rows = [row for row in csv.reader(
-                line for line in stream if line.strip()
-                and not line.startswith("#"))]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise Refused("--samples", file, "a CSV file that can be read",
-                      f"{error}.") from None
-    if len(rows) < 2:
-        raise Refused("--samples", file, "a line of keys and a line of values "
-                      "for each run")
-    keys = tuple(clean_path(key.strip()) for key in rows[0])
-    for key in keys:
-        scene.require_key(key, "--samples")
-    if len(set(keys)) < len(keys):
-        raise Refused("--samples", file, "each key once")
-    points = [tuple(value.strip() for value in row) for row in rows[1:]]
-    first = {}
-    for number, point in enumerate(points, 1):
-        if len(point) != len(keys) or not all(point):
-            raise Refused("--samples", f"{file}, sample {number}",
-                          f"{len(keys)} values")
-        same = tuple(map(normal, point))
-        if same in first:
-            raise Refused("--samples", f"{file}, sample {number}",
-                          f"other values than those of sample {first[same]}",
-                          "Equal samples are one run: --seeds repeats it.")
-        first[same] = number
+    """--samples: the keys, and a tuple of values a row."""
+    table = read_table("--samples", file)
+    keys = tuple(map(clean_path, table))
+    if (table == "").any(axis=None):
+        raise Refused("--samples", file, f"{len(keys)} values in each line")
+    _require_once("--samples", keys, scene)
+    points = list(table.itertuples(index=False, name=None))
+    _refuse_double("--samples", file, points)
     return keys, points

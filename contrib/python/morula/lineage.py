@@ -125,8 +125,7 @@ class Lineage:
         if end is None:
             ends = self.end_time[np.isfinite(self.end_time)]
             end = max(self.birth_time.max(), ends.max(initial=0))
-        rows = {}
-        self._place(cell, self.tree(cell), rows, [0])
+        rows = self._rows(cell)
         for member, row in rows.items():
             stop = min(self.end_time[member], end)
             colour = f"C{self.generation[member] % 10}"
@@ -139,21 +138,19 @@ class Lineage:
         axes.set(xlabel="time, day", yticks=[], title=f"cell {cell}")
         return axes
 
-    def _place(self, cell, tree, rows, next_row):
+    def _rows(self, cell):
         """Rows of a tree's lines: those of cells without daughters follow each
-        other, a mother stands in the middle of hers. Not recursive: lineages
-        may be longer than Python's stack."""
-        stack = [(cell, tree, False)]
-        while stack:
-            member, below, done = stack.pop()
-            if not below:
-                rows[member] = next_row[0]
-                next_row[0] += 1
-            elif done:
-                rows[member] = np.mean([rows[other] for other in below])
-            else:
-                stack.append((member, below, True))
-                stack += [(*item, False) for item in below.items()]
+        other, a mother stands in the middle of hers."""
+        trees = {member: [] for member in self.clone(cell)}
+        for member in list(trees)[1:]:
+            trees[self.parent[member]].append(member)
+        ends = sorted((member for member, below in trees.items() if not below),
+                      key=lambda end: [-member for member in self.ancestors(end)])
+        rows = {end: row for row, end in enumerate(ends)}
+        for member in reversed(trees):
+            if trees[member]:
+                rows[member] = np.mean([rows[other] for other in trees[member]])
+        return rows
 
     def _generations(self):
         """Ids of the cells of generation 1, 2, ..."""

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What is known of a run: whether it finished, and what it cost."""
-import csv
 import json
 import shutil
 from pathlib import Path
 
 from .files import write
-from .run import read_csv, time_of
+from .run import Run
 
 
 class Record:
@@ -76,17 +75,12 @@ class Record:
         writing of cells and surface before it, which takes about equally long
         each time. On a busy machine one file can take far longer than the
         others: a tenth of the wall time is left at least."""
-        statistics = self.statistics()
-        written = [time_of(file) for file
-                   in self.output.glob("cells-[0-9]*.csv")]
-        with open(self.output / "timings.csv", encoding="utf-8") as stream:
-            spent = sum(float(row["wall_seconds"])
-                        for row in csv.DictReader(stream)
-                        if row["section"] == "output")
-        return [float(max(seconds - spent * sum(t < time for t in written)
-                          / max(1, len(written)), 0.1 * seconds))
-                for time, seconds in zip(statistics["time"],
-                                         statistics["wall_seconds"])]
+        run = self.run
+        spent = run.timings["wall_seconds"].get("output", 0.0)
+        return [float(max(seconds - spent * sum(run.times < time)
+                          / max(1, len(run.times)), 0.1 * seconds))
+                for time, seconds in zip(run.statistics["time"],
+                                         run.statistics["wall_seconds"])]
 
     @property
     def finished(self):
@@ -106,8 +100,10 @@ class Record:
         """Failed for a reason that is not the program's own (1 and 2)."""
         return any(r["exit"] not in (0, 1, 2) for r in self.repeats)
 
-    def statistics(self):
-        return read_csv(self.output / "statistics.csv")
+    @property
+    def run(self):
+        """What the last execution has written, read anew."""
+        return Run(self.output)
 
     def row_seconds(self, row):
         """Least wall time from the start to the end of a step, without the
@@ -125,11 +121,6 @@ class Record:
         """Peak resident memory: that of the largest rank times the ranks."""
         return max(r["peak_bytes"] * r["ranks"] for r in self.repeats)
 
-    @property
-    def crowded(self):
-        """Whether other runs went on at the same time."""
-        return any(repeat["jobs"] > 1 for repeat in self.repeats)
-
     def summary(self):
         if self.finished:
             resumed = any(r.get("resumed") for r in self.repeats)
@@ -145,6 +136,6 @@ class Record:
         file = self.directory / "stderr"
         lines = file.read_text(errors="replace").split("\n") if (
             file.is_file()) else []
-        words = [line.strip() for line in lines if line.startswith("morula")]
-        words = words or [line.strip() for line in lines if line.strip()]
-        return words[-1] if words else "it said nothing"
+        words = [line.strip() for line in lines if line.strip()]
+        own = [line for line in words if line.startswith("morula")]
+        return (own or words or ["it said nothing"])[-1]

@@ -41,8 +41,11 @@ WHOLE = ("id", "parent", "generation", "phase", "type", "condition",
 TIME_SLACK = 1e-9
 
 
-class NoStates(Exception):
+class NoStates(Refused):
     """A run has written none of the states asked for."""
+
+    def __init__(self, text):
+        Exception.__init__(self, text)
 
 
 def read_csv(file):
@@ -264,6 +267,16 @@ class Run:
     def surface(self, i):
         """The boundary points of state i, likewise."""
         return self._read("surface", i)
+
+    def at(self, kind, day):
+        """The state of kind "cells" or "surface" on a day."""
+        times = [time for time, _ in states(self.directory, kind)]
+        for i, time in enumerate(times):
+            if same_time(time, day):
+                return self._read(kind, i)
+        raise Refused("The day", day, f"one on which {kind} were written: "
+                      + ", ".join(f"{time:g}" for time in times),
+                      "Output/Interval says when.")
 
     def _read(self, kind, i):
         found = states(self.directory, kind)

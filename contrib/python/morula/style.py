@@ -48,37 +48,3 @@ def padded(numbers):
     low, high = min(numbers), max(numbers)
     factor = max((high / low) ** 0.12, 1.15)
     return low / factor, high * factor
-
-
-class Labels:
-    """Words beside points, left out where they would lie on each other."""
-
-    PLACES = ((5, 4, "left"), (-5, 4, "right"), (5, -11, "left"),
-              (-5, -11, "right"))
-
-    def __init__(self, axes, size=7):
-        self.axes, self.size, self.taken = axes, size, []
-
-    def block(self, x, y, radius=5):
-        """Keeps words off a point."""
-        px, py = self.axes.transData.transform((x, y))
-        self.taken.append((px - radius, py - radius, px + radius, py + radius))
-
-    def add(self, x, y, text, colour):
-        scale = self.axes.figure.dpi / 72
-        px, py = self.axes.transData.transform((x, y))
-        width = 0.62 * self.size * len(text) * scale
-        for dx, dy, side in self.PLACES:
-            left = px + dx * scale - (width if side == "right" else 0)
-            low = py + dy * scale
-            box = (left, low, left + width, low + self.size * scale)
-            if not any(self._overlap(box, other) for other in self.taken):
-                self.taken.append(box)
-                self.axes.annotate(text, (x, y), xytext=(dx, dy), ha=side,
-                                   textcoords="offset points", color=colour,
-                                   fontsize=self.size, zorder=6)
-                return
-
-    @staticmethod
-    def _overlap(a, b):
-        return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]

@@ -5,7 +5,6 @@
 The way through the package: `options` is the command line, `request` checks
 it, `measures` what is looked at in a run, `reference` what a file knows of the
 right values, `limits` where a ladder tends to, `estimate` the errors and what
-is known of them, `front` the runs worth their time, `findings` all of that
-together, `report` and `figures` the tables and pictures; `documentation` is
-for contrib/upkeep/accuracy-ladders.
+is known of them, `findings` all of that together, `report` the tables and
+`figure` the picture.
 """

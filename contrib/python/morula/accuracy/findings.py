@@ -1,138 +1,148 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""All estimates with what the runs cost: fronts, least costs, warnings."""
+"""All estimates with what the runs cost: verdicts and warnings."""
+import functools
+from collections import namedtuple
 from dataclasses import dataclass
 
 import numpy
 from morula.error_in_time import error_in_time
-from morula.execute import cores
 from morula.run import row_at
 
-from .front import cheapest, pareto
-from .scatter import scatters
+from .estimate import center_of, estimate
+
+
+# What a point takes until a time, means over the samples: s, from the start to the
+# end of that step; the most unknowns of any step until then; MB, peak of the whole
+# run; and its own estimate of its error in time, or nan.
+Cost = namedtuple("Cost", "wall unknowns memory in_time")
 
 
 @dataclass(frozen=True)
-class Cost:
-    """What a point takes until a time; means over the samples."""
+class Scatter:
+    """A measure at a time over the samples at which a point has finished."""
 
-    wall: float      # s, from the start to the end of that step
-    unknowns: float  # the most of any step until then
-    memory: float    # MB, peak of the whole run
-    in_time: float = numpy.nan  # its own estimate of its error in time
+    measure: object
+    time: float
+    point: tuple
+    samples: list
+    values: numpy.ndarray  # one of a sample
+    n_failed: int
+    right: float           # of the reference file, or None
 
+    @property
+    def base(self):
+        """What differences are told against: the right value, or the mean."""
+        return float(self.values.mean()) if self.right is None else self.right
 
-# Attribute of Cost, and how it is written on an axis.
-KINDS = {"wall": "wall time [s]", "unknowns": "unknowns",
-         "memory": "memory [MB]"}
+    @property
+    def deviation(self):
+        return float(self.values.std(ddof=1)) if len(self.values) > 1 else 0.0
 
 
 class Findings:
-    """What there is to tell of a request."""
+    """What there is to tell of a request, from {(point, sample): Record}."""
 
-    def __init__(self, request, records, estimates, tissue_center):
-        self.request, self.plan = request, request.plan
-        self.records, self.estimates = records, estimates
-        self.tissue_center = tissue_center
-        self.scatters = scatters(self) if request.n_offsets else []
-        self.finished = [point for point in self.plan.points
-                         if all(r.finished for r in self.of(point))]
-        self.costs = {time: {point: self._cost(point, time)
-                             for point in self.finished}
-                      for time in request.times}
+    def __init__(self, request, records):
+        self.request, self.plan, self.records = request, request.plan, records
+        center = center_of(self.plan, request.kinds)
+        self.estimates, self.scatters = [], []
+        for time in request.times:
+            for measure in request.measures:
+                scatters = [self._scatter(measure, time, point)
+                            for point in self.plan.points]
+                if request.n_offsets:
+                    self.scatters += [s for s in scatters if len(s.values)]
+                values = {s.point: s.values for s in scatters if not s.n_failed}
+                if self.plan.ladders and (center in values
+                                          or values and request.reference):
+                    self.estimates.append(estimate(
+                        self.plan, center, request.kinds, measure, time, values,
+                        request.reference))
 
-    def of(self, point):
-        """The records of a point, one a sample."""
-        return [record for (p, _), record in self.records.items()
-                if p == point]
+    def _scatter(self, measure, time, point):
+        finished = {sample: self.records[point, sample]
+                    for sample in self.request.samples
+                    if self.records[point, sample].finished}
+        values = [measure.evaluate(record.run, time, self.request.tissue_center)
+                  for record in finished.values()]
+        reference = self.request.reference
+        return Scatter(measure, time, point, list(finished), numpy.array(values),
+                       len(self.request.samples) - len(finished),
+                       reference.value(measure, time)[0] if reference else None)
 
-    def _cost(self, point, time):
-        wall, unknowns, memory, in_time = [], [], [], []
-        for record in self.of(point):
-            statistics = record.statistics()
+    @functools.cache
+    def cost(self, point, time):
+        """The Cost of a point; None if a run of it has failed."""
+        records = [self.records[point, sample] for sample in self.request.samples]
+        if not all(record.finished for record in records):
+            return None
+        costs = []
+        for record in records:
+            statistics = record.run.statistics
             row = row_at(statistics, time)
-            wall.append(record.row_seconds(row))
-            unknowns.append(statistics["unknowns"][:row + 1].max())
-            memory.append(record.peak_bytes / 1e6)
-            error = error_in_time(statistics, row)
-            in_time.append(numpy.nan if error is None else error)
-        return Cost(*(float(numpy.mean(x))
-                      for x in (wall, unknowns, memory, in_time)))
+            costs.append([record.row_seconds(row),
+                          statistics["unknowns"][:row + 1].max(),
+                          record.peak_bytes / 1e6,
+                          error_in_time(statistics, row)])
+        return Cost(*numpy.mean(numpy.array(costs, dtype=float), axis=0))
 
-    def cost(self, estimate, kind):
-        """Costs of the estimate's points, in its order."""
-        costs = self.costs[estimate.time]
-        return [getattr(costs[point], kind) for point in estimate.values]
+    def walls(self, found):
+        """Wall time of the points of an Estimate, s."""
+        return {point: self.cost(point, found.time).wall for point in found.values}
 
-    def front(self, estimate, kind="wall"):
-        """The points that no other one beats, cheapest first. Errors that
-        cannot be told from zero count alike."""
-        points = list(estimate.values)
-        errors = [estimate.effective(point) for point in points]
-        return [points[i] for i in pareto(self.cost(estimate, kind), errors)]
+    def front(self, found):
+        return found.front(self.walls(found))
 
-    def wanted(self, estimate):
+    def wanted(self, found):
         """The wanted error in the measure's unit, or None."""
-        wanted = self.request.wanted.get(estimate.measure)
-        return wanted.absolute(estimate.right) if wanted else None
+        wanted = self.request.wanted.get(found.measure)
+        return wanted.absolute(found.right) if wanted else None
 
-    def least_cost(self, estimate, kind="wall"):
+    def cheapest(self, found):
         """The cheapest point that surely has the wanted error, or None."""
-        wanted = self.wanted(estimate)
-        if wanted is None:
-            return None
-        points = list(estimate.values)
-        best = cheapest(self.cost(estimate, kind),
-                        [estimate.bound(point) for point in points], wanted)
-        return None if best is None else points[best]
+        wanted = self.wanted(found)
+        return None if wanted is None else found.cheapest(self.walls(found), wanted)
 
-    def verdict(self, estimate):
-        """The answer to --wanted in a sentence, or None."""
-        wanted = self.request.wanted.get(estimate.measure)
-        if wanted is None:
-            return None
-        allowed, best = self.wanted(estimate), self.least_cost(estimate)
-        name = f"{estimate.measure.text} to {wanted.text}"
-        if best is not None:
-            cost = self.costs[estimate.time][best]
-            return f"{name}: {self.plan.label(best)}, {cost.wall:.3g} s"
-        if estimate.uncertainty > allowed:
-            what = (f"the {estimate.source} stands for the right value, which"
-                    if estimate.compared_with else "the right value itself")
-            return (f"{name}: cannot be judged, {what} is only "
-                    f"known to {estimate.uncertainty:.2g} "
-                    f"{estimate.measure.unit}".rstrip())
-        nearest = min(estimate.values, key=estimate.bound)
-        return (f"{name}: no run is surely as good; nearest is "
-                f"{self.plan.label(nearest)}")
+    def verdicts(self):
+        """The answers to --wanted, a sentence each."""
+        for found in self.estimates:
+            wanted = self.request.wanted.get(found.measure)
+            if not wanted:
+                continue
+            name, best = f"{found.measure.text} to {wanted.text}", self.cheapest(found)
+            if best is not None:
+                yield (f"{name}: {self.plan.label(best)}, "
+                       f"{self.cost(best, found.time).wall:.3g} s")
+            elif found.uncertainty > self.wanted(found):
+                yield (f"{name}: cannot be judged, the right value ({found.source}) is "
+                       f"only known to {found.uncertainty:.2g} {found.measure.unit}")
+            else:
+                nearest = min(found.values, key=found.bound)
+                yield (f"{name}: no run is surely as good; nearest is "
+                       f"{self.plan.label(nearest)}")
 
     def warnings(self):
         """What a reader must know before believing the tables."""
-        request = self.request
-        result = [f"{self.plan.label(point)}{sample.words()}"
-                  f": left out, it {record.summary()}"
-                  for (point, sample), record in self.records.items()
-                  if not record.finished]
-        halved = [self.plan.label(point) for point in self.finished
-                  if any(r.statistics()["rejected_steps"].any()
-                         for r in self.of(point))]
-        if halved:
-            result.append("steps failed and were halved, so that the time step "
-                          "is not what the scene says: " + "; ".join(halved))
+        request, label = self.request, self.plan.label
+        for (point, sample), record in self.records.items():
+            if not record.finished:
+                words = "".join(f", {key} = {value}" for key, value
+                                in sample.overrides(request.keys_at(point)))
+                yield f"{label(point)}{words}: left out, it {record.summary()}"
+            elif record.run.statistics["rejected_steps"].any():
+                yield (f"{label(point)}: steps failed and were halved, so that the "
+                       "time step is not what the scene says")
         if request.plan.random and len(request.seeds or []) < 2:
-            result.append("one random seed: how much of a difference is noise "
-                          "is not known; --seeds 1..8 tells")
-        if any(record.crowded for record in self.records.values()):
-            result.append("runs went on at the same time: their wall times are "
-                          "less certain than with --jobs 1")
-        if request.ranks > cores():
-            result.append(f"{request.ranks} ranks on {cores()} cores: wall "
-                          "times mean nothing")
-        return result
+            yield ("one random seed: how much of a difference is noise is not "
+                   "known; --seeds 1..8 tells")
 
     def summary(self):
-        """The verdicts and the warnings, line by line."""
-        verdicts = [self.verdict(estimate) for estimate in self.estimates]
-        return ([scatter.words(self.plan) for scatter in self.scatters]
-                + [line for line in verdicts if line]
-                + ["warning: " + text for text in self.warnings()])
+        """Scatter, verdicts and warnings, line by line."""
+        for s in self.scatters:
+            yield (f"{self.plan.label(s.point)}, day {s.time:g}: "
+                   f"{s.measure.text} = {s.values.mean():.6g} "
+                   f"(from {s.values.min():.6g} to {s.values.max():.6g}, "
+                   f"standard deviation {s.deviation:.2g}) {s.measure.unit}".rstrip())
+        yield from self.verdicts()
+        yield from (f"warning: {text}" for text in self.warnings())

@@ -15,13 +15,9 @@ from scipy.optimize import brentq, minimize_scalar
 # 'none': no value is the right one, as for every key that is not named here.
 KINDS = ("zero", "large", "tolerance", "none")
 DEFAULT_KINDS = {
-    "Grid/Spacing": "zero",
-    "Tissue/Cell spacing": "zero",
-    "Time/Step": "zero",
-    "Tissue/Boundary points": "large",
-    "Solver/Newton tolerance": "tolerance",
-    "Solver/Linear tolerance": "tolerance",
-}
+    "Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
+    "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
+    "Solver/Linear tolerance": "tolerance"}
 
 # Observed orders outside this range are no sign of convergence.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 4.5
@@ -41,8 +37,7 @@ def read_kinds(options, scene):
         key, _, kind = (word.strip() for word in text.partition("="))
         scene.require_key(key, "--limit")
         if kind not in KINDS:
-            raise Refused("--limit", text,
-                          '"Section/Key=kind" with a kind of '
+            raise Refused("--limit", text, '"Section/Key=kind" with a kind of '
                           + ", ".join(KINDS))
         kinds[key] = kind
     return kinds
@@ -54,36 +49,18 @@ def size_of(value, kind, dimension):
     number = as_number(value)
     if kind == "none" or number is None or number <= 0:
         return None
-    if kind == "large":
-        return number ** (-1.0 / (dimension - 1))
-    return number
-
-
-NOTES = {
-    "order": "extrapolated with the order of convergence observed on the three "
-             "finest rungs",
-    "fit": "the three finest values do not converge at one order; a power law "
-           "fits all rungs to within 5 % of their spread and is extrapolated",
-    "not asymptotic": "the three finest values do not converge at one order: "
-                      "the finest value is taken, it may be wrong by the "
-                      "spread of the three",
-    "two values": "no order can be observed: the finer value is taken, it may "
-                  "be wrong by their difference",
-    "noise": "the differences are within two standard errors",
-    "no difference": "the values agree to rounding",
-}
+    return number ** (-1.0 / (dimension - 1)) if kind == "large" else number
 
 
 @dataclass
 class Limit:
-    """The limit as a combination of the values on the rungs (so that it can be
-    taken seed by seed), by how much it may be wrong, and why: one of NOTES, of
-    which 'order' and 'fit' have a number, or nothing."""
+    """The limit as a combination of the values on the rungs, taken seed by seed; by
+    how much it may be wrong, and why, in the words of doc/accuracy-and-cost.md."""
 
     weights: dict
     uncertainty: float
-    order: float
     note: str
+    order: float = math.nan
 
     def apply(self, values):
         return sum(weight * values[i] for i, weight in self.weights.items())
@@ -99,25 +76,26 @@ def limit_of(sizes, values, kind):
     fine = rungs[:3]
     arrays = [values[i] for _, i in fine]
     q = [float(array.mean()) for array in arrays]
-    first, spread = fine[0][1], max(q) - min(q)
+    spread = max(q) - min(q)
     # The same seed draws the same numbers on every rung: differences seed by
     # seed are often much surer than the values themselves.
-    noise = mean_and_noise(arrays[1] - arrays[0])[1]
+    noises = [mean_and_noise(array - arrays[0])[1] for array in arrays]
+    noise = noises[1]
+
+    def finest(uncertainty, note):
+        return Limit({fine[0][1]: 1.0}, uncertainty, note)
+
     if kind == "tolerance":
-        return Limit({first: 1.0}, abs(q[0] - q[1]) + noise, math.nan,
-                     "")
+        return finest(abs(q[0] - q[1]) + noise, "")
     if spread <= ROUNDING * max(map(abs, q)):
-        return Limit({first: 1.0}, spread, math.nan, "no difference")
-    if spread <= max(mean_and_noise(a - arrays[0])[1] for a in arrays):
-        return Limit({first: 1.0}, max(spread, noise), math.nan,
-                     "noise")
+        return finest(spread, "no difference")
+    if spread <= max(noises):
+        return finest(max(spread, noise), "noise")
     if len(q) < 3:
-        return Limit({first: 1.0}, spread + noise, math.nan,
-                     "two values")
+        return finest(spread + noise, "two values")
     return (_richardson(fine, q, noise)
-            or _fit(rungs, [float(values[i].mean()) for _, i in rungs], noise)
-            or Limit({first: 1.0}, spread + noise, math.nan,
-                     "not asymptotic"))
+            or _fit(rungs, numpy.array([values[i].mean() for _, i in rungs]), noise)
+            or finest(spread + noise, "not asymptotic"))
 
 
 def _richardson(fine, q, noise):
@@ -128,18 +106,15 @@ def _richardson(fine, q, noise):
         return None
     factor = s1**order / (s2**order - s1**order)
     return Limit({first: 1 + factor, second: -factor},
-                 factor * (abs(q[0] - q[1]) + noise), order,
-                 f"order {order:.1f}")
+                 factor * (abs(q[0] - q[1]) + noise), f"order {order:.1f}", order)
 
 
 def _fit(rungs, q, noise):
     """Q* + C s^p through all rungs by least squares, for values that scatter a
-    little because grid lines cut a tissue anew at each spacing; None where it
-    does not describe them, or where there are too few to tell."""
+    little; None where it does not describe them, or where rungs are too few."""
     if len(rungs) < 4:
         return None
     sizes = numpy.array([size for size, _ in rungs]) / rungs[-1][0]
-    q = numpy.array(q)
 
     def solve(order):
         """Rows of the pseudo-inverse, and the mean square mismatch."""
@@ -157,34 +132,26 @@ def _fit(rungs, q, noise):
     weights = {i: float(w) for (_, i), w in zip(rungs, inverse[0])}
     limit = float(inverse[0] @ q)
     return Limit(weights, abs(limit - q[0]) + 2 * mismatch + noise,
-                 float(order), f"fit of order {order:.1f}")
+                 f"fit of order {order:.1f}", float(order))
 
 
 def observed_order(sizes, values):
-    """p of Q(s) = Q* + C s^p through three values, fine to coarse; not a
-    number if they are not monotone, and at least 20 or at most 0.05 where p is
-    beyond those."""
-    s1, s2, s3 = sizes
-    q1, q2, q3 = values
-    if (q3 - q2) * (q2 - q1) <= 0:
-        return math.nan
-    ratio = (q3 - q2) / (q2 - q1)
+    """p of Q(s) = Q* + C s^p through three values, fine to coarse; not a number
+    if they are not monotone, or if p is outside 0.05 ... 20."""
+    (s1, s2, s3), (q1, q2, q3) = sizes, values
 
     def mismatch(p):
-        return math.log((s3**p - s2**p) / (s2**p - s1**p)) - math.log(ratio)
+        return (math.log((s3**p - s2**p) / (s2**p - s1**p))
+                - math.log((q3 - q2) / (q2 - q1)))
 
-    low, high = 0.05, 20.0
-    if mismatch(low) >= 0:
-        return low
-    if mismatch(high) <= 0:
-        return high
-    return brentq(mismatch, low, high, xtol=1e-6)
+    if (q3 - q2) * (q2 - q1) <= 0 or mismatch(0.05) >= 0 or mismatch(20.0) <= 0:
+        return math.nan
+    return brentq(mismatch, 0.05, 20.0, xtol=1e-6)
 
 
 def mean_and_noise(values):
     """Mean over the seeds, and two standard errors of it (0 for one seed)."""
     values = numpy.asarray(values)
-    if len(values) < 2:
-        return float(values.mean()), 0.0
-    return (float(values.mean()),
-            2.0 * float(values.std(ddof=1)) / math.sqrt(len(values)))
+    noise = (2.0 * float(values.std(ddof=1)) / math.sqrt(len(values))
+             if len(values) > 1 else 0.0)
+    return float(values.mean()), noise

@@ -23,22 +23,14 @@ class Sample:
     seed: int = None
     moved: tuple = None
 
-    def words(self):
-        """For messages about this run; empty without either."""
-        text = f", seed {self.seed}" if self.seed is not None else ""
-        if self.moved:
-            text += ", grid moved by (" + ", ".join(
-                f"{part:g}" for part in self.moved) + ") h"
-        return text
-
     def overrides(self, keys):
         """(key, value) beside those of the point, which has these keys."""
-        result = []
+        found = {}
         if self.moved and any(self.moved):
-            result.append((KEY, moved_offset(keys, self.moved)))
+            found[KEY] = moved_offset(keys, self.moved)
         if self.seed is not None:
-            result.append(("Random seed", str(self.seed)))
-        return result
+            found["Random seed"] = str(self.seed)
+        return list(found.items())
 
 
 def read_offsets(text, plan):
@@ -47,8 +39,7 @@ def read_offsets(text, plan):
         return None
     number = whole_number(OPTION, text)
     if not 2 <= number <= MOST:
-        raise Refused(OPTION, text, f"an integer from 2 to {MOST}",
-                      "A power of two divides the grid cell evenly.")
+        raise Refused(OPTION, text, f"an integer from 2 to {MOST}")
     if KEY in plan.keys:
         raise Refused("--vary", KEY, f"another key with {OPTION}",
                       "That option moves the grid already.")
@@ -62,10 +53,8 @@ def samples(seeds, n_offsets, dimension):
 
 
 def fractions(number, dimension):
-    """The first points of Sobol's sequence, which begins at the scene's own
-    offset. Of 2^k points each direction has the positions i/2^k once each; a
-    larger number has the points of every smaller one, so that their runs are
-    used again."""
+    """The first points of Sobol's sequence: of 2^k points each direction has the
+    positions i/2^k once; a larger number has the points of every smaller one."""
     points = qmc.Sobol(dimension, scramble=False).random_base2(
         max(1, math.ceil(math.log2(number))))
     return [tuple(map(float, point)) for point in points[:number]]

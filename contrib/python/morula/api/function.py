@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from morula import scene as scenes
-from morula.kept_runs import Job, KeptRuns, job_name
+from morula.kept_runs import Job, KeptRuns, job_name, with_snapshots
 from morula.ladder import MAX_RUNS
 from morula.refusal import Refused
 from morula.served import Server
@@ -24,8 +24,6 @@ from .scene import Scene, as_text
 
 if TYPE_CHECKING:
     import pandas
-
-N_SNAPSHOTS = 10
 
 
 class Function:
@@ -164,13 +162,9 @@ def _silent(_: str) -> None:
 
 def _job(inner, keys):
     special = list(keys.items())
-    overrides = [*inner.overrides, *special]
-    values = {**inner.keys, **keys}
-    if (scenes.as_number(values["Output/Snapshot interval"]) == 0
-            and scenes.as_number(values["Time/End time"])):
-        overrides.append(("Output/Snapshot interval", format(
-            float(values["Time/End time"]) / N_SNAPSHOTS, ".6g")))
-    return Job(job_name(special, tuple(overrides)), tuple(overrides),
+    overrides = (*inner.overrides, *special,
+                 *with_snapshots({**inner.keys, **keys}))
+    return Job(job_name(special, overrides), overrides,
                ("cells", "surface", "snapshot"))
 
 

@@ -4,21 +4,19 @@
 from __future__ import annotations
 
 import contextlib
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 from morula import execute
+from morula.kept_runs import with_snapshots
 from morula.refusal import Refused
 from morula.scene import normal
 
 from .run import Run
 
 PATIENCE = 600.0  # s, for the step that a run is at: then it saves its state
-N_SNAPSHOTS = 10
 EVERY = 0.5  # s, between looks at how far it is
 
 
@@ -57,9 +55,8 @@ def state_of(scene, directory, keys):
 def run_scene(scene, directory, ranks, progress, again):
     """See Scene.run."""
     keys = scene.explain()["keys"]
-    interval = "Output/Snapshot interval"
-    if float(keys[interval]) == 0:  # what an interruption may lose
-        keys[interval] = f"{float(keys['Time/End time']) / N_SNAPSHOTS:.6g}"
+    snapshots = with_snapshots(keys)
+    keys.update(snapshots)
     state = state_of(scene, directory, keys)
     if state == "finished" and not again:
         return Run(directory)
@@ -67,11 +64,11 @@ def run_scene(scene, directory, ranks, progress, again):
         raise Refused("The directory", directory, "one without a run of another "
                       "scene", "Choose another one, or replace that run: "
                       "again=True.")
+    if again and state == "resumable":
+        state = "begun"
     how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])
-    if again and state != "none":
-        how = ["--replace"]
     with scene_file(scene) as file:
-        overrides = [*scene._overrides(), (interval, keys[interval]),
+        overrides = [*scene._overrides(), *snapshots,
                      ("Output directory", directory)]
         words = [*scene.program.command(file, overrides, ranks), *how]
         code, said = _execute(words, directory, float(keys["Time/End time"]),

@@ -2,14 +2,11 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/export."""
 import argparse
-import sys
 from pathlib import Path
 
-import numpy as np
-
-from morula.command_line import Parser, tell
+from morula.command_line import Parser, lengths, run_tool
 from morula.refusal import Refused
-from morula.run import NoStates, Run
+from morula.run import Run
 
 DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
 
@@ -47,22 +44,6 @@ def parser():
     return result
 
 
-def voxel_of(text):
-    """Edges in the order x, y, z, um."""
-    try:
-        edges = [float(word) for word in (text or "").split(",")]
-    except ValueError:
-        edges = []
-    if len(edges) == 1:
-        edges *= 3
-    if len(edges) not in (2, 3) or not all(np.isfinite(edge) and edge > 0
-                                           for edge in edges):
-        raise Refused("--voxel", text or "", "edges of the voxels in um, X,Y,Z "
-                      "(2-D: X,Y), or one number",
-                      "A fifth of a cell's length shows its shape.")
-    return edges
-
-
 def kind_of(file):
     """Of a file by its ending: one of TABLES, or "image"."""
     ending = file.suffix.lower()
@@ -87,7 +68,10 @@ def check(options):
     if kinds <= set(OVER_TIME) and (options.all or options.time is not None):
         raise Refused("--time, --all", "", "nothing for files over time alone",
                       "They have all states.")
-    return voxel_of(options.voxel) if "image" in kinds else None
+    if "image" not in kinds:
+        return None
+    edges = lengths("--voxel", options.voxel, (1, 2, 3))
+    return edges * 3 if len(edges) == 1 else edges
 
 
 def export(options):
@@ -120,11 +104,4 @@ def export(options):
 
 def main(words=None):
     """Exit code 0; 1 for what makes no sense."""
-    try:
-        return export(parser().parse_args(words))
-    except (Refused, NoStates, OSError) as refusal:
-        print(f"export: {refusal}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        tell("export: stopped; files that were written are whole.")
-        return 130
+    return run_tool("export", lambda: export(parser().parse_args(words)))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from morula.command_line import Parser
+from morula.command_line import Parser, lengths
 from morula.refusal import Refused
 
 DESCRIPTION = """Makes a scene of a label image (TIFF, also of several pages and OME;
@@ -65,12 +65,5 @@ def voxel_of(text, found, dimension):
                           "The file does not say it: give it, such as "
                           "--voxel 0.5,0.5,2.")
         return np.array(found[-dimension:])
-    try:
-        numbers = [float(word) for word in text.split(",")]
-    except ValueError:
-        numbers = []
-    if len(numbers) not in (dimension, 3) or not all(
-            np.isfinite(number) and number > 0 for number in numbers):
-        raise Refused("--voxel", text, f"{dimension} numbers > 0 in um, in the "
-                      "order " + ",".join("xyz"[:dimension]))
-    return np.array(numbers[:dimension][::-1])
+    edges = lengths("--voxel", text, sorted({dimension, 3}))
+    return np.array(edges[:dimension][::-1])

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The files of a scene: cells, surface, .prm."""
+import itertools
+
 import numpy as np
 
 from morula.files import replaced, write, write_csv
@@ -66,23 +68,14 @@ def _ring(part):
 
 
 def prm(keys, comments):
-    """A .prm text of keys by full path; comments stand at its begin."""
-    lines = [f"# {line}" for line in comments] + [""]
-    sections = []
-    for path, value in keys.items():
-        *wanted, name = path.split("/")
-        same = 0
-        while (same < min(len(sections), len(wanted))
-               and sections[same] == wanted[same]):
-            same += 1
-        while len(sections) > same:
-            sections.pop()
-            lines.append("  " * len(sections) + "end")
-        for section in wanted[same:]:
-            lines.append("  " * len(sections) + f"subsection {section}")
-            sections.append(section)
-        lines.append("  " * len(sections) + f"set {name} = {value}")
-    while sections:
-        sections.pop()
-        lines.append("  " * len(sections) + "end")
+    """A .prm text of keys by full path; comments stand at its begin. Keys that
+    follow each other in a section share it."""
+    lines = [*(f"# {line}" for line in comments), ""]
+    for sections, group in itertools.groupby(keys.items(),
+                                             lambda item: item[0].split("/")[:-1]):
+        lines += ["  " * depth + f"subsection {section}"
+                  for depth, section in enumerate(sections)]
+        lines += ["  " * len(sections) + f"set {path.split('/')[-1]} = {value}"
+                  for path, value in group]
+        lines += ["  " * depth + "end" for depth in reversed(range(len(sections)))]
     return "\n".join(lines) + "\n"

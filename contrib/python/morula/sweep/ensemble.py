@@ -1,35 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What the runs of one combination with different seeds have in common."""
-import math
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy
+import pandas
 
-
-@dataclass(frozen=True)
-class Summary:
-    """Of n numbers; a scatter needs two of them, and is nan of fewer.
-    deviation: standard deviation of the single numbers (divided by n - 1);
-    error: standard error, that is the standard deviation of the mean."""
-
-    n: int
-    mean: float
-    deviation: float
-    error: float
-    smallest: float
-    largest: float
+# Of n numbers: mean; standard deviation of the single ones (divided by n - 1), and of
+# the mean, nan for fewer than two; extremes.
+Summary = namedtuple("Summary", "n mean deviation error smallest largest")
 
 
 def summary(values):
-    values = numpy.asarray(values, dtype=float)
-    n = len(values)
-    if n == 0:
-        return Summary(0, *[math.nan] * 5)
-    deviation = float(numpy.std(values, ddof=1)) if n > 1 else math.nan
-    return Summary(n, float(values.mean()), deviation,
-                   deviation / math.sqrt(n), float(values.min()),
-                   float(values.max()))
+    values = pandas.Series(values, dtype=float)
+    return Summary(len(values), values.mean(), values.std(), values.sem(),
+                   values.min(), values.max())
 
 
 class Ensemble:
@@ -37,24 +22,24 @@ class Ensemble:
 
     def __init__(self, point, label, records):
         self.point, self.label, self.records = point, label, records
-        self.tables = [record.statistics() for record in records
+        self.tables = [record.run.statistics for record in records
                        if record.finished]
 
     def end(self, column):
         """Summary of the last values of a column; of none where the scene has
         it not, as that of a surface."""
-        return summary([table[column][-1] for table in self.tables
-                        if column in table.dtype.names])
+        return summary([table[column].iloc[-1] for table in self.tables
+                        if column in table])
 
     def course(self, column):
         """Times (days), mean and standard deviation of a column over the runs,
         up to the end of the shortest. Times at which only some runs have a
         row, because a step of theirs was halved, are interpolated linearly in
         the others. Empty where no run has the column."""
-        tables = [table for table in self.tables if column in table.dtype.names]
+        tables = [table for table in self.tables if column in table]
         if not tables:
             return (numpy.array([]),) * 3
-        end = min(table["time"][-1] for table in tables)
+        end = min(table["time"].iloc[-1] for table in tables)
         times = numpy.unique(numpy.concatenate(
             [table["time"] for table in tables]))
         times = times[times <= end]

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Columns of statistics.csv against time: a line for each combination, with a
 band of one standard deviation over the seeds."""
+from morula.columns import pretty
 from morula.files import replaced
 from morula.style import COLOURS, RC, colour, plt
 
@@ -35,20 +36,14 @@ def draw(request, ensembles, file):
 def _panel(request, axes, shown, column):
     for number, ensemble in enumerate(shown):
         times, mean, deviation = ensemble.course(column)
-        ink = _colour(number, len(shown))
+        ink = (colour(number) if len(shown) <= len(COLOURS) else
+               plt.get_cmap("viridis")(0.95 * number / (len(shown) - 1)))
         axes.plot(times, mean, color=ink, linewidth=1.4, label=ensemble.label)
         axes.fill_between(times, mean - deviation, mean + deviation,
                           color=ink, alpha=0.18, linewidth=0)
     name = column.replace("_", " ")
     found = unit(request, column)
-    pretty = found.replace("um", "µm").replace("^2", "²").replace("^3", "³")
-    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty}" if found else name)
-
-
-def _colour(number, total):
-    if total <= len(COLOURS):
-        return colour(number)
-    return plt.get_cmap("viridis")(0.95 * number / (total - 1))
+    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty(found)}" if found else name)
 
 
 def _legend(axes, shown):

@@ -26,10 +26,8 @@ def write_tables(request, ensembles, directory):
 def _rows_of_ends(request, ensembles):
     for ensemble in ensembles:
         for column in request.all_columns:
-            end = ensemble.end(column)
-            numbers = (end.mean, end.deviation, end.error, end.smallest,
-                       end.largest)
-            yield [*ensemble.point, column, unit(request, column), end.n,
+            n, *numbers = ensemble.end(column)
+            yield [*ensemble.point, column, unit(request, column), n,
                    len(ensemble.records) - len(ensemble.tables),
                    *(format(number, ".10g") for number in numbers)]
 
@@ -38,13 +36,13 @@ def _rows_of_runs(request, ensembles):
     """The last row of statistics.csv of every run, nan if it failed."""
     for ensemble in ensembles:
         for seed, record in zip(seeds(request), ensemble.records):
-            table = record.statistics() if record.finished else None
+            table = record.run.statistics if record.finished else {}
             yield [*ensemble.point, seed,
                    record.output.relative_to(request.output),
                    record.repeats[-1]["exit"],
-                   *(format(table[column][-1] if record.finished
-                            and column in table.dtype.names else math.nan,
-                            ".10g") for column in request.all_columns)]
+                   *(format(table[column].iloc[-1] if column in table
+                            else math.nan, ".10g")
+                     for column in request.all_columns)]
 
 
 def seeds(request):
@@ -66,20 +64,14 @@ def markdown(request, ensembles):
     sections = [f"# Sweep of {request.scene.name}", f"    {words}",
                 f"{request.scene.program.version}; {len(ensembles)} "
                 f"combinations, seeds {', '.join(map(str, seeds(request)))}: "
-                f"{n_runs} runs. Values at the end of each run; mean, "
-                "standard deviation of a run, standard error of the mean."]
+                f"{n_runs} runs. Values at the end of each run."]
     for column in request.columns:
-        sections += [f"## {_title(request, column)}",
+        sections += [f"## {', '.join(filter(None, (column, unit(request, column))))}",
                      _table(request, ensembles, column)]
     failures = list(failed_runs(request, ensembles))
     if failures:
         sections += ["## Failed", "\n".join(f"- {line}" for line in failures)]
     return "\n\n".join(sections) + "\n"
-
-
-def _title(request, column):
-    found = unit(request, column)
-    return f"{column}, {found}" if found else column
 
 
 def _table(request, ensembles, column):

@@ -5,20 +5,17 @@ import difflib
 
 from morula import columns
 from morula.command_line import output_directory, ranks_and_jobs
-from morula.kept_runs import Job, job_name
+from morula.kept_runs import Job, job_name, with_snapshots
 from morula.ladder import (Plan, SamplesPlan, check_method, check_seeds,
-                           read_ladder, read_samples, read_seeds)
+                           read_ladder, read_samples, read_seeds, refuse_keys)
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
-from morula.scene import Scene, as_number
+from morula.scene import Scene
 
 # Keys that cannot be varied, and why.
 NOT_VARIED = {"Random seed": "Use --seeds.", "Output directory": "Use --output."}
-
-# Snapshots in a run of a scene that asks for none before its end: what an
-# interruption may lose.
-N_SNAPSHOTS = 10
+CHANGES = "a key that changes results"
 
 
 class Request:
@@ -61,15 +58,8 @@ class Request:
             raise Refused("--samples", self.options.samples, "nothing besides "
                           "--vary", "Leave out one of the two.")
         keys, points = read_samples(self.options.samples, self.scene)
-        for key in keys:
-            self._refuse_not_varied("--samples", key)
+        refuse_keys("--samples", keys, NOT_VARIED, CHANGES)
         return keys, points
-
-    @staticmethod
-    def _refuse_not_varied(option, key):
-        if key in NOT_VARIED or key.startswith("Output/"):
-            raise Refused(option, key, "a key that changes results",
-                          NOT_VARIED.get(key, "-s sets it for all runs."))
 
     def _ladders(self):
         if not self.options.vary and not self.seeds:
@@ -78,8 +68,7 @@ class Request:
                           '"Grid/Spacing=60,40" --seeds 1-5.')
         ladders = [read_ladder(text, self.scene) for text in self.options.vary]
         for ladder in ladders:
-            for key in ladder.keys:
-                self._refuse_not_varied("--vary", key)
+            refuse_keys("--vary", ladder.keys, NOT_VARIED, CHANGES)
         return ladders
 
     def label(self, point):
@@ -93,19 +82,9 @@ class Request:
         if seed is not None:
             special.append(("Random seed", str(seed)))
         overrides = (*self.scene.overrides, *special,
-                     *self._snapshots({**self.scene.keys, **dict(special)}))
+                     *with_snapshots({**self.scene.keys, **dict(special)}))
         return Job(job_name(special, overrides), overrides,
                    ("cells", "surface", "snapshot"))
-
-    @staticmethod
-    def _snapshots(keys):
-        """Without snapshots nothing could be resumed; they never change the
-        steps."""
-        end = as_number(keys["Time/End time"])
-        if as_number(keys["Output/Snapshot interval"]) != 0 or not end:
-            return ()
-        return (("Output/Snapshot interval",
-                 format(end / N_SNAPSHOTS, ".6g")),)
 
 
 def read_columns(text, known):

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""contrib/accuracy on runs of the program: ladders whose truth is known, offsets of
+the grid, seeds, runs that fail, an executable that changes."""
+import csv
+import math
+import shutil
+import statistics
+
+import matplotlib.image
+import pytest
+from morula import columns
+from morula.run import Run
+from tests.common.program import SCENES, TESTS
+
+from tests.verification.radial import GrowingBall, Layer
+
+ROOT = TESTS.parent
+DISC = TESTS / "programs/disc.prm"
+
+# A disc that grows most at its rim, with nothing random.
+GRADED_DISC = """
+set Dimension = 2
+subsection Time
+  set End time = 1
+  set Step = 1
+end
+subsection Tissue
+  set Radius = 250
+  set Cell spacing = 10
+end
+subsection Grid
+  set Spacing = 50
+  set Offset = 3, 5
+end
+subsection Growth
+  set Law = isotropic
+  subsection Isotropic
+    set Stretch = 1 + 0.4*t*(X^2+Y^2)/250^2
+  end
+end
+subsection Solver
+  set Newton tolerance = 1e-9
+end
+"""
+LADDER = ["--vary", "Grid/Spacing,Tissue/Cell spacing=100:20,70:14,50:10,35:7",
+          "--measure", "surface:mean(radius),total_volume"]
+
+
+@pytest.fixture(scope="module")
+def accuracy(runs):
+    """The tool, which writes into `found`; what it says."""
+    def call(scene, *words, code=0):
+        if "--morula" not in words:
+            words = (*words, "--morula", runs.options.morula)
+        done = runs.call([ROOT / "contrib/accuracy", scene, "--output",
+                          runs.work / "found", "--mpiexec", runs.options.mpiexec,
+                          *words], code)
+        return done.stdout + done.stderr
+    return call
+
+
+@pytest.fixture
+def table(runs):
+    """Reads a file of `found` as dictionaries of text."""
+    return lambda name="table.csv": list(csv.DictReader(
+        (runs.work / "found" / name).open(encoding="utf-8")))
+
+
+def assert_drawn(runs, name, least=0.03):
+    """The figure is there, and something is on it."""
+    picture = matplotlib.image.imread(runs.work / "found" / name)
+    assert picture[:, :, :3].std() > least
+    (runs.work / "found" / name).unlink()
+
+
+def exact_radius():
+    constants = (0.4 / 1.4 / 0.2, 0.5 / 1.4)  # E = 1 kPa, nu = 0.4
+    ball = GrowingBall([Layer(0, 250, lambda R: 1 + 0.4 * R**2 / 250**2,
+                              lambda R: 0.8 * R / 250**2)], constants, 2, False)
+    return float(250 * ball.stretches([250.0])[1][0])
+
+
+def test_truth(runs, accuracy, table):
+    """Where the exact solution is known, the limit of the ladders agrees with it
+    within the uncertainty that is stated; a file of right values gives errors. The
+    same runs are not done twice."""
+    scene = runs.write("graded.prm", GRADED_DISC)
+    assert "from before" not in accuracy(scene, *LADDER)
+    assert_drawn(runs, "accuracy.png")
+    radius = exact_radius()
+    right = {"um": radius, "um^2": math.pi * radius**2}
+    for row in table():
+        stated = float(row["right_value_uncertainty"])
+        assert abs(float(row["right_value"]) - right[row["unit"]]) < stated
+        # and no excuse: the radius to 0.2 um, the volume to 3 %
+        assert stated < (0.2 if row["unit"] == "um" else 0.03 * right["um^2"])
+        assert float(row["memory_mb"]) > 30 and float(row["wall_seconds"]) > 0
+    reference = runs.write("exact.csv", f"r,total_volume\n{radius},{right['um^2']}\n")
+    said = accuracy(scene, *LADDER, "--reference", reference, "--reference-column",
+                    "surface:mean(radius)=r", "--wanted", "1%")
+    assert said.count("from before") == 4
+    for row in table():
+        assert float(row["error"]) == pytest.approx(
+            float(row["value"]) - float(row["right_value"]), abs=1e-4)
+        assert float(row["right_value"]) == pytest.approx(right[row["unit"]], 1e-9)
+        assert float(row["right_value_uncertainty"]) == 0
+    assert sum(row["least_time_for_wanted"] == "1" for row in table()) == 2
+
+
+def test_seeds_and_days(runs, accuracy, table):
+    """Means over seeds, and cells' files, for a grid of combinations."""
+    accuracy(DISC, "--grid", "--vary", "Grid/Spacing=80,40", "--vary",
+             "Time/Step=0.25,0.125", "--seeds", "1..3", "--at", "0.5,1", "--measure",
+             "cells,cells:p90(energy_density)")
+    rows = table()
+    assert len(rows) == 4 * 2 * 2
+    assert all(float(row["seed_scatter"]) > 0 for row in rows if row["time"] == "1")
+    row, = (row for row in rows if (
+        row["measure"], row["time"], row["Grid/Spacing"], row["Time/Step"])
+            == ("cells", "1", "40", "0.25"))
+    ends = [Run(file).statistics["cells"].iloc[-1] for file in
+            (runs.work / "found/runs").glob("Random-seed=*/output")]
+    assert len(ends) == 3
+    assert float(row["value"]) == pytest.approx(sum(ends) / 3)
+    for day in ("0.5", "1"):
+        assert_drawn(runs, f"accuracy-day-{day}.png")
+
+
+def test_offsets(runs, accuracy, table):
+    """Every run stands where it says, and the table is made of them; a larger
+    number has the runs of the smaller one."""
+    scene = runs.write("moved.prm", GRADED_DISC)
+    words = ["--measure", "ymax,mean_energy_density", "--offsets"]
+    accuracy(scene, *words, "3")
+    rows = table("offsets.csv")
+    assert {(row["moved_x"], row["moved_y"]) for row in rows} == {
+        ("0", "0"), ("0.5", "0.5"), ("0.75", "0.25")}
+    run = runs.run("by-hand", scene, {"Grid/Offset": "40.5,17.5"})
+    for row in rows:
+        if row["moved_x"] == "0.75":
+            assert float(row["value"]) == pytest.approx(
+                run.statistics[row["measure"]].iloc[-1], 1e-8)
+    for row in table("scatter.csv"):
+        values = [float(run["value"]) for run in rows
+                  if run["measure"] == row["measure"]]
+        assert row["runs"] == "3"
+        for name, value in (("mean", statistics.mean(values)),
+                            ("standard_deviation", statistics.stdev(values)),
+                            ("smallest", min(values)), ("largest", max(values))):
+            assert float(row[name]) == pytest.approx(value)
+        assert max(values) / min(values) > 1 + 1e-6  # there is something to see
+    assert_drawn(runs, "accuracy.png", 0.02)
+    assert accuracy(scene, *words, "4", "--vary", "Grid/Spacing=50,60").count(
+        "from before") == 3
+    assert len(table("scatter.csv")) == 2 * 2
+    assert len(table()) == 2 * 2
+
+
+def test_runs_that_fail(runs, accuracy, table):
+    """Without extension and with grid lines that barely cut the tissue no step
+    converges; without the run that all ladders share, only a file knows the truth."""
+    scene = SCENES / "without-extension-fails.prm"
+    words = [scene, "--vary", "Grid/Extension=false,true", "--measure", "zmax"]
+    assert "left out, it failed with exit code 2" in accuracy(
+        *words, "-s", "Grid/Extension=true")
+    assert "| failed |" in (runs.work / "found/table.md").read_text(encoding="utf-8")
+    assert len(table()) == 1
+    accuracy(*words, code=2)
+    accuracy(*words, "--reference", runs.write("reference.csv", "zmax\n250\n"))
+    assert len(table()) == 1
+
+
+def test_executable_that_changes(runs, accuracy):
+    """Runs of two builds must not be compared: those of the old one are done anew,
+    and a build in mid-run ends the command."""
+    copy = runs.work / "morula"
+    words = [DISC, "--morula", copy, "--vary", "Grid/Spacing=80,40", "--measure",
+             "xmax", "-s", "Time/End time=0.25"]
+    shutil.copy(runs.options.morula, copy)
+    accuracy(*words)
+    assert accuracy(*words).count("from before") == 2
+    with copy.open("ab") as stream:
+        stream.write(b"another build")
+    assert "from before" not in accuracy(*words)
+    copy.write_text("#!/bin/sh\ncase $* in *--parameters*|*--explain*) ;;\n"
+                    f"*) echo '# new' >> {copy} ;; esac\n"
+                    f"exec {runs.options.morula} \"$@\"\n")
+    assert "nobody replaces" in accuracy(*words, code=1)
+
+
+def test_names_of_columns(runs):
+    """The names that measures may have are those that Morula writes."""
+    # Only cells of some type have one.
+    run = runs.run("columns", DISC, {"Output/Formats": "csv",
+                                     "Cell types/Names": "only"})
+    # Only scenes whose rates look at the state have an error of this kind.
+    assert {*run.statistics, "step_error"} == {
+        *columns.STATISTICS, *columns.EFFORT, "cells_only"}
+    for kind, known in columns.POINTS.items():
+        assert set(known) - {"radius"} <= set(getattr(run, kind)(0))
+
+
+@pytest.mark.release
+def test_ladders_of_the_page(runs, table):
+    """Few and coarse: what they are to show must show."""
+    runs.call([ROOT / "contrib/upkeep/accuracy-ladders", "--short",
+               "half-fixed-sphere", "grid-offsets", "--morula", runs.options.morula,
+               "--output", runs.work / "found"])
+    energy = {row["Grid/Spacing"]: float(row["value"])
+              for row in table("half-fixed-sphere.short/table.csv")
+              if row["measure"] == "mean_energy_density"}
+    # the clamp edge: too stiff a grid stores too much energy
+    assert energy["100"] > energy["75"]
+    # and less with the consistent method, wherever the grid lies
+    scatter = {row["Method"]: row for row in table("grid-offsets.short/scatter.csv")
+               if row["measure"] == "mean_energy_density"}
+    assert float(scatter["consistent"]["largest"]) < float(scatter["paper"]["smallest"])
+
+
+@pytest.mark.release
+def test_two_ranks(accuracy, table):
+    """Keys that change together on two ranks; the solver makes no difference."""
+    accuracy(SCENES.parent / "programs/small-cube.prm", "--ranks", "2", "--vary",
+             "Grid/Spacing,Tissue/Cell spacing=60:20,40:12", "--vary",
+             "Solver/Linear solver=iterative,direct", "--measure", "zmax")
+    heights = {row["Grid/Spacing"]: float(row["value"]) for row in table()}
+    solved = [float(row["value"]) for row in table() if row["Grid/Spacing"] == "35"]
+    assert len(solved) >= 2 and solved == pytest.approx([solved[0]] * len(solved), 1e-5)
+    assert abs(heights["60"] - heights["35"]) > 1e-3

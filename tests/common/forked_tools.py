@@ -60,6 +60,8 @@ def _become(tool, words, cwd, files, runs):
             file = os.open(path, flags, 0o644)
             os.dup2(file, descriptor)
             os.close(file)
+        # pytest has streams of its own in the place of these
+        sys.stdout, sys.stderr = sys.__stdout__, sys.__stderr__
         os.chdir(cwd or os.getcwd())
         os.environ.update(execute.ENVIRONMENT)
         if runs:

@@ -26,36 +26,46 @@ def require_virtual_screen():
         sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
 
 
-@contextmanager
-def virtual_screen(number):
-    """An X server for a display; whether it runs, as another may have it."""
+def server_for(number):
+    """An X server for a display; None if another process has it."""
     reading, writing = os.pipe()
     # The server must not reset when its last client leaves: VTK comes and goes
     # several times.
-    with subprocess.Popen(
-            ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
-             "640x480x24", "-nolisten", "tcp", "-noreset"],
-            pass_fds=[writing], stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
-        try:
-            os.close(writing)
-            with os.fdopen(reading) as pipe:
-                runs = bool(pipe.readline().strip())
-            yield runs
-        finally:
-            server.terminate()
+    server = subprocess.Popen(
+        ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
+         "640x480x24", "-nolisten", "tcp", "-noreset"],
+        pass_fds=[writing], stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        if pipe.readline().strip():
+            return server
+    server.wait()
+    return None
+
+
+@contextmanager
+def virtual_screen():
+    """The environment of a process that draws on a screen of its own: VTK's OpenGL
+    needs an X server, and a virtual one gives equal pictures everywhere."""
+    require_virtual_screen()
+    for number in DISPLAYS:
+        server = server_for(number)
+        if server:
+            break
+    else:
+        sys.exit("Drawing: Xvfb did not start.")
+    environment = {**os.environ, "DISPLAY": f":{number}", VARIABLE: str(number)}
+    environment.pop("XAUTHORITY", None)
+    try:
+        yield environment
+    finally:
+        server.terminate()
+        server.wait()
 
 
 def run_on_virtual_screen(command):
     """Runs a command with a virtual screen as its display and returns its
-    exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
-    pictures everywhere."""
-    require_virtual_screen()
-    for number in DISPLAYS:
-        with virtual_screen(number) as runs:
-            if runs:
-                environment = {**os.environ, "DISPLAY": f":{number}",
-                               VARIABLE: str(number)}
-                environment.pop("XAUTHORITY", None)
-                return subprocess.call(command, env=environment)
-    sys.exit("Drawing: Xvfb did not start.")
+    exit code."""
+    with virtual_screen() as environment:
+        return subprocess.call(command, env=environment)

@@ -19,8 +19,7 @@ def main(words=None):
     options = arguments(words)
     try:
         request = Request(options)
-        if options.shapes and not on_virtual_screen():
-            # VTK draws polyhedra; spheres need no screen.
+        if not on_virtual_screen():
             return run_on_virtual_screen(
                 [sys.executable, "-P", "-m", "morula", *sys.argv])
         draw(request)

@@ -6,7 +6,6 @@ Python is missing."""
 import os
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -28,8 +27,7 @@ RED, BLUE = (200, 0, 0), (0, 0, 200)
 @pytest.fixture(scope="module")
 def screen():
     """For pictures that are drawn in this process."""
-    with virtual_screen() as environment, pytest.MonkeyPatch.context() as patch:
-        patch.setenv("DISPLAY", environment["DISPLAY"])
+    with virtual_screen():
         yield
 
 
@@ -299,26 +297,17 @@ def test_thousands_of_cells(runs):
         assert panel.mean() > 0.2
 
 
-# Draws nothing, but wants a screen of its own while it has one.
-NESTED = """import os, sys
-from morula.draw.screen import run_on_virtual_screen
-print(os.environ["DISPLAY"], flush=True)
-depth = int(sys.argv[2])
-sys.exit(3 if depth == 0 else run_on_virtual_screen(
-    [sys.executable, "-c", sys.argv[1], sys.argv[1], str(depth - 1)]))
-"""
-
-
-def test_displays():
+def test_displays(monkeypatch):
     """None of 0 to 9, where Open MPI looks for graphics cards, and none
     that another process has."""
-    done = subprocess.run([sys.executable, "-c", NESTED, NESTED, "2"], capture_output=True,
-                          text=True, check=False, env={**os.environ, "DISPLAY": ":own"})
-    assert done.returncode == 3, done.stderr
-    own, *displays = done.stdout.split()
-    assert own == ":own"
-    numbers = {int(display[1:]) for display in displays}
-    assert len(numbers) == 2 and min(numbers) >= 10
+    monkeypatch.setenv("DISPLAY", ":own")
+    with virtual_screen():
+        one = os.environ["DISPLAY"]
+        with virtual_screen():
+            other = os.environ["DISPLAY"]
+    assert one != other
+    assert min(int(display[1:]) for display in (one, other)) >= 10
+    assert os.environ["DISPLAY"] == ":own"
 
 
 def without(work, module, tool, *words):

@@ -83,7 +83,7 @@ class Page(HTMLParser):
         if tag == "td" and data.strip():
             self.rows[-1].append(data)
         if tag == "script" and "id" in attributes:
-            self.scripts[attributes["id"]] = data
+            self.scripts.setdefault(attributes["id"], data)
 
     def cells(self, i):
         """Positions and radii (n, 4), µm, of state i, and by field its bytes."""

@@ -7,17 +7,10 @@ import subprocess
 import sys
 from contextlib import contextmanager
 
-VARIABLE = "MORULA_VIRTUAL_SCREEN"
-
 # Where a virtual screen may be. As it starts, Open MPI looks for graphics cards
 # on the displays 0 to 9, in mpiexec, too, and the server that ends just then
 # ends the program that looks.
 DISPLAYS = range(99, 199)
-
-
-def on_virtual_screen():
-    """Whether this process draws on a screen of run_on_virtual_screen()."""
-    return VARIABLE in os.environ
 
 
 def require_virtual_screen():
@@ -46,8 +39,9 @@ def server_for(number):
 
 @contextmanager
 def virtual_screen():
-    """The environment of a process that draws on a screen of its own: VTK's OpenGL
-    needs an X server, and a virtual one gives equal pictures everywhere."""
+    """While it lasts, this process and those that it starts draw on a screen of their
+    own: VTK's OpenGL needs an X server, and a virtual one gives equal pictures
+    everywhere."""
     require_virtual_screen()
     for number in DISPLAYS:
         server = server_for(number)
@@ -55,11 +49,14 @@ def virtual_screen():
             break
     else:
         sys.exit("Drawing: Xvfb did not start.")
-    environment = {**os.environ, "DISPLAY": f":{number}", VARIABLE: str(number)}
-    environment.pop("XAUTHORITY", None)
+    before = {**os.environ}
+    os.environ["DISPLAY"] = f":{number}"
+    os.environ.pop("XAUTHORITY", None)
     try:
-        yield environment
+        yield
     finally:
+        os.environ.clear()
+        os.environ.update(before)
         server.terminate()
         server.wait()
 
@@ -67,5 +64,5 @@ def virtual_screen():
 def run_on_virtual_screen(command):
     """Runs a command with a virtual screen as its display and returns its
     exit code."""
-    with virtual_screen() as environment:
-        return subprocess.call(command, env=environment)
+    with virtual_screen():
+        return subprocess.call(command)

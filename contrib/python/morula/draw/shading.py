@@ -49,15 +49,13 @@ def shaded_actor(mapper):
     return actor
 
 
-def surface_actor(positions, triangles, colours, crease=180.0):
-    """A triangulated surface, shaded smoothly but for edges at which it turns
-    by more than `crease` degrees."""
+def surface_actor(positions, triangles, colours):
+    """A triangulated surface, shaded smoothly."""
     data = poly_data(positions, colours)
     data.SetPolys(cell_array(triangles))
     normals = vtkPolyDataNormals()
     normals.SetInputData(data)
-    normals.SetSplitting(crease < 180)
-    normals.SetFeatureAngle(crease)
+    normals.SplittingOff()
     normals.ConsistencyOff()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
@@ -82,7 +80,9 @@ def aim_camera(renderer, view):
     camera.SetPosition(*(view.center + view.direction))
     camera.SetViewUp(*view.up)
     camera.SetParallelScale(view.half_height)
-    renderer.ResetCameraClippingRange()
+    # VTK's own range would cut off spheres, which it takes for points.
+    distance = np.linalg.norm(view.direction)
+    camera.SetClippingRange(0.01 * distance, 2 * distance)
 
 
 def add_occlusion(renderer, radius):

@@ -3,13 +3,12 @@
 """Pictures within the page, as data: addresses."""
 import base64
 import io
-import subprocess
-import sys
 import tempfile
+from contextlib import redirect_stdout
 from pathlib import Path
 
 from cycler import cycler
-from morula.execute import call
+from morula.render import tool as render
 from morula.style import COLOURS, RC, plt
 from PIL import Image
 
@@ -56,12 +55,10 @@ def pictures(run):
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(scratch) / "cells.png"
         field = "type" if run.type_names else "energy_density"
-        result = call(
-            [sys.executable, "-P", "-m", "morula", "render", run.directory,
-             "--panels", "2", "--field", field, "--output", file],
-            stderr=subprocess.STDOUT)
-        if result.code != 0:
-            print(f"report: no picture: {result.stdout.strip()}", file=sys.stderr)
+        with redirect_stdout(io.StringIO()):
+            code = render.main([str(run.directory), "--panels", "2", "--field", field,
+                                "--output", str(file)])
+        if code:
             return []
         return [(photograph(file), "The last state, drawn by contrib/render.")]
 

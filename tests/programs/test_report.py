@@ -109,8 +109,7 @@ def page_of(runs, run, *words):
 def cube(runs):
     return runs.run("cube", CUBE, {
         "Time/End time": 2, "Time/Step": 0.25, "Output/Formats": "vtu",
-        "Proliferation/Cell cycle/Start": "together",
-        "Proliferation/Cell cycle/Size checkpoint": 1})
+        "Proliferation/Cell cycle/Start": "together"})
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +119,7 @@ def page(runs, cube):
 
 def test_numbers(cube, page):
     rows, lineage = cube.statistics, cube.lineage
+    assert len(lineage) > lineage.founders
     sizes = np.bincount(lineage.founder[cube.cells(-1)["id"]])
     for name, value in {
             "steps": len(rows) - 1, "cells at first": rows["cells"][0],
@@ -136,10 +136,10 @@ def test_numbers(cube, page):
             "unknowns, most": rows["unknowns"].max(),
             "largest residual at a step's end, relative to its first":
             rows["residual"].max(),
-            "rejected steps": 0,
-            "cells to a grid cell's edge, first": 35 / 12}.items():
+            "rejected steps": 0}.items():
         shown = float(page.values[name.replace("'", "&#39;")].replace(",", ""))
         assert shown == pytest.approx(value, rel=1e-3), name
+    assert page.values["cells to a grid cell&#39;s edge, first"] == f"{35 / 12:.3g}"
     assert page.values["largest clone"] == (
         f"{sizes.max()} cells, of founder {sizes.argmax()}")
 
@@ -147,9 +147,9 @@ def test_numbers(cube, page):
 def test_tables(cube, page):
     """Time by section, the keys that differ, and the effects."""
     assert ["Tissue/Cell spacing", "12", "10"] in page.rows
-    effects = {row[0]: row[1] for row in page.rows if len(row) > 1}
+    effects = {row[0]: row[1] for row in page.rows if row[1:2] in (["on"], ["off"])}
     assert (effects["growth"], effects["proliferation"]) == ("off", "on")
-    shown = {row[0]: row[1:] for row in page.rows}
+    shown = {row[0]: row[1:] for row in page.rows if row and row[-1].endswith(" %")}
     for section, (calls, seconds, share) in cube.timings.iterrows():
         assert int(shown[section][0].replace(",", "")) == calls
         assert float(shown[section][1]) == pytest.approx(seconds, abs=0.006)
@@ -178,13 +178,12 @@ def test_shades(cube, page):
     """A cell's byte leads to the colour that contrib/render gives its value."""
     _, fields = page.cells(len(cube.times) - 1)
     cells = cube.cells(-1)
-    assert cells["held_at_checkpoint"].sum() > 0
     for field in page.about["fields"]:
         name, shades = field["name"], np.reshape(field["shades"], (256, 3))
         values = np.concatenate([cube.cells(i)[name] for i in range(len(cube.times))])
         expected = colours_of(name, values, limits_of(name, values, PERCENTILES)).of(cells[name])
         off = np.abs(shades[fields[name]].astype(int) - expected).max()
-        assert off <= (0 if name in ("phase", "generation", "held_at_checkpoint") else 4), name
+        assert off <= (0 if name in ("phase", "generation") else 4), name
 
 
 def test_types(runs):

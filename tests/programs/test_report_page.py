@@ -19,7 +19,8 @@ REPORT = Path(__file__).resolve().parents[2] / "contrib/report"
 @pytest.fixture(scope="module")
 def cube(runs):
     return runs.run("cube", SCENES.parent / "programs/small-cube.prm", {
-        "Time/End time": 2, "Time/Step": 0.25, "Output/Formats": "vtu"})
+        "Time/End time": 2, "Time/Step": 0.25, "Output/Formats": "vtu", "Grid/Spacing": 60,
+        "Proliferation/Cell cycle/Start": "together"})
 
 
 @pytest.fixture(scope="module")

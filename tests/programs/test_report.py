@@ -258,7 +258,7 @@ def test_damaged(runs):
         if content is not None:
             file.write_text(content)
         said = report(runs, run, "--no-pictures", code=1).stderr
-        assert said.startswith("report: ") and "Traceback" not in said
+        assert "report: " in said and "Traceback" not in said
         assert (run.directory / "report.html").read_text() == page
         file.write_bytes(whole)
     for name in ("lineage.csv", "timings.csv", "log.txt"):

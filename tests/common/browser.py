@@ -19,35 +19,23 @@ OPTIONS = (
     "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update",
     "--disable-sync", "--disable-default-apps", "--disable-extensions",
-    "--force-device-scale-factor=1", "--hide-scrollbars")
+    "--force-device-scale-factor=1", "--hide-scrollbars", "--window-size=720,640")
 
 
 class Browser:
     """`driver` is Selenium's; use it in a with statement."""
 
-    def __init__(self, *options, width=720, height=640, dark=False):
-        programs = [shutil.which(name) for name in
-                    ("chromium", "chromedriver")]
-        if None in programs:
-            raise RuntimeError("chromium or chromedriver is missing; "
-                               "contrib/setup installs both")
+    def __enter__(self):
         self.profile = tempfile.mkdtemp(prefix="morula-browser-")
         chosen = webdriver.ChromeOptions()
-        chosen.binary_location = programs[0]
-        for option in (*OPTIONS, *options, f"--window-size={width},{height}",
-                       f"--user-data-dir={self.profile}"):
+        chosen.binary_location = shutil.which("chromium")
+        for option in (*OPTIONS, f"--user-data-dir={self.profile}"):
             chosen.add_argument(option)
         chosen.set_capability("goog:loggingPrefs",
                               {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(
-            service=Service(programs[1]), options=chosen)
+            service=Service(shutil.which("chromedriver")), options=chosen)
         self.driver.set_script_timeout(60)
-        scheme = {"name": "prefers-color-scheme",
-                  "value": "dark" if dark else "light"}
-        self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
-                                    {"features": [scheme]})
-
-    def __enter__(self):
         return self
 
     def __exit__(self, *_):
@@ -63,27 +51,27 @@ class Browser:
         """The value of a script that returns it."""
         return self.driver.execute_script(script, *arguments)
 
-    def wait(self, promise, *arguments):
+    def wait(self, promise):
         """The value of a promise."""
         return self.driver.execute_async_script(
-            "const done = arguments[arguments.length - 1];"
-            f"Promise.resolve({promise}).then(done);", *arguments)
+            f"Promise.resolve({promise}).then(arguments[0]);")
 
     def text(self, element):
         return self.run("return document.getElementById(arguments[0])"
                         ".textContent.trim()", element)
 
-    def set(self, element, value, event="input"):
+    def set(self, element, value):
         """As if the user had chosen a value."""
         self.run("const e = document.getElementById(arguments[0]);"
-                 "e.value = arguments[1];"
-                 "e.dispatchEvent(new Event(arguments[2]));",
-                 element, str(value), event)
+                 "e.value = arguments[1]; e.dispatchEvent(new Event('input'));",
+                 element, str(value))
 
-    def phone(self, width, height):
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
-            "width": width, "height": height, "deviceScaleFactor": 1,
-            "mobile": True})
+    def picture(self):
+        """Red, green and blue (height, width, 3), 0 to 255, of the 3-D view."""
+        address = self.run("report.view.draw();"
+                           "return report.view.canvas.toDataURL('image/png')")
+        content = base64.b64decode(address.partition(",")[2])
+        return np.asarray(Image.open(io.BytesIO(content)).convert("RGB"), dtype=int)
 
     def complaints(self):
         """What the console says but for notes; says it once."""
@@ -99,11 +87,3 @@ class Browser:
             if message["method"] == "Network.requestWillBeSent":
                 found.append(message["params"]["request"]["url"])
         return [url for url in found if not url.startswith(("chrome", "data:"))]
-
-
-def image_of(png):
-    """Red, green and blue (height, width, 3), 0 to 255, of a PNG: bytes, or a
-    data: address."""
-    if isinstance(png, str):
-        png = base64.b64decode(png.partition(",")[2])
-    return np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), dtype=int)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The colours of a field."""
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from dataclasses import field as of_each
 
 import matplotlib
@@ -112,6 +112,11 @@ class Colours:
         """Colours (n, 3), bytes."""
         colours = self.palette(self.scale(np.asarray(values, dtype=float)))
         return (255 * colours[:, :3]).round().astype(np.uint8)
+
+    def in_dimension(self, dimension):
+        """The same in 2-D, where a volume is an area."""
+        return self if dimension == 3 else replace(
+            self, label=self.label.replace("µm³", "µm²"))
 
     def _written(self):
         """The names, none of which is a formula."""

@@ -7,17 +7,10 @@ import subprocess
 import sys
 from contextlib import contextmanager
 
-VARIABLE = "MORULA_VIRTUAL_SCREEN"
-
 # Where a virtual screen may be. As it starts, Open MPI looks for graphics cards
 # on the displays 0 to 9, in mpiexec, too, and the server that ends just then
 # ends the program that looks.
 DISPLAYS = range(99, 199)
-
-
-def on_virtual_screen():
-    """Whether this process draws on a screen of run_on_virtual_screen()."""
-    return VARIABLE in os.environ
 
 
 def require_virtual_screen():
@@ -26,36 +19,50 @@ def require_virtual_screen():
         sys.exit("Drawing: Xvfb is missing; contrib/setup installs it.")
 
 
-@contextmanager
-def virtual_screen(number):
-    """An X server for a display; whether it runs, as another may have it."""
+def server_for(number):
+    """An X server for a display; None if another process has it."""
     reading, writing = os.pipe()
     # The server must not reset when its last client leaves: VTK comes and goes
     # several times.
-    with subprocess.Popen(
-            ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
-             "640x480x24", "-nolisten", "tcp", "-noreset"],
-            pass_fds=[writing], stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as server:
-        try:
-            os.close(writing)
-            with os.fdopen(reading) as pipe:
-                runs = bool(pipe.readline().strip())
-            yield runs
-        finally:
-            server.terminate()
+    server = subprocess.Popen(
+        ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
+         "640x480x24", "-nolisten", "tcp", "-noreset"],
+        pass_fds=[writing], stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        if pipe.readline().strip():
+            return server
+    server.wait()
+    return None
+
+
+@contextmanager
+def virtual_screen():
+    """While it lasts, this process and those that it starts draw on a screen of their
+    own: VTK's OpenGL needs an X server, and a virtual one gives equal pictures
+    everywhere."""
+    require_virtual_screen()
+    for number in DISPLAYS:
+        server = server_for(number)
+        if server:
+            break
+    else:
+        sys.exit("Drawing: Xvfb did not start.")
+    before = {**os.environ}
+    os.environ["DISPLAY"] = f":{number}"
+    os.environ.pop("XAUTHORITY", None)
+    try:
+        yield
+    finally:
+        os.environ.clear()
+        os.environ.update(before)
+        server.terminate()
+        server.wait()
 
 
 def run_on_virtual_screen(command):
     """Runs a command with a virtual screen as its display and returns its
-    exit code: VTK's OpenGL needs an X server, and a virtual one gives equal
-    pictures everywhere."""
-    require_virtual_screen()
-    for number in DISPLAYS:
-        with virtual_screen(number) as runs:
-            if runs:
-                environment = {**os.environ, "DISPLAY": f":{number}",
-                               VARIABLE: str(number)}
-                environment.pop("XAUTHORITY", None)
-                return subprocess.call(command, env=environment)
-    sys.exit("Drawing: Xvfb did not start.")
+    exit code."""
+    with virtual_screen():
+        return subprocess.call(command)

@@ -2,15 +2,20 @@
 # Copyright (C) 2026 by the Morula authors
 """Shaded pictures of surfaces and polyhedra, by VTK."""
 import numpy as np
+from morula.shapes.grid import lists_of_points
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper,
                                          vtkRenderer, vtkRenderWindow,
                                          vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import (vtkOpaquePass, vtkRenderStepsPass,
                                             vtkSSAOPass)
+
+# Direction (right, up, to the viewer) and strength.
+LIGHTS = (((-0.6, 1.0, 1.2), 1.0), ((1.2, 0.2, 0.8), 0.35),
+          ((0.0, -1.0, 0.6), 0.2))
 
 
 def poly_data(positions, colours):
@@ -27,12 +32,8 @@ def poly_data(positions, colours):
 
 def cell_array(corners):
     """VTK's list of the cells (n, k) of k points each."""
-    cells = vtkCellArray()
     n, k = corners.shape
-    cells.SetData(
-        numpy_to_vtk(k * np.arange(n + 1, dtype=np.int64), deep=True),
-        numpy_to_vtk(corners.astype(np.int64).ravel(), deep=True))
-    return cells
+    return lists_of_points(k * np.arange(n + 1), corners.ravel())
 
 
 def shaded_actor(mapper):
@@ -48,15 +49,13 @@ def shaded_actor(mapper):
     return actor
 
 
-def surface_actor(positions, triangles, colours, crease=180.0):
-    """A triangulated surface, shaded smoothly but for edges at which it turns
-    by more than `crease` degrees."""
+def surface_actor(positions, triangles, colours):
+    """A triangulated surface, shaded smoothly."""
     data = poly_data(positions, colours)
     data.SetPolys(cell_array(triangles))
     normals = vtkPolyDataNormals()
     normals.SetInputData(data)
-    normals.SetSplitting(crease < 180)
-    normals.SetFeatureAngle(crease)
+    normals.SplittingOff()
     normals.ConsistencyOff()
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(normals.GetOutputPort())
@@ -66,9 +65,7 @@ def surface_actor(positions, triangles, colours, crease=180.0):
 def add_lights(renderer):
     renderer.RemoveAllLights()
     renderer.AutomaticLightCreationOff()
-    for position, intensity in (((-0.6, 1.0, 1.2), 1.0),
-                                ((1.2, 0.2, 0.8), 0.35),
-                                ((0.0, -1.0, 0.6), 0.2)):
+    for position, intensity in LIGHTS:
         light = vtkLight()
         light.SetLightTypeToCameraLight()
         light.SetPosition(*position)
@@ -83,7 +80,9 @@ def aim_camera(renderer, view):
     camera.SetPosition(*(view.center + view.direction))
     camera.SetViewUp(*view.up)
     camera.SetParallelScale(view.half_height)
-    renderer.ResetCameraClippingRange()
+    # VTK's own range would cut off spheres, which it takes for points.
+    distance = np.linalg.norm(view.direction)
+    camera.SetClippingRange(0.01 * distance, 2 * distance)
 
 
 def add_occlusion(renderer, radius):
@@ -92,7 +91,7 @@ def add_occlusion(renderer, radius):
     occlusion = vtkSSAOPass()
     occlusion.SetRadius(radius)
     occlusion.SetBias(0.02 * radius)
-    occlusion.SetKernelSize(96)
+    occlusion.SetKernelSize(32)
     occlusion.BlurOn()
     occlusion.SetDelegatePass(vtkOpaquePass())
     steps.SetOpaquePass(occlusion)

@@ -5,13 +5,13 @@ import numpy as np
 from morula.shapes.cutting import cut
 from morula.shapes.grid import lists_of_points
 from morula.shapes.polyhedra import SURFACE, joined
-from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkFiltersCore import vtkFeatureEdges
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from .shading import cell_array, poly_data, shaded_actor
+from .shading import poly_data, shaded_actor
 
 EDGE = (0.13, 0.13, 0.16)
-SMOOTH = 0.8  # least cosine across an edge of the surface that is not drawn
+SMOOTH = 37  # degrees between faces across an edge that is not drawn
 
 
 def cut_through(bodies, origin, normal):
@@ -39,59 +39,34 @@ def visible(bodies):
     return bodies.select((bodies.beyond < 0) | ~there[bodies.beyond])
 
 
-def unit_normals(faces):
-    normals = faces.area_vectors()
-    return normals / np.maximum(
-        np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
-
-
 def shape_actors(bodies, colours, width):
     """The faces in their cells' colours (bytes), and their edges as lines of
-    this width in pixels."""
+    this width in pixels, but for those of smooth surfaces."""
     faces = visible(bodies)
-    places, colour = faces.points[faces.corners], np.repeat(
-        colours[faces.owner], faces.counts, axis=0)
-    data = poly_data(places, colour)
-    data.SetPolys(lists_of_points(faces.starts, np.arange(len(places))))
-    normal = numpy_to_vtk(np.repeat(unit_normals(faces), faces.counts, axis=0),
-                          deep=True)
-    data.GetPointData().SetNormals(normal)
+    number = len(faces.points)
+    # Each cell has corners of its own: edges are those of its faces.
+    used, corners = np.unique(
+        np.repeat(faces.owner, faces.counts) * number + faces.corners,
+        return_inverse=True)
+    data = poly_data(faces.points[used % number], colours[used // number])
+    data.SetPolys(lists_of_points(faces.starts, corners))
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(data)
     # Edges lie in the faces: they are drawn as if a little nearer.
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    return [shaded_actor(mapper), edge_actor(faces, width)]
+    actor = shaded_actor(mapper)
+    actor.GetProperty().SetInterpolationToFlat()
+    return [actor, edge_actor(data, width)]
 
 
-def drawn_edges(faces):
-    """Pairs (n, 2) of points: the edges of faces, but for those between faces
-    of one cell that make up its part of a smooth surface."""
-    face = np.repeat(np.arange(len(faces.owner)), faces.counts)
-    ends = np.stack([faces.corners, faces.corners[faces.following()]], axis=1)
-    ends.sort(axis=1)
-    order = np.lexsort([ends[:, 1], ends[:, 0], faces.owner[face]])
-    ends, face = ends[order], face[order]
-    same = np.flatnonzero((faces.owner[face[1:]] == faces.owner[face[:-1]])
-                          & np.all(ends[1:] == ends[:-1], axis=1))
-    one, other = face[same], face[same + 1]
-    normals = unit_normals(faces)
-    smooth = same[(faces.beyond[one] == SURFACE)
-                  & (faces.beyond[other] == SURFACE)
-                  & (np.einsum("ij,ij->i", normals[one], normals[other])
-                     > SMOOTH)]
-    drawn = np.ones(len(ends), dtype=bool)
-    drawn[same] = False  # once is enough
-    drawn[smooth + 1] = False
-    return ends[drawn]
-
-
-def edge_actor(faces, width):
-    used, ends = np.unique(drawn_edges(faces), return_inverse=True)
-    data = poly_data(faces.points[used],
-                     np.zeros((len(used), 3), dtype=np.uint8))
-    data.SetLines(cell_array(ends.reshape(-1, 2)))
+def edge_actor(data, width):
+    edges = vtkFeatureEdges()
+    edges.SetInputData(data)
+    edges.SetFeatureAngle(SMOOTH)
+    edges.ColoringOff()
+    edges.NonManifoldEdgesOff()
     mapper = vtkPolyDataMapper()
-    mapper.SetInputData(data)
+    mapper.SetInputConnection(edges.GetOutputPort())
     mapper.ScalarVisibilityOff()
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
     actor = vtkActor()

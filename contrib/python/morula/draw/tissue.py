@@ -11,7 +11,6 @@ import numpy as np
 from morula.run import NoStates, Run, places, read_points
 from morula.shapes.regions import regions_of_state
 
-from . import discs, spheres
 from .points import radii_of
 
 EDGE_WIDTH = 0.04      # in lengths of a cell ...
@@ -33,11 +32,12 @@ class Spheres:
         self.gaps = 5 * np.median(self.radii)
 
     def picture(self, colours, kept, view, pixels):
+        # VTK needs a screen, which reading the cells does without.
+        from . import spheres
+        drawn = self.positions[kept], self.radii[kept], colours[kept]
         if self.flat:
-            return discs.render(self.positions[kept], self.radii[kept],
-                                colours[kept], view, pixels)
-        return spheres.render(self.positions[kept], self.radii[kept],
-                              colours[kept], view, pixels, self.gaps)
+            return spheres.render_discs(*drawn, view, pixels)
+        return spheres.render(*drawn, view, pixels, self.gaps)
 
 
 class Shapes:
@@ -65,7 +65,6 @@ class Shapes:
                            pixels)
 
     def _drawn(self, bodies, colours, view, pixels):
-        # VTK needs a screen, which spheres do without.
         from . import shading
         from .shapes import shape_actors
         pixel = view.half_width / pixels[0]  # µm; twice as many are drawn

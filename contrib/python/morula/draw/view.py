@@ -45,7 +45,8 @@ def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
     center = (low + high) / 2
     center += right * ((across.min() + across.max()) / 2 - center @ right)
     center += over * ((along.min() + along.max()) / 2 - center @ over)
-    distance = 2 * np.linalg.norm(high - low) + 1
+    # Far away, as VTK's ambient occlusion has the background where the viewer is.
+    distance = 10 * (np.linalg.norm(high - low) + 2 * radius + 1)
     return View(center, distance * direction, up, right, half_width,
                 half_height)
 

@@ -2,8 +2,6 @@
 # Copyright (C) 2026 by the Morula authors
 """The pictures of the states asked for. All of them have one view, which holds
 the tissue at all these times, and one meaning of the colours."""
-from dataclasses import replace
-
 import numpy as np
 from morula.draw import tissue
 from morula.draw.colours import colours_of
@@ -29,11 +27,9 @@ class Frames:
                         outermost.max(axis=0) + cells.margin]
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
-        self.colours = colours_of(self.options.field, np.concatenate(values),
-                                  request.limits, request.types)
-        if self.flat:  # a volume is an area there
-            self.colours = replace(self.colours, label=self.colours.label
-                                   .replace("µm³", "µm²"))
+        self.colours = colours_of(
+            self.options.field, np.concatenate(values), request.limits,
+            request.types).in_dimension(2 if self.flat else 3)
         angles = self.options.azimuth, self.options.elevation
         if len(request.states) == 1:
             self.view = view_of(outermost, cells.margin, *angles, cells.flat)

@@ -20,7 +20,7 @@ the polyhedron that it fills.
     contrib/render output --movie --panels 2       all states, as a film
     contrib/render output --shapes --cut           cells as polyhedra
 
-It needs neither a display nor a graphics card; 200,000 cells take some seconds.
+It needs neither a display nor a graphics card; 200,000 cells take half a minute.
 """
 
 

@@ -5,7 +5,7 @@ import sys
 import time
 
 from morula.command_line import tell
-from morula.draw.screen import on_virtual_screen, run_on_virtual_screen
+from morula.draw.screen import virtual_screen
 from morula.files import replaced
 from morula.refusal import Refused
 from morula.run import NoStates
@@ -19,11 +19,8 @@ def main(words=None):
     options = arguments(words)
     try:
         request = Request(options)
-        if options.shapes and not on_virtual_screen():
-            # VTK draws polyhedra; spheres need no screen.
-            return run_on_virtual_screen(
-                [sys.executable, "-P", "-m", "morula", *sys.argv])
-        draw(request)
+        with virtual_screen():
+            draw(request)
     except (Refused, NoStates, OSError) as error:
         print(f"render: {error}", file=sys.stderr)
         return 1

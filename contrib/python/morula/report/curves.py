@@ -1,47 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The columns of statistics.csv over time, as pictures within the page."""
-import io
-import re
+"""The columns of statistics.csv over time, as pictures."""
 from dataclasses import dataclass
 
-import matplotlib
 import numpy as np
+from morula.fits import RANGE
+from morula.style import COLOURS
+from scipy.stats import linregress
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
-from matplotlib.ticker import ScalarFormatter  # noqa: E402
+from .numbers import number, volume_unit
+from .pictures import drawn
 
-from . import markup  # noqa: E402
-from .growth_fit import fit_growth  # noqa: E402
-from .markup import Markup, joined, number, span  # noqa: E402
-from .scene import volume_unit  # noqa: E402
-
-# Colours that the page replaces by its own, light or dark.
-SERIES = ("#010101", "#020202", "#030303", "#040404", "#050505", "#060606",
-          "#090909", "#0a0a0a")
-TEXT, GRID = "#070707", "#080808"
-RC = {"svg.fonttype": "none", "font.family": "sans-serif", "font.size": 10,
-      "axes.spines.top": False, "axes.spines.right": False,
-      "axes.edgecolor": TEXT, "axes.labelcolor": TEXT, "text.color": TEXT,
-      "xtick.color": TEXT, "ytick.color": TEXT, "legend.frameon": False,
-      "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6,
-      "axes.formatter.use_mathtext": True, "axes.axisbelow": True,
-      "axes.formatter.limits": (-3, 5), "legend.fontsize": 9}
-
-
-class TickLabels(ScalarFormatter):
-    """Plain text, but for the common power of ten: a report takes 1.4 times as
-    long if all labels are formulas."""
-
-    def __call__(self, x, pos=None):
-        return (super().__call__(x, pos).removeprefix(r"$\mathdefault{")
-                .removesuffix("}$"))
+LEAST_ROWS = 5
+LEAST_GROWTH = 1.02  # last over first value in the range of a fit
+LEAST_R2 = 0.99
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Columns drawn together; `grown` may be exponential."""
+    """Columns drawn together; the column `grown` may be exponential."""
 
     title: str
     unit: str
@@ -53,153 +30,123 @@ class Curve:
 
 
 def results(run):
-    volume = volume_unit(run)
-    curves = [
-        Curve("Number of cells", "", {"cells": "cells"}, grown="cells"),
-        Curve("Volume", volume, {
-            "total_volume": "of the cells, deformed",
-            "grown_volume": "of the cells, were they free"},
-            grown="total_volume"),
-        Curve("Strain energy density", "kPa", {
-            "mean_energy_density": "mean, weighted by volume",
-            "cell_mean_energy_density": "mean, each cell once"}),
-        Curve("Largest strain energy density", "kPa",
-              {"max_energy_density": "largest"}),
-        Curve("Elastic volume ratio", "", {
-            "min_elastic_volume_ratio": "smallest",
-            "max_elastic_volume_ratio": "largest"})]
-    if run.statistics["dividing"].any():
-        curves.append(Curve("Divisions in a step", "",
-                            {"dividing": "divisions"}, only_steps=True))
-    if run.statistics["held_at_checkpoint"].any():
-        curves.append(Curve("Cells held at the size checkpoint", "",
-                            {"held_at_checkpoint": "held"}))
-    if "dying" in run.statistics:
-        curves += [Curve("Dead cells that are still there", "",
-                         {"dying": "dead cells"}),
-                   Curve("Deaths and removals in a step", "",
-                         {"deaths": "deaths", "removed": "removals"},
-                         only_steps=True)]
-    columns = {f"cells_{name}": name for name in run.type_names}
-    if columns and {*columns} <= {*run.statistics}:
-        curves.insert(1, Curve("Cells of each type", "", columns, zero=True))
+    rows, volume = run.statistics, volume_unit(run)
+    yield Curve("Number of cells", "", {"cells": "cells"}, grown="cells")
+    of_types = {f"cells_{name}": name for name in run.type_names}
+    if of_types and {*of_types} <= {*rows}:
+        yield Curve("Cells of each type", "", of_types, zero=True)
+    yield Curve("Volume", volume, {
+        "total_volume": "of the cells, deformed",
+        "grown_volume": "of the cells, were they free"}, grown="total_volume")
+    yield Curve("Strain energy density", "kPa", {
+        "mean_energy_density": "mean, weighted by volume",
+        "cell_mean_energy_density": "mean, each cell once"})
+    yield Curve("Largest strain energy density", "kPa", {"max_energy_density": "largest"})
+    yield Curve("Elastic volume ratio", "", {"min_elastic_volume_ratio": "smallest",
+                                             "max_elastic_volume_ratio": "largest"})
+    if rows["dividing"].any():
+        yield Curve("Divisions in a step", "", {"dividing": "divisions"}, only_steps=True)
+    if rows["held_at_checkpoint"].any():
+        yield Curve("Cells held at the size checkpoint", "", {"held_at_checkpoint": "held"})
+    if "dying" in rows:
+        yield Curve("Dead cells that are still there", "", {"dying": "dead cells"})
+        yield Curve("Deaths and removals in a step", "",
+                    {"deaths": "deaths", "removed": "removals"}, only_steps=True)
     for name in run.field_names:
-        curves.append(Curve(f"The field {name}", "", {
+        yield Curve(f"The field {name}", "", {
             f"{name}_max": "largest", f"{name}_mean": "mean, by volume",
-            f"{name}_min": "least"}, zero=True))
-    curves.append(Curve("Extent of the surface", "µm", {
-        f"{axis}{end}": f"{axis}, {word}"
-        for axis in "xyz"[:run.dimension]
-        for end, word in (("min", "least"), ("max", "most"))}))
-    return curves
+            f"{name}_min": "least"}, zero=True)
+    yield Curve("Extent of the surface", "µm", {
+        f"{axis}{end}": f"{axis}, {word}" for axis in "xyz"[:run.dimension]
+        for end, word in (("min", "least"), ("max", "most"))})
 
 
 def effort(run):
-    curves = [
-        Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True,
-              zero=True),
-        Curve("Iterations in a step", "", {
-            "linear_iterations": "linear", "newton_iterations": "Newton"},
-            only_steps=True, zero=True),
-        Curve("Wall time", "s", {"wall_seconds": "since the start"}),
-        Curve("Last residual of a step, relative", "",
-              {"residual": "residual"}, only_steps=True, log=True),
-        Curve("Length of a step", "day", {"dt": "step"}, only_steps=True,
-              zero=True)]
+    yield Curve("Unknowns", "", {"unknowns": "unknowns"}, only_steps=True, zero=True)
+    yield Curve("Iterations in a step", "", {
+        "linear_iterations": "linear", "newton_iterations": "Newton"},
+        only_steps=True, zero=True)
+    yield Curve("Wall time", "s", {"wall_seconds": "since the start"})
+    yield Curve("Last residual of a step, relative", "", {"residual": "residual"},
+                only_steps=True, log=True)
+    yield Curve("Length of a step", "day", {"dt": "step"}, only_steps=True, zero=True)
     if "step_error" in run.statistics:
-        curves.append(Curve(
-            "What the step before missed of growth and flow, relative", "",
-            {"step_error": "missed"}, only_steps=True, zero=True))
-    return curves
-
-
-def figure(run, curve):
-    """The curve as HTML: picture, words on the fit, the last values."""
-    rows = run.statistics[1:] if curve.only_steps else run.statistics
-    if not len(rows):
-        return Markup("")
-    last = rows.iloc[-1]
-    fit = fit_growth(rows["time"].to_numpy(), rows[curve.grown].to_numpy()) \
-        if curve.grown else None
-    picture = draw(rows, curve, fit)
-    words = [f"{label}: {number(last[name])} {curve.unit}".strip()
-             for name, label in curve.columns.items()]
-    caption = f"Day {last['time']:g}: " + "; ".join(words) + "."
-    return markup.figure(
-        ", ".join(filter(None, (curve.title, curve.unit))), picture,
-        Markup(" ").join(filter(None, (caption, words_on(fit, curve)))),
-        f"curve-{next(iter(curve.columns))}")
-
-
-def words_on(fit, curve):
-    if not curve.grown:
-        return ""
-    if fit is None:
-        return ("No exponential was fitted: too few steps, or it hardly "
-                "grows.")
-    where = (f"days {fit.low:g} to {fit.high:g} ({fit.rows} steps, least "
-             "squares of the logarithm)")
-    if not fit.exponential:
-        return (f"Not exponential over {where}: r² = {fit.r2:.5f}, of a "
-                f"straight line {fit.r2_line:.5f}.")
-    return span("fit", f"Fit over {where}: {fit.factor:.4g} · "
-                f"exp({fit.rate:.4f} t/day), r² = {fit.r2:.5f}; of a straight "
-                f"line r² = {fit.r2_line:.5f}.")
-
-
-def draw(rows, curve, fit):
-    with plt.rc_context({**RC, "svg.hashsalt": curve.title}):
-        canvas, axes = plt.subplots(figsize=(4.6, 2.7), layout="constrained")
-        for i, (name, label) in enumerate(curve.columns.items()):
-            again, colour = divmod(i, len(SERIES))
-            values = rows[name].where(rows[name] > 0) \
-                if curve.log else rows[name]
-            marker = "o" if len(rows) < 25 else ""
-            # a name is no formula, whatever dollars stand in it
-            axes.plot(rows["time"], values, color=SERIES[colour],
-                      label=label.replace("$", r"\$"), linewidth=1.6,
-                      linestyle=":" if again else "-", marker=marker,
-                      markersize=3)
-        if fit is not None and fit.exponential:
-            time = np.linspace(fit.low, fit.high, 100)
-            axes.plot(time, fit(time), color=SERIES[1 if len(curve.columns)
-                                                    == 1 else 2],
-                      label="exponential fit", linewidth=2.2, linestyle="--")
-        label_plainly(axes)
-        if curve.log and (rows[next(iter(curve.columns))] > 0).any():
-            axes.set_yscale("log")
-        if curve.zero:
-            axes.set_ylim(bottom=0)
-        if axes.lines and len(axes.get_legend_handles_labels()[1]) > 1:
-            axes.legend(ncols=2 if len(axes.lines) > 3 else 1)
-        axes.set_xlabel("day")
-        return svg(canvas, curve.title)
-
-
-def label_plainly(axes):
-    """The ticks of both axes, before one becomes logarithmic."""
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(TickLabels())
-
-
-def svg(canvas, title):
-    """The picture as an element of the page, which gives the colours."""
-    stream = io.StringIO()
-    canvas.savefig(stream, format="svg", transparent=True,
-                   metadata={"Date": None, "Creator": None, "Format": None,
-                             "Type": None})
-    plt.close(canvas)
-    text = stream.getvalue()
-    text = text[text.index("<svg"):]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r'^<svg [^>]*?(viewBox="[^"]*")[^>]*>',
-                  rf'<svg \1 role="img" aria-label="{title}" '
-                  'xmlns:xlink="http://www.w3.org/1999/xlink">', text)
-    for i, colour in enumerate(SERIES):
-        text = text.replace(colour, f"var(--series-{i})")
-    return Markup(text.replace(TEXT, "var(--text)")
-                  .replace(GRID, "var(--line)"))
+        yield Curve("What the step before missed of growth and flow, relative", "",
+                    {"step_error": "missed"}, only_steps=True, zero=True)
 
 
 def figures(run, curves):
-    return joined(figure(run, curve) for curve in curves)
+    """(title, picture, words with the last values and the fit)"""
+    for curve in curves:
+        rows = run.statistics[1:] if curve.only_steps else run.statistics
+        if not len(rows):
+            continue
+        last = rows.iloc[-1]
+        fit = curve.grown and fit_growth(rows["time"], rows[curve.grown])
+        words = "; ".join(f"{label}: {number(last[name])} {curve.unit}".strip()
+                          for name, label in curve.columns.items())
+        yield (", ".join(filter(None, (curve.title, curve.unit))), picture(rows, curve, fit),
+               f"Day {last['time']:g}: {words}. {fit.words if fit else ''}")
+
+
+def picture(rows, curve, fit):
+    def draw(axes):
+        for i, (name, label) in enumerate(curve.columns.items()):
+            # a name is no formula, whatever dollars stand in it
+            axes.plot(rows["time"], rows[name], label=label.replace("$", r"\$"),
+                      linestyle="-" if i < len(COLOURS) else ":")
+        if fit and fit.exponential:
+            time = np.linspace(fit.low, fit.high, 100)
+            axes.plot(time, fit.factor * np.exp(fit.rate * time), "k--",
+                      label="exponential fit")
+        if curve.log and (rows[[*curve.columns]] > 0).any(axis=None):
+            axes.set_yscale("log")
+        if curve.zero:
+            axes.set_ylim(bottom=0)
+        axes.set_xlabel("day")
+        axes.legend()
+    return drawn(draw)
+
+
+@dataclass(frozen=True)
+class Fit:
+    """factor · e^{rate t} over a range of days, with the coefficients of
+    determination of the logarithm and, to compare, of a straight line."""
+
+    factor: float
+    rate: float
+    low: float
+    high: float
+    rows: int
+    r2: float
+    r2_line: float
+
+    @property
+    def exponential(self):
+        """Whether the curve may be called so: the fit explains nearly
+        everything, and more than a straight line does."""
+        return self.r2 >= LEAST_R2 and self.r2 >= self.r2_line
+
+    @property
+    def words(self):
+        where = f"days {self.low:g} to {self.high:g} ({self.rows} steps)"
+        found = (f"Fit over {where}: {self.factor:.4g} · exp({self.rate:.4f} t/day)"
+                 if self.exponential else f"Not exponential over {where}")
+        return f"{found}, r² = {self.r2:.5f}; of a straight line r² = {self.r2_line:.5f}."
+
+
+def fit_growth(time, values):
+    """By least squares of the logarithm over days 2 to 4 as in the paper's
+    Figs. 3 and 4, or over the second half of a run that has not come so far; None
+    where there are too few rows or nothing grows."""
+    time, values = np.asarray(time), np.asarray(values, dtype=float)
+    low, high = RANGE
+    if time[-1] < high - 1e-6:
+        low, high = 0.5 * (time[0] + time[-1]), time[-1]
+    kept = (time >= low - 1e-6) & (time <= high + 1e-6)
+    t, v = time[kept], values[kept]
+    if len(t) < LEAST_ROWS or not min(v) > 0 or v[-1] < LEAST_GROWTH * v[0]:
+        return None
+    growth = linregress(t, np.log(v))
+    return Fit(float(np.exp(growth.intercept)), float(growth.slope), float(low), float(high),
+               len(t), growth.rvalue**2, linregress(t, v).rvalue**2)

@@ -1,116 +1,84 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The whole page from its parts. The templates escape all text of a run, which
+"""The whole page from its parts. The template escapes all text of a run, which
 may come from somebody else."""
 import base64
 import hashlib
+from pathlib import Path
 
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from morula.refusal import Refused
 from morula.run import NoStates
 
-from . import accuracy, curves, effort, lineage, pictures, scene
-from .cells import Packed, fields_of, palettes
-from .libraries import three
-from .markup import PAGE, TEMPLATES, Markup, joined, paragraph
-from .packing import json_block
-from .selection import DEFAULT_FIELDS
+from . import curves, lineage, numbers, scene
+from .cells import DEFAULT_FIELDS, Packed, fields_of
+from .pictures import pictures
 
-SCRIPTS = ("data.js", "tabs.js", "spheres.js", "axes.js", "camera.js",
-           "cut.js", "view.js", "legend.js", "saving.js", "panel.js",
-           "tree.js", "start.js")
+PAGE = Path(__file__).with_name("page")
+TEMPLATES = Environment(loader=FileSystemLoader(PAGE), autoescape=True,
+                        undefined=StrictUndefined)
+# Debian's package; its own files hold the notice of its licence.
+THREE = Path("/usr/share/javascript/three")
+LIBRARIES = (THREE / "build/three.min.js", THREE / "examples/js/controls/OrbitControls.js")
+LICENCE = Path("/usr/share/doc/libjs-three/copyright")
 
 
-def page(run, program, options, say):
+def page(run, program, options):
     """The page as text."""
-    cells, left_out = pack_cells(run, options)
-    family, blocks = pack_lineage(run)
-    about = {"name": run.name, "view": cells and cells.about,
-             "lineage": family,
-             "palettes": palettes(cells.meanings if cells else {})}
-    if cells:
-        blocks += cells.blocks
-        left_out = [*cells.selection.words, *left_out]
-    last, code = run.statistics.iloc[-1], scripts(cells is not None)
-    parts = {
-        "title": run.name, "flat": run.dimension == 2,
-        "subtitle": f"{last['cells']:,.0f} cells at day {last['time']:g}",
-        "style": Markup((PAGE / "style.css").read_text(encoding="utf-8")),
-        "glance": scene.at_a_glance(run),
-        "keys": scene.changed_keys(run, program),
-        "effects": scene.effects(run, program),
-        "log": log(run), "pictures": options.pictures
-        and pictures.pictures(run, say) or "",
-        "curves": curves.figures(run, curves.results(run)),
-        "effort_curves": curves.figures(run, curves.effort(run)),
-        "timings": effort.timings(run), "counters": effort.counters(run),
-        "accuracy": accuracy.numbers(run), "notes": accuracy.notes(run),
-        "lineage": family_part(run, family),
-        "left_out": left_out,
-        "view_state": "" if cells else "hidden",
-        "no_view": why_no_view(run, options) if not cells else "",
-        "blocks": joined([json_block("about", about), *blocks]),
-        "script_digests": Markup(" ".join(map(digest, code))),
-        "scripts": Markup("\n".join(f"<script>{script}</script>"
-                                    for script in code))}
-    return TEMPLATES.get_template("template.html").render(parts)
+    cells = pack_cells(run, options)
+    code = scripts() if cells else []
+    return TEMPLATES.get_template("template.html").render(
+        run=run, program=program, cells=cells, numbers=numbers, scene=scene,
+        why_no_view=why_no_view(options) if not cells else "",
+        pictures=pictures(run) if options.pictures else [],
+        curves=curves.figures(run, curves.results(run)),
+        effort=curves.figures(run, curves.effort(run)),
+        lineage=lineage if has_lineage(run) else None,
+        style=(PAGE / "style.css").read_text(encoding="utf-8"),
+        scripts=code, digests=[digest(script) for script in code])
 
 
 def pack_cells(run, options):
-    """The packed states, or None, and what was left out, in sentences."""
+    """The packed states, or None."""
     if not len(run.times) or options.states == 0:
-        return None, []
+        return None
     there = fields_of(run.cells(-1))
     fields = options.fields or [f for f in DEFAULT_FIELDS if f in there]
-    packed = Packed(run, fields, options.states, options.limit * 1e6)
-    rest = [name for name in there if name not in fields]
-    words = [
-        "Positions are rounded to 1/65,535 of the box round the tissue, "
-        f"{max(packed.high - packed.low) / 65535:.2g} µm, radii and fields "
-        "to 1/255 of their range; the files of the run have all digits."]
-    if rest:
-        words.append(f"Columns that are not here: {', '.join(rest)} "
-                     "(--fields).")
-    return packed, words
+    return Packed(run, fields, options.states, options.limit * 1e6)
 
 
-def pack_lineage(run):
+def has_lineage(run):
     try:
-        return lineage.about(run), lineage.blocks(run)
+        return len(run.lineage) > 0
     except NoStates:
-        return None, []
+        return False
 
 
-def family_part(run, family):
-    if family is None:
-        return paragraph("There is no lineage.csv.")
-    return (lineage.summary(run) + Markup('<div class="figures">')
-            + lineage.histograms(run) + Markup("</div>"))
-
-
-def why_no_view(run, options):
+def why_no_view(options):
     if options.states == 0:
         return "The page was made without the 3-D view (--states 0)."
-    return ("No cells were written (Output/Formats = none), so that there is "
-            "nothing to show in 3-D. The curves, the lineage and the costs "
-            "are complete.")
+    return "No cells were written (Output/Formats = none)."
 
 
-def log(run):
-    lines = scene.log_lines(run)
-    return "\n".join(lines) or "It has only a line a step."
-
-
-def scripts(with_view):
-    """The library, if there is a view, then the page's own."""
-    found = three() if with_view else []
-    found += [(PAGE / name).read_text(encoding="utf-8") for name in SCRIPTS]
+def scripts():
+    """The library with its licence, which must go with every copy, then the page's
+    own."""
+    if not all(file.is_file() for file in LIBRARIES):
+        raise Refused("three.js", LIBRARIES[0], "Debian's package libjs-three",
+                      "contrib/setup installs it; --states 0 makes a page without the 3-D view.")
+    files = [*LIBRARIES, PAGE / "spheres.js", PAGE / "view.js"]
+    found = [file.read_text(encoding="utf-8") for file in files]
+    if LICENCE.is_file():
+        terms = LICENCE.read_text(encoding="utf-8").replace("*/", "* /")
+        found[0] = f"/* {terms} */\n{found[0]}"
     for script in found:
         if "</script" in script.lower() or "<!--" in script:
             raise ValueError("a script would end its own element, or hide it")
-    return [f"\n{script}\n" for script in found]
+    return found
 
 
 def digest(script):
     """What the page's policy knows a script by: a browser runs these scripts
-    and no other, not even one that gets into the page past the templates."""
+    and no other, not even one that gets into the page past the template."""
     sha = hashlib.sha256(script.encode()).digest()
     return f"'sha256-{base64.b64encode(sha).decode()}'"

@@ -94,9 +94,7 @@ def main(words=None):
         run = Run(options.directory)
         check(run, options)
         program = find_program(options.morula)
-        content = page(run, program, options,
-                       lambda line: print(line, file=sys.stderr))
-        write(options.output, content)
+        write(options.output, page(run, program, options))
     except (Refused, NoStates) as refusal:
         print(f"report: {refusal}", file=sys.stderr)
         return 1

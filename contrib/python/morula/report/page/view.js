@@ -2,209 +2,211 @@
 // Copyright (C) 2026 by the Morula authors
 "use strict";
 
-// The picture: which state it shows, in which colours, what is cut away.
+// The picture of the cells, and the controls beside it.
+
+const byId = (id) => document.getElementById(id);
+
+/** The bytes of a block of the page. */
+async function unpack(name) {
+  const deflated = Uint8Array.from(atob(byId(name).textContent),
+    (letter) => letter.charCodeAt(0));
+  const stream = new Blob([deflated]).stream().pipeThrough(
+    new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
 
 class View {
   /** Throws if there is no WebGL 2. */
-  constructor(stage, about, palettes, lineage) {
-    this.canvas = stage.querySelector("canvas");
-    const context = this.canvas.getContext("webgl2", {antialias: false});
-    if (!context) throw new Error("this browser has no WebGL 2");
-    this.stage = stage;
+  constructor(about) {
     this.about = about;
-    this.lineage = lineage;
-    this.palettes = palettes;
+    this.canvas = byId("canvas");
+    const context = this.canvas.getContext("webgl2");
+    if (!context) throw new Error("This browser has no WebGL 2.");
     this.renderer = new THREE.WebGLRenderer({canvas: this.canvas, context});
+    this.renderer.setClearColor("white");
     this.spheres = new Spheres(about);
-    this.surface = new SurfacePoints(this.spheres,
-      3 * about.radii[1]);
+    const size = new THREE.Vector3(...about.size);
+    this.low = new THREE.Vector3(...about.low);
+    this.middle = this.low.clone().addScaledVector(size, 0.5);
+    this.reach = 0.5 * size.length() + about.low[3] + about.size[3];
+    const axes = new THREE.AxesHelper(0.5 * this.reach);
+    axes.position.copy(this.low);
     this.scene = new THREE.Scene();
-    this.scene.add(this.spheres.object, this.surface.object);
-    this.camera = new Camera(this.canvas, about, () => this.turned());
-    this.cut = new Cut(about, this.camera);
-    this.bytes = new Map();
-    this.frames = 0;
-    this.coarse = 1;  // one of so many cells while a slow picture moves
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change",
-      () => this.request());
-    new ResizeObserver(() => this.resize()).observe(stage);
+    this.scene.add(this.spheres.object, axes);
+    this.blocks = new Map();
+    this.makeCamera();
+    this.listen();
+    this.look("home");
+    new ResizeObserver(() => this.resize()).observe(this.canvas.parentElement);
     this.resize();
   }
 
-  /** Loads what a state needs; the last call wins. */
-  async show(number, field, founder, onlyClone) {
-    const wanted = this.wanted = {number, field, founder, onlyClone};
-    const state = this.about.states[number];
-    const cells = await this.once(`cells-${number}`,
-      (bytes) => cellsOf(bytes, state.shown));
-    const ids = this.lineage && state.divisions !== null
-      ? this.lineage.present(state, this.about.stride) : null;
-    const values = field.clone ? this.lineage.colours(ids)
-      : await this.once(`field-${field.name}-${number}`, (bytes) => bytes);
-    const surface = state.surface && await this.once(`surface-${number}`,
-      (bytes) => surfaceOf(bytes, state.surface));
-    if (this.wanted !== wanted) return false;
-    Object.assign(this, {state, cells, ids, values, field});
-    this.members = ids && onlyClone ? this.lineage.membersOf(founder, ids)
-      : null;
-    this.surface.show(surface || new Uint16Array(0));
-    this.spheres.uniforms.steps.value = field.whole
-      ? field.high - field.low + 1 : 0;
-    this.spheres.palette(this.palettes[field.palette]);
-    this.choose();
-    return true;
+  makeCamera() {
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1,
+      0.01 * this.reach, 8 * this.reach);
+    this.camera.up.set(0, this.about.flat ? 1 : 0, this.about.flat ? 0 : 1);
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.enableKeys = false;
+    this.controls.screenSpacePanning = true;
+    if (this.about.flat) {  // it is moved, not turned
+      this.controls.enableRotate = false;
+      this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
+      this.controls.touches.ONE = THREE.TOUCH.PAN;
+    }
+    this.controls.addEventListener("change", () => this.draw());
   }
 
-  /** A block, decoded once. */
-  async once(name, decode) {
-    if (!this.bytes.has(name)) this.bytes.set(name, decode(await unpack(name)));
-    return this.bytes.get(name);
+  listen() {
+    const {states, fields, flat} = this.about;
+    byId("time").max = byId("time").value = states.length - 1;
+    for (const {name} of fields) byId("field").add(new Option(name));
+    for (const id of ["time", "field"])
+      byId(id).addEventListener("input", () => this.show());
+    byId("cut").addEventListener("input", () => this.face());
+    for (const id of ["place", "flip"])
+      byId(id).addEventListener("input", () => this.cut());
+    byId("play").addEventListener("click", () => this.play());
+    for (const button of document.querySelectorAll("[data-look]")) {
+      button.hidden = flat && button.dataset.look !== "home";
+      button.addEventListener("click", () => this.look(button.dataset.look));
+    }
+    this.canvas.addEventListener("keydown", (event) => this.key(event));
   }
 
-  /** Ends of the colours as parts (0 to 1) of what the values can be. */
-  range(low, high) {
-    this.spheres.uniforms.range.value.set(low, Math.max(high, low + 1e-4));
-    this.request();
+  /** The state and the field that the controls name; the last call wins. */
+  async show() {
+    const number = Number(byId("time").value);
+    const k = byId("field").selectedIndex;
+    const state = this.about.states[number], field = this.about.fields[k];
+    const wanted = this.wanted = {number, k};
+    if (!this.blocks.has(number))
+      this.blocks.set(number, await unpack(`cells-${number}`));
+    if (this.wanted !== wanted) return;
+    byId("time-shown").textContent = `day ${Number(state.time.toPrecision(4))}: `
+      + `${state.cells.toLocaleString("en")} cells`;
+    byId("bar").src = field.bar;
+    this.spheres.show(this.blocks.get(number), state.shown, k, field.shades);
+    this.draw();
   }
 
-  /** Whether a cell is drawn: it belongs to what is asked for, is not cut
-   * away, and is not buried below others. */
-  visible(i) {
-    if (this.members && !this.members[i]) return false;
-    const before = this.cut.before(this.cells.places, i);
-    return before >= 0 && (this.members !== null || before < this.state.shell
-      || this.cells.shell[i] === 1);
+  /** A state after the other until it is pressed again. */
+  play() {
+    clearInterval(this.playing);
+    const starts = !this.playing;
+    byId("play").textContent = starts ? "Pause" : "Play";
+    this.playing = starts && setInterval(() => {
+      byId("time").value = (Number(byId("time").value) + 1)
+        % this.about.states.length;
+      this.show();
+    }, 700);
   }
 
-  /** The visible cells in an order in which every part of them is spread
-   * over the whole tissue. */
-  choose() {
-    if (!this.state) return;
-    const n = this.state.shown, numbers = [];
-    const step = coprime(Math.round(0.6180339887 * n), n);
-    for (let j = 0, i = 0; j < n; ++j, i = (i + step) % n)
-      if (this.visible(i)) numbers.push(i);
-    this.numbers = numbers;
-    this.spheres.show(this.cells.places, this.values, numbers);
-    this.request();
+  /** Cuts away the half that is now towards the viewer, as what is left would
+   * hide the one behind. It stays while the tissue is turned by hand. */
+  face() {
+    const axis = byId("cut").value;
+    this.side = this.camera.position[axis] < this.controls.target[axis]
+      ? -1 : 1;
+    this.cut();
   }
 
-  turned() {
-    if (this.cut && this.cut.follows()) this.choose();
-    this.request(true);
+  /** All on one side of a plane, at a part (0 to 1) of the tissue's extent. */
+  cut() {
+    const k = "xyz".indexOf(byId("cut").value), plane = [0, 0, 0, 1];
+    byId("place-shown").textContent = "";
+    if (k >= 0) {
+      const where = this.about.low[k]
+        + this.about.size[k] * Number(byId("place").value);
+      const sign = byId("flip").checked ? -this.side : this.side;
+      plane[k] = sign;
+      plane[3] = sign * where;
+      byId("place-shown").textContent =
+        `${"xyz"[k]} ${sign > 0 ? ">" : "<"} ${where.toFixed(1)} µm is cut away`;
+    }
+    this.spheres.uniforms.cut.value.set(...plane);
+    this.draw();
   }
 
-  /** Why nothing can be seen, or nothing if something can. */
-  get emptiness() {
-    if (!this.state) return "";
-    if (this.surface.object.visible && this.state.surface) return "";
-    if (!this.spheres.object.visible)
-      return "Nothing is shown: tick cells or surface points.";
-    if (this.numbers.length) return "";
-    if (this.members && !this.members.includes(1))
-      return "No cell of this clone lives at this time.";
-    return "Everything is cut away: move the place of the cut.";
+  /** From an axis, or as at first: as contrib/render looks. */
+  look(from) {
+    const azimuth = -Math.PI / 3, elevation = 14 * Math.PI / 180;
+    const direction = {x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1]}[from]
+      || (this.about.flat ? [0, 0, 1] : [Math.cos(elevation) * Math.cos(azimuth),
+        Math.cos(elevation) * Math.sin(azimuth), Math.sin(elevation)]);
+    if (from === "home") this.camera.zoom = 1;
+    this.controls.target.copy(this.middle);
+    this.camera.position.copy(this.middle).addScaledVector(
+      new THREE.Vector3(...direction), 3 * this.reach);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.face();
+  }
+
+  key(event) {
+    const step = {ArrowLeft: [-0.12, 0], ArrowRight: [0.12, 0],
+      ArrowUp: [0, -0.12], ArrowDown: [0, 0.12]}[event.key];
+    if (step && !this.about.flat) this.turn(...step);
+    else if (event.key === "+") this.zoom(1.15);
+    else if (event.key === "-") this.zoom(1 / 1.15);
+    else if (event.key === "0") this.look("home");
+    else return;
+    event.preventDefault();
+  }
+
+  /** Radians round the vertical, and up. */
+  turn(across, up) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const right = new THREE.Vector3().crossVectors(this.camera.up, offset);
+    offset.applyAxisAngle(right.normalize(), up);
+    offset.applyAxisAngle(this.camera.up, across);
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update();
+  }
+
+  zoom(factor) {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.draw();
   }
 
   resize() {
-    const {clientWidth: width, clientHeight: height} = this.stage;
-    if (!width || !height) return;
+    const {clientWidth: width, clientHeight: height} = this.canvas.parentElement;
     this.renderer.setPixelRatio(devicePixelRatio);
     this.renderer.setSize(width, height, false);
-    this.surface.uniforms.pixels.value = 5 * devicePixelRatio;
-    this.camera.resize(width, height);
-    this.request();
+    // on a narrow screen the width is what must hold the tissue
+    const half = 0.56 * Math.max(...this.about.size)
+      * Math.max(1, height / width) + this.about.size[3];
+    this.camera.top = half;
+    this.camera.right = half * width / height;
+    this.camera.bottom = -this.camera.top;
+    this.camera.left = -this.camera.right;
+    this.camera.updateProjectionMatrix();
+    this.draw();
   }
 
-  /** Draws before the next frame. */
-  request(moving = false) {
-    if (moving) {
-      clearTimeout(this.rest);
-      // a slow picture may take longer than that itself
-      this.rest = setTimeout(() => this.refine(),
-        Math.max(400, 2.5 * (this.since || 0)));
-    }
-    if (this.requested) return;
-    this.requested = true;
-    requestAnimationFrame((now) => {
-      this.requested = false;
-      if (moving) this.pace(now);
-      this.draw();
-    });
-  }
-
-  /** Below ten pictures a second, moving ones show half of the cells, a
-   * quarter if that is not enough, and so on. */
-  pace(now) {
-    const since = now - this.before;
-    this.before = now;
-    this.since = since < 5000 ? since : 0;
-    this.slow = this.since > 100 ? (this.slow || 0) + 1 : 0;
-    if (this.slow < 2 || this.coarse > 8) return;
-    this.coarse *= 2;
-    this.slow = 0;
-  }
-
-  /** All cells again, once nothing moves. */
-  refine() {
-    if (this.coarse === 1) return;
-    this.coarse = 1;
-    this.request();
+  /** µm of a pixel of the page. */
+  get pixel() {
+    return 2 * this.camera.top / this.camera.zoom / this.canvas.clientHeight;
   }
 
   draw() {
-    if (!this.stage.clientWidth) return;  // in a tab that is not shown
-    const style = getComputedStyle(document.documentElement);
-    this.spheres.thin(this.coarse);
-    this.renderer.setClearColor(style.getPropertyValue("--canvas").trim());
-    this.renderer.render(this.scene, this.camera.camera);
-    const empty = this.stage.querySelector("#empty");
-    empty.textContent = this.emptiness;
-    empty.hidden = !empty.textContent;
-    drawTriad(this.stage.querySelector("#triad"), this.camera.axes);
-    drawScale(this.stage.querySelector("#scale"), this.camera.pixel,
-      this.stage.clientWidth);
-    ++this.frames;
-  }
-
-  /** The picture of all cells as a PNG in a data: address, without bars and
-   * words. */
-  picture() {
-    this.coarse = 1;
-    this.draw();
-    return this.canvas.toDataURL("image/png");
-  }
-
-  /** Number of the cell in the state that is seen at a place of the page,
-   * or -1. */
-  at(clientX, clientY) {
-    const box = this.canvas.getBoundingClientRect();
-    const [right, up, near] = this.camera.axes;
-    const pixel = this.camera.pixel, target = this.camera.controls.target;
-    const across = pixel * (clientX - box.left - box.width / 2);
-    const over = pixel * (box.top + box.height / 2 - clientY);
-    const {low, size, radii} = this.about, point = new THREE.Vector3();
-    const places = this.cells.places;
-    let found = -1, nearest = -Infinity;
-    for (const i of this.numbers) {
-      point.set(...[0, 1, 2].map((k) =>
-        low[k] + size[k] * places[4 * i + k] / 65535)).sub(target);
-      const radius = radii[0] + (radii[1] - radii[0])
-        * places[4 * i + 3] / 65535;
-      const square = radius * radius - (point.dot(right) - across) ** 2
-        - (point.dot(up) - over) ** 2;
-      if (square < 0) continue;
-      const height = point.dot(near) + Math.sqrt(square);
-      if (height > nearest) [found, nearest] = [i, height];
-    }
-    return found;
+    this.renderer.render(this.scene, this.camera);
+    // a bar of 1, 2 or 5 times a power of ten, up to a fifth of the width
+    const wanted = 0.2 * this.canvas.clientWidth * this.pixel;
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    const length = [5, 2, 1].map((n) => n * power).find((n) => n <= wanted);
+    byId("scale").style.width = `${length / this.pixel}px`;
+    byId("scale").textContent = `${Number(length.toPrecision(1))} µm`;
   }
 }
 
-/** The first number from this one on that has no divisor in common with n. */
-function coprime(number, n) {
-  const divisor = (a, b) => b ? divisor(b, a % b) : a;
-  let found = Math.max(1, number);
-  while (divisor(found, n) > 1) ++found;
-  return found;
+/** For the browser's console, too. */
+const report = {};
+try {
+  report.view = new View(JSON.parse(byId("about").textContent));
+  report.ready = report.view.show();
+} catch (error) {
+  byId("view").hidden = true;
+  byId("view-message").textContent =
+    `There is no 3-D view here: ${error.message} The rest of the page is complete.`;
 }

@@ -6,10 +6,11 @@ import json
 import shutil
 import subprocess
 from dataclasses import dataclass
+from pathlib import Path
 
 from morula.execute import call, command, overrides
 
-from tests.common.kept import ROOT
+ROOT = Path(__file__).resolve().parents[2]
 
 
 @dataclass

@@ -6,10 +6,11 @@ import subprocess
 import time
 from pathlib import Path
 
-from morula.execute import environment
-from tests.common.program import ProgramTest, overrides
+import pytest
+from morula.execute import environment, overrides
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.common.program import TESTS
+
 SUPPORT = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 PATIENCE = 300  # s
 
@@ -26,24 +27,20 @@ def asked_for(process):
     return total
 
 
-class LargePages(ProgramTest):
-    def test_columns_of_cells(self):
-        """65,752 cells have 10 MB at least."""
-        if not SUPPORT.is_file():
-            self.skipTest("this system has no large pages")
-        if b"__asan_init" in Path(self.options.morula).read_bytes():
-            self.skipTest("AddressSanitizer has its own operator new")
-        words = self.command(ROOT / "prm/paper/fig-4b.prm", *overrides(
-            {"Output directory": self.work / "output"}))
-        with subprocess.Popen(words, env=environment(),
-                              stdout=subprocess.DEVNULL) as process:
-            try:
-                until, found = time.monotonic() + PATIENCE, 0
-                while found < 10000 and time.monotonic() < until:
-                    self.assertIsNone(process.poll())
-                    found = asked_for(process.pid)
-                    time.sleep(0.02)
-            finally:
-                process.kill()
-        self.assertGreaterEqual(found, 10000)
-
+@pytest.mark.skipif(not SUPPORT.is_file(), reason="this system has no large pages")
+def test_columns_of_cells(runs):
+    """65,752 cells have 10 MB at least."""
+    if b"__asan_init" in runs.options.morula.read_bytes():
+        pytest.skip("AddressSanitizer has its own operator new")
+    words = runs.command(TESTS.parent / "prm/paper/fig-4b.prm", *overrides(
+        {"Output directory": runs.work / "output"}))
+    with subprocess.Popen(words, env=environment(), stdout=subprocess.DEVNULL) as process:
+        try:
+            until, found = time.monotonic() + PATIENCE, 0
+            while found < 10000 and time.monotonic() < until:
+                assert process.poll() is None
+                found = asked_for(process.pid)
+                time.sleep(0.02)
+        finally:
+            process.kill()
+    assert found >= 10000

@@ -2,13 +2,18 @@
 # Copyright (C) 2026 by the Morula authors
 """Tools of contrib/upkeep, for those who work on Morula: they write pages. Only
 Morula's tree has this package; an installation has `morula` alone."""
-import re
+import sys
 from pathlib import Path
+
+from morula.execute import call
 
 ROOT = Path(__file__).resolve().parents[3]
 
 
-def version(root=ROOT):
-    """The version of a tree: that of its project()."""
-    text = (root / "CMakeLists.txt").read_text(encoding="utf-8")
-    return re.search(r"^project\(Morula VERSION (\S+)", text, re.M)[1]
+def said(*words):
+    """What a command prints, from the root; throws RuntimeError if it fails."""
+    print("+", *words, file=sys.stderr, flush=True)
+    ended = call(words, cwd=ROOT, stderr=None, env={"COLUMNS": "80"})
+    if ended.code:
+        raise RuntimeError(f"{words[0]} ended with exit code {ended.code}")
+    return ended.stdout.strip()

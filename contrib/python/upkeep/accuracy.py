@@ -56,10 +56,4 @@ LADDERS = {name: shlex.split(words) for name, words in {
 
 def wrapped(words):
     """The command, an option a line."""
-    lines = ["contrib/accuracy " + shlex.quote(words[0])]
-    for word in words[1:]:
-        if word.startswith("-"):
-            lines.append("    " + word)
-        else:
-            lines[-1] += " " + shlex.quote(word)
-    return " \\\n".join(lines)
+    return shlex.join(["contrib/accuracy", *words]).replace(" -", " \\\n    -")

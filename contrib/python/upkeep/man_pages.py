@@ -11,9 +11,7 @@ import re
 import tempfile
 from pathlib import Path
 
-from morula.execute import call
-
-from . import ROOT, version
+from . import ROOT, said
 
 # What a page says behind the name.
 SUMMARIES = {
@@ -35,16 +33,8 @@ ADDED = """[examples]
 \\-\\-resume goes on from its last snapshot; 130: it was stopped.
 
 [see also]
-{others},
-/usr/share/doc/morula
+{others}
 """
-
-
-def said(*words):
-    ended = call(words, env={"COLUMNS": "80"})
-    if ended.code:
-        raise RuntimeError(f"{words[0]}: {ended.text}")
-    return ended.stdout
 
 
 def help_of(name, morula):
@@ -71,23 +61,21 @@ def page_of(name, morula):
     text = help_of(name, morula)
     examples = re.sub("^  ", "", "".join(COMMAND.findall(text)), flags=re.M).replace(
         "\\", "\\\\").replace("-", "\\-")
-    added = ADDED if examples else ADDED.partition(".fi\n\n")[2]
-    others = ", ".join(f"\\fB{other}\\fR(1)" for other in SUMMARIES if other != name)
+    others = ", ".join(f"{other}(1)" for other in SUMMARIES)
+    added = (ADDED if examples else ADDED.partition(".fi\n\n")[2]).format(
+        examples=examples, others=others)
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    day = re.search(r"^date-released: (\S+)$", citation, re.M)[1]
+    version, day = re.search(r"^version: (\S+)\ndate-released: (\S+)$", citation,
+                             re.M).groups()
     with tempfile.TemporaryDirectory() as scratch:
         program, more = Path(scratch) / name, Path(scratch) / "more"
-        program.write_text(f"#!/bin/sh\ncat <<'END'\n{COMMAND.sub('', text)}END\n")
+        program.write_text(f"#!/bin/sh\ncat <<'END'\n{COMMAND.sub('', text)}\nEND\n")
         program.chmod(0o755)
-        more.write_text(added.format(others=others, examples=examples), encoding="utf-8")
-        page = said("help2man", "--no-info", f"--version-string={version()}",
-                    f"--source=Morula {version()}", "--locale=C.UTF-8",
+        more.write_text(added, encoding="utf-8")
+        page = said("help2man", "--no-info", f"--version-string={version}",
+                    f"--source=Morula {version}", "--locale=C.UTF-8",
                     "--name", SUMMARIES[name], f"--include={more}", program)
-    page = re.sub(r'^(\.TH \S+ "1") "[^"]*"', rf'\1 "{day}"', page, flags=re.M)
-    return ('.\\" SPDX-License-Identifier: GPL-3.0-or-later\n'
-            '.\\" Copyright (C) 2026 by the Morula authors\n'
-            '.\\" Written by contrib/upkeep/man-pages with help2man; not edited.\n'
-            + page.partition("\n")[2])
+    return re.sub(r'^(\.TH \S+ "1") "[^"]*"', rf'\1 "{day}"', page, flags=re.M) + "\n"
 
 
 def main():

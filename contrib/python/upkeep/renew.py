@@ -17,23 +17,14 @@ import subprocess
 import sys
 from pathlib import Path
 
-from morula.execute import call, cores, overrides
+from morula.execute import cores, overrides
 from morula.program import Program
 from morula.run import Run
 from morula.tables import markdown
 
-from . import ROOT, accuracy, version
+from . import ROOT, accuracy, said
 
 OUTPUT = ROOT / "output/renew"
-
-
-def said(*words):
-    """What a command prints; throws RuntimeError if it fails."""
-    print("+", *words, file=sys.stderr, flush=True)
-    ended = call(words, cwd=ROOT, stderr=None)
-    if ended.code:
-        raise RuntimeError(f"{words[0]} ended with exit code {ended.code}")
-    return ended.stdout.strip()
 
 
 def deeper(text, level):
@@ -44,7 +35,7 @@ def deeper(text, level):
 
 
 def paper():
-    return deeper(said("contrib/reproduce", "--fresh"), 3)
+    return deeper(said("contrib/reproduce", "--fresh", "--document"), 3)
 
 
 def ladders():
@@ -72,8 +63,7 @@ def cases(kind, title):
     if not found:
         raise RuntimeError(f"pytest has written no tables of tests/{kind}")
     return "\n\n".join(f"### {title}: {file.stem.replace('_', ' ')}\n\n"
-                       + deeper(file.read_text(encoding="utf-8").strip(), 4)
-                       for file in found)
+                       + file.read_text(encoding="utf-8").strip() for file in found)
 
 
 def step(number, **keys):
@@ -93,11 +83,10 @@ def laws_and_rules():
             step(7, **{"Growth/Law": law,
                        "Proliferation/Cell cycle/Division axis": rule})
             last = Run(OUTPUT / "step-7").statistics.iloc[-1]
+            ratios = last[["min_elastic_volume_ratio", "max_elastic_volume_ratio"]]
             rows.append([f"{law}, {rule}", f"{last['cells']:.0f}",
                          f"{last['mean_energy_density']:.4f}",
-                         f"{last['min_elastic_volume_ratio']:.3f}",
-                         f"{last['max_elastic_volume_ratio']:.3f}",
-                         f"{last['ymax'] - last['ymin']:.1f}"])
+                         *ratios.map("{:.3f}".format), f"{last['ymax'] - last['ymin']:.1f}"])
     return markdown(["growth law, division rule", "cells", "mean energy, kPa",
                      "smallest $J_e$", "largest $J_e$", "largest width, µm"], rows)
 
@@ -127,11 +116,10 @@ def head():
     commit = said("git", "describe", "--always", "--dirty", "--exclude=*")
     processor = re.search(r"^model name\s*: (.*)",
                           Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M)[1]
-    return (f"# Results\n\nWhat Morula {version()} measured, all tables in one place; "
-            "pages link to their headings\nhere. `contrib/upkeep/renew` writes this page "
-            "from runs, in some hours, for a version and not\nfor a change; nobody edits "
-            f"it.\n\n{Program(ROOT / 'build/morula').version}, {processor}, {cores()} "
-            f"cores; {datetime.date.today()}, commit {commit}.")
+    return ("# Results\n\nAll measured tables; pages link to their headings here. "
+            "`contrib/upkeep/renew` writes this page\nfrom runs, for a version and not for "
+            f"a change.\n\n{Program(ROOT / 'build/morula').version}, {processor}, "
+            f"{cores()} cores; {datetime.date.today()}, commit {commit}.")
 
 
 def main():

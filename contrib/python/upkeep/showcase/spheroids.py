@@ -9,16 +9,16 @@ The necrotic core R_n is where oxygen, used up at one rate wherever cells live, 
 fall below what they need, from R² - 3 R_n² + 2 R_n³/R = R_c²; the arrested one R_i
 where it falls below what growth needs, from R² + 2 R_n³/R - 2 R_n³/R_i - R_i² = R_d².
 """
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy
 import pandas
 from morula.style import COLOURS, plt
 from scipy.integrate import solve_ivp
-from scipy.optimize import brentq
 
 from upkeep import ROOT
+
+from . import Case
 
 DATA = ROOT / "doc/data/spheroids.csv"
 SCENE = ROOT / "prm/showcase/spheroid.prm"
@@ -45,30 +45,16 @@ STARTS = {"WM983b": {2500: 132.4, 10000: 194.9},
           "WM793b": {2500: 133.2, 5000: 176.8, 10000: 216.7}}
 
 
-def necrotic_radius(outer, line):
-    if outer <= line.necrosis:
-        return 0.0
-    return brentq(lambda r: outer**2 - 3 * r**2 + 2 * r**3 / outer - line.necrosis**2,
-                  0, outer * (1 - 1e-9))
-
-
-def arrested_radius(outer, necrotic, line):
-    if necrotic == 0:
-        return numpy.sqrt(max(0.0, outer**2 - line.arrest**2))
-
-    def excess(r):
-        return ((outer**2 + 2 * necrotic**3 / outer - line.arrest**2) * r - r**3
-                - 2 * necrotic**3)
-    if excess(necrotic) * excess(outer) >= 0:
-        return necrotic
-    return brentq(excess, necrotic, outer)
-
-
 def radii(outer, line):
-    """R, R_n, R_i of spheroids of these outer radii, um: three rows."""
-    necrotic = [necrotic_radius(r, line) for r in outer]
-    return numpy.array([outer, necrotic, [arrested_radius(r, n, line)
-                                          for r, n in zip(outer, necrotic)]])
+    """R, R_n, R_i of spheroids of these outer radii, um: three rows. Both equations are
+    cubic: of R_n the middle root, of R_i the largest one."""
+    outer = numpy.asarray(outer, float)
+    thin = numpy.minimum(1, line.necrosis / outer)**2
+    necrotic = outer * (0.5 + numpy.cos((numpy.arccos(2 * thin - 1) - 2 * numpy.pi) / 3))
+    square = numpy.maximum(outer**2 + 2 * necrotic**3 / outer - line.arrest**2, 1e-12)
+    angle = numpy.arccos(numpy.maximum(-necrotic**3 * (3 / square)**1.5, -1))
+    return numpy.array([outer, necrotic,
+                        2 * numpy.sqrt(square / 3) * numpy.cos(angle / 3)])
 
 
 def course(start, days, line):
@@ -82,50 +68,33 @@ def course(start, days, line):
     return radii(solution.y[0], line)
 
 
-@dataclass(frozen=True)
-class Series:
-    """Spheroids of a line that were seeded alike: days, the means of R, R_n, R_i on
-    each, um, the standard deviation of R."""
-
-    name: str
-    line: Line
-    start: float
-    days: numpy.ndarray
-    radii: numpy.ndarray
-    deviation: numpy.ndarray
-
-    def greenspan(self, days):
-        return course(self.start, days, self.line)
-
-    @property
-    def keys(self):
-        """All cells stand before their cycle at t = 0. As the growth of a cycle is
-        linear in time, they are worth a volume that is 1/(2 ln² 2) = 1.0407 times
-        theirs, once they are spread over the cycle: the mean of 1 + a over the steady
-        ages a, whose density falls as 2^-a, by that of 2^a."""
-        line = self.line
-        arrest = 1 - (1 - DEATH) * (line.arrest / line.necrosis)**2
-        radius = self.start * (2 * numpy.log(2)**2)**(1 / 3)
-        return {"Time/End time": f"{self.days[-1] - self.days[0]:g}",
-                "Tissue/Radius": f"{radius:.1f}",
-                "Fields/oxygen/Diffusion": f"{line.necrosis}^2",
-                "Growth/Rate/Rate":
-                f"if(type == necrotic, {-3 * line.loss:.4f}, {line.growth}*"
-                f"((oxygen > {arrest:.4f}) - (cycle_phase > 0 && cycle_phase < 9)))",
-                "Proliferation/Cell cycle/Duration": f"{numpy.log(2) / line.growth:.4f}"}
+def keys(line, start, days):
+    """All cells stand before their cycle at t = 0. As the growth of a cycle is linear in
+    time, they are worth a volume that is 1/(2 ln² 2) = 1.0407 times theirs, once they are
+    spread over the cycle: the mean of 1 + a over the steady ages a, whose density falls
+    as 2^-a, by that of 2^a."""
+    arrest = 1 - (1 - DEATH) * (line.arrest / line.necrosis)**2
+    rate = (f"if(type == necrotic, {-3 * line.loss:.4f}, {line.growth}*"
+            f"((oxygen > {arrest:.4f}) - (cycle_phase > 0 && cycle_phase < 9)))")
+    return {"Time/End time": f"{days[-1] - days[0]:g}",
+            "Tissue/Radius": f"{start * (2 * numpy.log(2)**2)**(1 / 3):.1f}",
+            "Fields/oxygen/Diffusion": f"{line.necrosis}^2", "Growth/Rate/Rate": rate,
+            "Proliferation/Cell cycle/Duration": f"{numpy.log(2) / line.growth:.4f}"}
 
 
 def cases():
-    table = pandas.read_csv(DATA, comment="#")
+    """The values: line; outer radius at the start, um; days; the means of R, R_n, R_i on
+    each, um; the standard deviation of R, um."""
+    table = pandas.read_csv(DATA, comment="#").groupby(["cell_line", "seeded_cells"])
     found = []
-    for line, starts in STARTS.items():
-        for seeded, start in starts.items():
-            rows = table[(table["cell_line"] == line) & (table["seeded_cells"] == seeded)]
-            shares = rows[["necrotic_share_mean", "arrested_share_mean"]].to_numpy().T
-            outer = rows["radius_mean_um"].to_numpy()
-            found.append(Series(
-                f"{line}, {seeded} cells", LINES[line], start, rows["day"].to_numpy(float),
-                numpy.array([outer, *(outer * shares)]), rows["radius_sd_um"].to_numpy()))
+    for line, seeded in ((line, seeded) for line in STARTS for seeded in STARTS[line]):
+        rows, start = table.get_group((line, seeded)), STARTS[line][seeded]
+        outer, days = rows["radius_mean_um"].to_numpy(), rows["day"].to_numpy(float)
+        shares = rows[["necrotic_share_mean", "arrested_share_mean"]].to_numpy().T
+        found.append(Case(
+            f"{line}, {seeded} cells", keys(LINES[line], start, days),
+            (LINES[line], start, days, numpy.array([outer, *(outer * shares)]),
+             rows["radius_sd_um"].to_numpy())))
     return found
 
 
@@ -144,40 +113,36 @@ def radii_of_run(run):
     return run.times, numpy.cbrt(3 * numpy.array(volumes).T / (4 * numpy.pi))
 
 
-def row(series, run):
+def row(case, run):
     """How far a run is from the data, and from the equations: there, the largest
     difference on any day after the first, as a part of their R."""
+    line, start, days, data, _ = case.values
     times, found = radii_of_run(run)
-    exact = series.greenspan(times + series.days[0])
-    there = numpy.isin(times + series.days[0], series.days)
-    data = numpy.isin(series.days, times + series.days[0])
+    exact = course(start, times + days[0], line)
     off = (abs(found - exact)[:, times > 0] / exact[0, times > 0]).max(axis=1)
-    return [series.name, f"{rms(found[:, there] - series.radii[:, data]):.1f}",
-            f"{rms((series.greenspan(series.days) - series.radii)[:, data]):.1f}",
-            f"{100 * off[0]:.1f} %", f"{100 * off[1]:.1f} %",
-            f"{times[-1] + series.days[0]:g}",
+    there, known = numpy.isin(times + days[0], days), numpy.isin(days, times + days[0])
+    from_data = [numpy.sqrt(numpy.mean((some - data[:, known])**2)) for some in (
+        found[:, there], course(start, days, line)[:, known])]
+    return [case.name, *(f"{error:.1f}" for error in from_data),
+            *(f"{100 * error:.1f} %" for error in off[:2]), f"{times[-1] + days[0]:g}",
             f"{run.statistics['cells'].iloc[-1]:,.0f}"]
 
 
-def rms(differences):
-    return numpy.sqrt(numpy.mean(differences**2))
-
-
 def draw(pairs):
-    """Courses beside the data: a panel for each (series, its run)."""
+    """Courses beside the data."""
     canvas, panels = plt.subplots(1, len(pairs), sharey=True, squeeze=False,
                                   figsize=(3.4 * len(pairs), 3.2), layout="constrained")
-    for axes, (series, run) in zip(panels[0], pairs):
+    for axes, (case, run) in zip(panels[0], pairs):
+        line, start, days, data, deviation = case.values
+        fine = numpy.linspace(days[0], days[-1], 200)
         times, found = radii_of_run(run)
-        days = numpy.linspace(series.days[0], series.days[-1], 200)
-        exact = series.greenspan(days)
+        exact = course(start, fine, line)
         for i, name in enumerate(("outer radius", "necrotic core", "arrested core")):
-            axes.errorbar(series.days, series.radii[i], fmt="o", markersize=4,
-                          yerr=None if i else series.deviation, color=COLOURS[i],
-                          linewidth=0.8)
-            axes.plot(days, exact[i], ":", color=COLOURS[i])
-            axes.plot(times + series.days[0], found[i], color=COLOURS[i], label=name)
-        axes.set(title=series.name, xlabel="day after seeding")
+            axes.errorbar(days, data[i], fmt="o", markersize=4, color=COLOURS[i],
+                          yerr=None if i else deviation, linewidth=0.8)
+            axes.plot(fine, exact[i], ":", color=COLOURS[i])
+            axes.plot(times + days[0], found[i], color=COLOURS[i], label=name)
+        axes.set(title=case.name, xlabel="day after seeding")
     panels[0, 0].set_ylabel("radius, µm")
     panels[0, 0].legend(loc="upper left")
     return canvas

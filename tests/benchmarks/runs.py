@@ -6,11 +6,10 @@ import json
 import shutil
 import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 from morula.execute import call, command, overrides
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.common.kept import ROOT
 
 
 @dataclass

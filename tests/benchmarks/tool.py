@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Measures what Morula costs, next to what the core can do, and prints tables of that.
+"""Measures what Morula costs, next to what the core can do.
 
     contrib/upkeep/benchmark                    everything: about 20 minutes
     contrib/upkeep/benchmark kernels phases     these tables
+    contrib/upkeep/benchmark --document         writes the tables of this version,
+                                         doc/measured
 
 Nothing else should run on the machine meanwhile. The yardstick for arithmetic
 is the matrix product of OpenBLAS, taken from the distribution's package into
@@ -14,9 +16,12 @@ import subprocess
 from pathlib import Path
 
 from morula.tables import markdown
+from upkeep.made import made_with
+from upkeep.version_data import store
 
 from tests.benchmarks import measure
 from tests.benchmarks.runs import Bench
+from tests.common.tables import aligned
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -42,6 +47,8 @@ def main():
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("tables", nargs="*", metavar="table",
                         help="of " + ", ".join(TABLES) + "; default: all")
+    parser.add_argument("--document", action="store_true",
+                        help="write these tables into doc/measured")
     parser.add_argument("--largest", type=int, default=1000000,
                         help="most cells in the table of sizes")
     parser.add_argument("--built", action="store_true",
@@ -66,6 +73,8 @@ def main():
                  "ranks": (runner, program, blas)}
     for name in wanted:
         header, *rows = getattr(measure, name)(*arguments.get(name, (runner,)))
-        print(f"### Speed: {name.replace('_', ' ')}\n\n{markdown(header, rows)}\n",
-              flush=True)
+        print("\n".join([name, *aligned(header, rows), ""]), flush=True)
+        if options.document:
+            store("performance", {name: markdown(header, rows)},
+                  made_with(ROOT), ROOT)
     return 0

@@ -38,8 +38,7 @@ ADDED = """[examples]
 
 
 def help_of(name, morula):
-    """What a command says for --help, with the names of an installation, one line
-    of usage, and the options of Boost as those of GNU."""
+    """With the names of an installation, one line of usage, and GNU's form of options."""
     if name == "morula":
         about, usage, rest = said(morula, "--help").split("\n\n", 2)
         usage = re.sub(r"\n {4,}", "\n  or:  ", usage)
@@ -57,16 +56,14 @@ def help_of(name, morula):
 
 
 def page_of(name, morula):
-    """The page, as troff."""
     text = help_of(name, morula)
     examples = re.sub("^  ", "", "".join(COMMAND.findall(text)), flags=re.M).replace(
         "\\", "\\\\").replace("-", "\\-")
     others = ", ".join(f"{other}(1)" for other in SUMMARIES)
     added = (ADDED if examples else ADDED.partition(".fi\n\n")[2]).format(
         examples=examples, others=others)
-    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    version, day = re.search(r"^version: (\S+)\ndate-released: (\S+)$", citation,
-                             re.M).groups()
+    version, day = re.search(r"version: (\S+)\ndate-released: (\S+)",
+                             (ROOT / "CITATION.cff").read_text(encoding="utf-8")).groups()
     with tempfile.TemporaryDirectory() as scratch:
         program, more = Path(scratch) / name, Path(scratch) / "more"
         program.write_text(f"#!/bin/sh\ncat <<'END'\n{COMMAND.sub('', text)}\nEND\n")
@@ -82,10 +79,7 @@ def main():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
-    parser.add_argument("--output", type=Path, default=ROOT / "doc/man",
-                        help="a directory; default: doc/man")
     options = parser.parse_args()
-    options.output.mkdir(parents=True, exist_ok=True)
     for name in SUMMARIES:
-        (options.output / f"{name}.1").write_text(page_of(name, options.morula),
-                                                  encoding="utf-8")
+        (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula),
+                                                encoding="utf-8")

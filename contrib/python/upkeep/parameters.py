@@ -45,7 +45,6 @@ def row(path, key):
 
 
 def sections(keys):
-    """The tables, each below its heading."""
     rows = {}
     for key in keys:
         if not key.path.startswith("Cell types/OTHER/") and not (

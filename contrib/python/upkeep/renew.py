@@ -52,8 +52,7 @@ def ladders():
 
 
 def cases(kind, title):
-    """What the cases below tests/KIND write, at their full length. Limits that are not
-    met do not keep a case from writing."""
+    """What the cases below tests/KIND write at full length, whether limits are met or not."""
     tables = OUTPUT / kind
     shutil.rmtree(tables, ignore_errors=True)
     subprocess.run(
@@ -80,13 +79,11 @@ def laws_and_rules():
     rows = []
     for law in ("none", "crowding limited"):
         for rule in ("random", "long axis"):
-            step(7, **{"Growth/Law": law,
-                       "Proliferation/Cell cycle/Division axis": rule})
+            step(7, **{"Growth/Law": law, "Proliferation/Cell cycle/Division axis": rule})
             last = Run(OUTPUT / "step-7").statistics.iloc[-1]
-            ratios = last[["min_elastic_volume_ratio", "max_elastic_volume_ratio"]]
-            rows.append([f"{law}, {rule}", f"{last['cells']:.0f}",
-                         f"{last['mean_energy_density']:.4f}",
-                         *ratios.map("{:.3f}".format), f"{last['ymax'] - last['ymin']:.1f}"])
+            rows.append([f"{law}, {rule}", *(f"{number:.5g}" for number in (
+                last["cells"], last["mean_energy_density"], last["min_elastic_volume_ratio"],
+                last["max_elastic_volume_ratio"], last["ymax"] - last["ymin"]))])
     return markdown(["growth law, division rule", "cells", "mean energy, kPa",
                      "smallest $J_e$", "largest $J_e$", "largest width, µm"], rows)
 

@@ -15,10 +15,9 @@ LAYER = 20.0  # um, thickness of the layer at the start
 DEGREES = numpy.arange(3, 41)  # of waves on the ball; 0 to 2 are its shape
 FOLDED = 0.1 * LAYER  # um, depth from which on the surface has folds
 
-HEADER = ["stiffness, of the core", "friction, 10⁻⁶ kPa day/µm²",
-          "folds at a growth of", "squeezed to", "thin film", "apart, thicknesses",
-          "thin film", "at a growth of", "apart, thicknesses", "depth, µm",
-          "surface over that of a ball", "minutes"]
+HEADER = ["stiffness, of the core", "friction, 10⁻⁶ kPa day/µm²", "folds at a growth of",
+          "squeezed to", "thin film", "apart, thicknesses", "thin film", "at a growth of",
+          "apart, thicknesses", "depth, µm", "surface over that of a ball", "minutes"]
 
 
 def cases():
@@ -31,14 +30,12 @@ def cases():
 
 
 def thin_film(ratio):
-    """Of a film so many times as stiff on a half-space, both without change of volume:
-    to which part of its length it is squeezed when it folds, and how far its folds are
-    from each other, in thicknesses."""
+    """Of a film on a half-space, both without change of volume: to which part of its length
+    it is squeezed when it folds, and how far its folds are apart, in thicknesses."""
     return 1 - (3 / ratio)**(2 / 3) / 4, 2 * numpy.pi * (ratio / 3)**(1 / 3)
 
 
-def growth(day):
-    """Of a length in the surface of the outermost cells."""
+def growth(day):  # of a length in the surface of the outermost cells
     return numpy.exp(0.5 * day)
 
 
@@ -88,7 +85,6 @@ def power_of(height, place, degree):
 
 
 def course(run):
-    """Times, and the waves at each."""
     return run.times, [Waves(run.surface(i)) for i in range(len(run.times))]
 
 
@@ -119,7 +115,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Depth and spacing of folds over the growth."""
     canvas, (left, right) = plt.subplots(1, 2, layout="constrained", figsize=(7.4, 2.8))
     for i, (case, run) in enumerate(pairs):
         times, waves = course(run)

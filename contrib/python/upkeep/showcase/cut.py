@@ -25,8 +25,7 @@ def cases():
                                      "if(t < 0.99, 0.15*(1 - oxygen), 0)"}, ("core", "none"))]
 
 
-def before_cut(run):
-    """Number of the last state before it."""
+def before_cut(run):  # the number of a state
     return int(numpy.flatnonzero(run.times < CUT - 1e-6)[-1])
 
 
@@ -50,7 +49,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Cells near the plane of the cut's depth, before and after."""
     canvas, panels = plt.subplots(1, len(pairs), squeeze=False, layout="constrained",
                                   figsize=(3 * len(pairs), 3.2))
     for i, (axes, (case, run)) in enumerate(zip(panels[0], pairs)):

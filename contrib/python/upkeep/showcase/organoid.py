@@ -14,9 +14,8 @@ BETWEEN = 90.0  # um, initial radius between the inner and the outer surface
 CRYPTS = 4
 FULL, EMPTY, AGAIN = 1.0, 2.0, 3.0  # days: full of volume, emptied, refilled
 
-HEADER = ["tension, kPa µm", "depth, full, µm", "emptied", "refilled",
-          "emptied over full", "pressure, full, Pa", "emptied",
-          "volume off, relative", "minutes"]
+HEADER = ["tension, kPa µm", "depth, full, µm", "emptied", "refilled", "emptied over full",
+          "pressure, full, Pa", "emptied", "volume off, relative", "minutes"]
 
 
 def cases():
@@ -26,8 +25,7 @@ def cases():
 
 
 def outline(run, day, inner=True):
-    """Boundary points of one surface at the output nearest to a day, by the angle
-    around the centre of the run's tissue."""
+    """Boundary points of one surface at the output nearest to a day, by their angle."""
     surface = run.surface(int(numpy.argmin(abs(run.times - day))))
     is_inner = numpy.hypot(surface["X"], surface["Y"]) < BETWEEN
     there = surface[is_inner == inner]
@@ -35,8 +33,7 @@ def outline(run, day, inner=True):
 
 
 def depth(run, day):
-    """Amplitude of the wave of CRYPTS lengths in the radius of the inner
-    surface, um; > 0: out where the crypts are."""
+    """Amplitude of the wave of CRYPTS lengths in the radius of the inner surface, um."""
     points = outline(run, day)
     angle = numpy.arctan2(points["y"], points["x"])
     radius = numpy.hypot(points["x"], points["y"])
@@ -65,8 +62,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Outlines, full and emptied, and the depth of crypts over the volume of the
-    lumen."""
     canvas, panels = plt.subplots(1, len(pairs) + 1, layout="constrained",
                                   figsize=(2.1 * (len(pairs) + 1) + 1, 2.5))
     for i, (case, run) in enumerate(pairs):

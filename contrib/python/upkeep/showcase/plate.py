@@ -21,9 +21,9 @@ LONGER = 2.44  # by which factor hypertrophy makes a cell longer
 CUT, LEFT = 3.0, 150.0  # day, and height to which the zone is cut, um
 PROLIFERATING, HYPERTROPHIC = 0, 1
 
-HEADER = ["answer of PTHrP", "height, µm", "from the fields alone, µm",
-          "growth, µm/day", "ln 2/T · height · 2.44", "days to come back",
-          "from the height", "height at the end, µm", "minutes"]
+HEADER = ["answer of PTHrP", "height, µm", "from the fields alone, µm", "growth, µm/day",
+          "ln 2/T · height · 2.44", "days to come back", "from the height",
+          "height at the end, µm", "minutes"]
 
 
 def signal(height, answer):
@@ -49,8 +49,7 @@ def cases():
 
 
 def heights(run):
-    """Times of the output, and the height of the proliferating zone then: of as
-    many of its cells as fill it over the whole width, um."""
+    """Times, and heights of the proliferating zone where it fills the whole width, um."""
     found = []
     for i in range(len(run.times)):
         cells = run.cells(i)
@@ -60,8 +59,6 @@ def heights(run):
 
 
 def row(case, run):
-    """Height before the cut, growth a day then, days until the zone has come
-    back to 0.95 of it, height at the end."""
     times, height = heights(run)
     mean = height[(times > 1.5) & (times < CUT - 1e-9)].mean()
     rows = run.statistics
@@ -77,8 +74,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Height of the proliferating zone over time, and the steady one that the
-    fields alone would have."""
     canvas, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
         axes.plot(*heights(run), color=COLOURS[i],

@@ -33,8 +33,7 @@ def volume_ratio(pressure):
 
 
 def half_strain(stopping=CHOSEN):
-    """1 - J_e at which growth is half of the free one, if it stops at this
-    pressure, kPa."""
+    """1 - J_e at which growth is half of the free one, if it stops at this pressure."""
     return (1 - volume_ratio(stopping)) * QUIESCENT / (1 - QUIESCENT)
 
 
@@ -69,8 +68,7 @@ def cases():
 
 
 def found_rate(run):
-    """Rate at which the grown volume rises between day 0.5 and RELEASE, over
-    that of free tissue."""
+    """Rate at which the grown volume rises from day 0.5 to RELEASE, over the free one."""
     rows = run.statistics
     rows = rows[(rows["time"] > 0.5 - 1e-9) & (rows["time"] < RELEASE + 1e-9)]
     slope = numpy.polyfit(rows["time"], numpy.log(rows["grown_volume"]), 1)[0]
@@ -87,7 +85,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Courses of the volumes, and the rates over the pressure."""
     canvas, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
         rows = run.statistics

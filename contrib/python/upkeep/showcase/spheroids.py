@@ -99,9 +99,8 @@ def cases():
 
 
 def radii_of_run(run):
-    """Times of a run, days, and R, R_n, R_i then, um: radii of balls of the volume
-    that the surface encloses, of the necrotic cells, and of all cells that have too
-    little oxygen to grow."""
+    """Times, days, and R, R_n, R_i then, um: of balls of the volume that the surface
+    encloses, of the necrotic cells, and of all that have too little oxygen to grow."""
     arrest = float(run.keys["Growth/Rate/Rate"].split("oxygen > ")[1].split(")")[0])
     volumes = []
     for i in range(len(run.times)):
@@ -114,8 +113,7 @@ def radii_of_run(run):
 
 
 def row(case, run):
-    """How far a run is from the data, and from the equations: there, the largest
-    difference on any day after the first, as a part of their R."""
+    """From the equations: the largest difference on any day, as a part of their R."""
     line, start, days, data, _ = case.values
     times, found = radii_of_run(run)
     exact = course(start, times + days[0], line)
@@ -129,7 +127,6 @@ def row(case, run):
 
 
 def draw(pairs):
-    """Courses beside the data."""
     canvas, panels = plt.subplots(1, len(pairs), sharey=True, squeeze=False,
                                   figsize=(3.4 * len(pairs), 3.2), layout="constrained")
     for axes, (case, run) in zip(panels[0], pairs):

@@ -73,4 +73,3 @@ def main():
         return (0 if text == before else "doc/parameters.md is not up to date: call "
                 "contrib/upkeep/parameters, and commit it.")
     PAGE.write_text(text, encoding="utf-8")
-    return 0

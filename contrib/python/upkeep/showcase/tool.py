@@ -46,4 +46,3 @@ def main():
                 for case, run in pairs]
         print(f"### Published data: {name}\n\n{markdown(subject.HEADER, rows)}\n", flush=True)
         subject.draw(pairs).savefig(ROOT / f"doc/images/showcase/{name}.png")
-    return 0

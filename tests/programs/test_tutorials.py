@@ -68,7 +68,7 @@ def assert_pictures(tree, number):
     """So many pictures with something in them."""
     found = list(tree.glob("output/**/*.png"))
     assert len(found) == number
-    assert min(picture.stat().st_size for picture in found) > 10000
+    assert all(picture.stat().st_size > 10000 for picture in found)
 
 
 def test_readme(tree):

@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 from morula.execute import environment, overrides
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.common.program import TESTS
+
 SUPPORT = Path("/sys/kernel/mm/transparent_hugepage/enabled")
 PATIENCE = 300  # s
 
@@ -26,13 +27,12 @@ def asked_for(process):
     return total
 
 
+@pytest.mark.skipif(not SUPPORT.is_file(), reason="this system has no large pages")
 def test_columns_of_cells(runs):
     """65,752 cells have 10 MB at least."""
-    if not SUPPORT.is_file():
-        pytest.skip("this system has no large pages")
     if b"__asan_init" in runs.options.morula.read_bytes():
         pytest.skip("AddressSanitizer has its own operator new")
-    words = runs.command(ROOT / "prm/paper/fig-4b.prm", *overrides(
+    words = runs.command(TESTS.parent / "prm/paper/fig-4b.prm", *overrides(
         {"Output directory": runs.work / "output"}))
     with subprocess.Popen(words, env=environment(), stdout=subprocess.DEVNULL) as process:
         try:

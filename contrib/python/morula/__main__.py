@@ -13,17 +13,15 @@ from functools import partialmethod
 from pathlib import Path
 
 TOOLS = {  # those of an installation, then those that need Morula's tree, from
-    # accuracy-ladders on those of contrib/upkeep
+    # parameters on those of contrib/upkeep
     "accuracy": "morula.accuracy.tool", "cell-shapes": "morula.shapes.tool",
     "export": "morula.export.tool", "import": "morula.images.tool",
     "render": "morula.render.tool",
     "report": "morula.report.tool", "sweep": "morula.sweep.tool",
     "reproduce": "reproduction.tool",
-    "accuracy-ladders": "upkeep.accuracy", "changes": "upkeep.changes",
-    "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
-    "doxygen": "upkeep.manual.tool", "man-pages": "upkeep.man_pages",
-    "renew": "upkeep.renew",
-    "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
+    "parameters": "upkeep.parameters",
+    "man-pages": "upkeep.man_pages", "renew": "upkeep.renew",
+    "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",

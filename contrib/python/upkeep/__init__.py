@@ -1,7 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What keeps the pages of doc/ true: tools that measure, draw and write their
-tables and figures. `renew` calls all of them, from the list in `measured`.
+"""Tools of contrib/upkeep, for those who work on Morula: they write pages. Only
+Morula's tree has this package; an installation has `morula` alone."""
+import sys
+from pathlib import Path
 
-Only Morula's tree has this package; an installation has `morula` alone.
-"""
+from morula.execute import call
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def said(*words):
+    """What a command prints, from the root; throws RuntimeError if it fails."""
+    print("+", *words, file=sys.stderr, flush=True)
+    ended = call(words, cwd=ROOT, stderr=None, env={"COLUMNS": "80"})
+    if ended.code:
+        raise RuntimeError(f"{words[0]} ended with exit code {ended.code}")
+    return ended.stdout.strip()

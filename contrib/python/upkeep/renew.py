@@ -1,178 +1,147 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Measures the tables and figures of doc/ anew, without anybody there: builds,
-and calls the tools, which write the data of this version, doc/measured/VERSION,
-turn the pages' links to them, and draw pictures. Done for a version, not for a change. A page that fails does not
-keep the others from being measured, and a table with figures beyond their
-limits says so itself; output/renew/report.txt says at the end what became of
-each, output/renew/PAGE.log what its tools said.
+"""Measures all tables of doc/results.md and writes that page, in some hours, on a
+machine with nothing else to do. Done for a version, not for a change.
 
-    contrib/upkeep/renew                      all pages: some hours
-    contrib/upkeep/renew verification steps   these
-    contrib/upkeep/renew --short              a few small runs through the tools of
-                                       each, in minutes, in a copy of the tree
-                                       below output/renew: nothing changes
-    contrib/upkeep/renew --list               the pages and their commands
-    contrib/upkeep/renew --show hard-cases    prints the tables of the last version
-    contrib/upkeep/renew --limits             writes into the pages, without any run,
-                                       the limits that the cases assert
+    contrib/upkeep/renew                the whole page, and the pictures of doc/images
+    contrib/upkeep/renew steps speed    prints these sections; the page stays
+
+A section that fails says so in the page, and gives exit code 1; the others are there.
 """
 import argparse
-import shlex
+import datetime
+import os
+import re
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
-from morula.command_line import like_ctrl_c
-from morula.execute import call
+from morula.execute import cores, overrides
+from morula.program import Program
+from morula.run import Run
+from morula.tables import markdown
 
-from tests.common.tables import UNMET_LIMITS
+from . import ROOT, accuracy, said
 
-from . import limits
-from .made import made_with
-from .measured import PAGES
-from .version_data import markdown, newest
-
-ROOT = Path(__file__).resolve().parents[3]
-
-# What a scratch copy of the tree holds: all that the tools read or write. The
-# build directory is the tree's own.
-COPIED = ("CMakeLists.txt", "contrib", "doc", "include", "prm", "source", "tests")
+OUTPUT = ROOT / "output/renew"
 
 
-class Renewal:
-    """Pages of a tree, with the commands `full` or `short` of each. Short runs
-    do not belong into the pages: they are done in a copy of the tree."""
-
-    def __init__(self, root, pages, short=False, say=print):
-        self.root, self.pages, self.short, self.say = root, pages, short, say
-        self.output = root / "output/renew"
-        self.tree = self.output / "tree" if short else root
-        self.report = []
-
-    def run(self, names):
-        """Renews these pages; 1 if one of them failed."""
-        self.output.mkdir(parents=True, exist_ok=True)
-        if self.short:
-            self._copy_tree()
-        made = made_with(self.root)
-        self.say(made)
-        failed = []
-        for name in names:
-            start = time.monotonic()
-            outcome = self._page(name)
-            minutes = (time.monotonic() - start) / 60
-            self.report.append(f"{name}: {outcome}, {minutes:.1f} min")
-            self.say(self.report[-1])
-            if outcome.startswith("FAILED"):
-                failed.append(name)
-        text = "\n".join([made, *self.report]) + "\n"
-        (self.output / "report.txt").write_text(text, encoding="utf-8")
-        self.say(f"renew: {len(names) - len(failed)} of {len(names)} pages; "
-                 f"{self.output / 'report.txt'}"
-                 + (f"; FAILED: {', '.join(failed)}" if failed else ""))
-        return 1 if failed else 0
-
-    def commands(self, name):
-        return self.pages[name].short if self.short else self.pages[name].full
-
-    def _page(self, name):
-        """Renews a page; what became of it, in words."""
-        page = self.pages[name]
-        if self.short and not page.short:
-            return "has no short runs"
-        log, unmet = self.output / f"{name}.log", ""
-        with log.open("w", encoding="utf-8") as stream:
-            for words in self.commands(name):
-                self.say(f"{name}: {shlex.join(words)}")
-                code = call([self.tree / words[0], *words[1:]],
-                            cwd=self.tree, stdout=stream, stderr=stream).code
-                if code == UNMET_LIMITS:
-                    unmet = f", limits are not met: see {log}"
-                elif code:
-                    return (f"FAILED, {words[0]} ended with exit code {code}: "
-                            f"see {log}")
-        return ("renewed" if not self.short else "its tools work") + unmet
-
-    def _copy_tree(self):
-        shutil.rmtree(self.tree, ignore_errors=True)
-        copy_tree(self.root, self.tree)
-        (self.tree / "build").symlink_to(self.root / "build")
+def deeper(text, level):
+    """Markdown whose highest headings are of this level, and the others below."""
+    highest = min((len(marks) for marks in re.findall("^#+(?= )", text, re.M)), default=0)
+    return re.sub("^#+(?= )", lambda marks: "#" * (len(marks[0]) - highest + level),
+                  text, flags=re.M)
 
 
-def copy_tree(root, target):
-    """Copies what the tools read or write."""
-    target.mkdir(parents=True)
-    for name in COPIED:
-        if (root / name).is_dir():
-            shutil.copytree(root / name, target / name, symlinks=True)
-        elif (root / name).is_file():
-            shutil.copy(root / name, target / name)
+def paper():
+    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula",
+                       "build/morula"), 3)
 
 
-def arguments():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("pages", nargs="*", metavar="PAGE",
-                        help="default: all; " + ", ".join(PAGES))
-    parser.add_argument("--short", action="store_true",
-                        help="try the tools with small runs; needs a build")
-    parser.add_argument("--list", action="store_true",
-                        help="print the pages and their commands")
-    parser.add_argument("--show", action="store_true",
-                        help="print the tables of the last version")
-    parser.add_argument("--limits", action="store_true",
-                        help="only write the limits that are asserted")
-    options = parser.parse_args()
-    unknown = [name for name in options.pages if name not in PAGES]
-    if unknown:
-        parser.error(f"there is no page '{unknown[0]}'; there are "
-                     + ", ".join(PAGES))
-    if options.short and not (ROOT / "build/morula").is_file():
-        parser.error("build/morula is missing; contrib/build all makes it")
-    return options
+def ladders():
+    parts = []
+    for name, words in accuracy.LADDERS.items():
+        output = OUTPUT / "accuracy" / name
+        said("contrib/accuracy", *words, "--again", "--output", output)
+        for picture in output.glob("*.png"):
+            shutil.copy(picture, ROOT / f"doc/images/accuracy/{name}-{picture.name}")
+        tables = (output / "table.md").read_text(encoding="utf-8").partition("\n## ")
+        parts += [f"### Error against seconds: {name}",
+                  f"```\n{accuracy.wrapped(words)}\n```", deeper("## " + tables[2], 4)]
+    return "\n\n".join(parts)
 
 
-def listing(options):
-    for name, page in PAGES.items():
-        if not options.pages or name in options.pages:
-            print(f"doc/{page.file} ({name})")
-            for words in page.short if options.short else page.full:
-                print("    " + shlex.join(words))
+def cases(kind, title):
+    """What the cases below tests/KIND write at full length, whether limits are met or not."""
+    tables = OUTPUT / kind
+    shutil.rmtree(tables, ignore_errors=True)
+    subprocess.run(
+        ["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
+         f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
+    found = sorted(tables.glob("*.md"))
+    if not found:
+        raise RuntimeError(f"pytest has written no tables of tests/{kind}")
+    return "\n\n".join(f"### {title}: {file.stem.replace('_', ' ')}\n\n"
+                       + file.read_text(encoding="utf-8").strip() for file in found)
 
 
-def show(options):
-    for name in options.pages or PAGES:
-        for table, data in newest(name).items():
-            print(f"# {name}: {table}\n\n{markdown(data)}\n")
+def step(number, **keys):
+    """What a step program prints, but for what the run inside it says."""
+    text = said(f"build/step-{number}", f"prm/step-{number}.prm", "--replace",
+                *overrides({"Output directory": OUTPUT / f"step-{number}", **keys}))
+    lines = [line for line in text.splitlines() if line and not re.match(
+        r"step \d|Finished|  |(Warning|Material|Applied|Piece): ", line)]
+    return "```\n" + "\n".join(lines) + "\n```"
 
 
-def renew_pages(options):
-    """Exit code 0; 1 if a page could not be renewed; 130 if it was stopped."""
-    names = options.pages or [name for name in PAGES if
-                              PAGES[name].short or not options.short]
-    try:
-        with like_ctrl_c():
-            if not options.short:
-                subprocess.run([ROOT / "contrib/build", "all"], check=True)
-            return Renewal(ROOT, PAGES, options.short,
-                           lambda text: print(text, flush=True)).run(names)
-    except subprocess.CalledProcessError as error:
-        print(f"renew: {error}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("renew: stopped; runs that are finished are used again where the "
-              "tool does so.", file=sys.stderr)
-        return 130
+def laws_and_rules():
+    """The four runs of step 7."""
+    rows = []
+    for law in ("none", "crowding limited"):
+        for rule in ("random", "long axis"):
+            step(7, **{"Growth/Law": law, "Proliferation/Cell cycle/Division axis": rule})
+            last = Run(OUTPUT / "step-7").statistics.iloc[-1]
+            rows.append([f"{law}, {rule}", *(f"{number:.5g}" for number in (
+                last["cells"], last["mean_energy_density"], last["min_elastic_volume_ratio"],
+                last["max_elastic_volume_ratio"], last["ymax"] - last["ymin"]))])
+    return markdown(["growth law, division rule", "cells", "mean energy, kPa",
+                     "smallest $J_e$", "largest $J_e$", "largest width, µm"], rows)
+
+
+def steps():
+    top = {"Growth/Isotropic/Stretch": "1 + 0.1*t*(Z > 100)"}
+    parts = {**{f"Step {number}": step(number) for number in range(1, 7)},
+             "Step 3, only the top grows": step(3, **top),
+             "Step 7, laws and rules": laws_and_rules()}
+    return "\n\n".join(f"### {title}\n\n{parts[title]}" for title in sorted(parts))
+
+
+SECTIONS = {  # name: title, page, what measures it
+    "paper": ("The paper's numbers", "reproduction.md", paper),
+    "accuracy": ("Error against seconds", "accuracy-and-cost.md", ladders),
+    "verification": ("Verification", "verification.md",
+                     lambda: cases("verification", "Verification")),
+    "hard": ("Hard cases", "hard-cases.md", lambda: cases("hard", "Hard case")),
+    "showcase": ("Published data", "showcase.md",
+                 lambda: said("contrib/upkeep/showcase", "--again")),
+    "speed": ("Speed", "performance.md", lambda: said("contrib/upkeep/benchmark")),
+    "steps": ("Steps", "steps/README.md", steps)}
+
+
+def head():
+    """With what the page is made."""
+    commit = said("git", "describe", "--always", "--dirty", "--exclude=*")
+    processor = re.search(r"^model name\s*: (.*)",
+                          Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M)[1]
+    return ("# Results\n\nAll measured tables; pages link to their headings here. "
+            "`contrib/upkeep/renew` writes this page\nfrom runs, for a version and not for "
+            f"a change.\n\n{Program(ROOT / 'build/morula').version}, {processor}, "
+            f"{cores()} cores; {datetime.date.today()}, commit {commit}.")
 
 
 def main():
-    options = arguments()
-    if options.list or options.show:
-        return listing(options) if options.list else show(options)
-    if options.limits:
-        print("written:", *limits.write_all(ROOT), sep="\n  ")
-        return 0
-    return renew_pages(options)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("sections", nargs="*", metavar="SECTION", help=", ".join(SECTIONS))
+    chosen = parser.parse_args().sections
+    if not set(chosen) <= set(SECTIONS):
+        parser.error(f"the sections are {', '.join(SECTIONS)}")
+    os.environ.pop("OMP_NUM_THREADS", None)
+    said("contrib/build", "all")
+    parts, failed = [head()], []
+    for name in chosen or SECTIONS:
+        title, page, measure = SECTIONS[name]
+        try:
+            body = measure()
+        except RuntimeError as error:
+            body = f"Not measured: {error}."
+            failed.append(name)
+        parts.append(f"## {title}\n\n[{page}]({page}) says what the runs are, and what "
+                     f"follows from them.\n\n{body}")
+    text = "\n\n".join(parts) + "\n"
+    if chosen:
+        print(text)
+    else:
+        (ROOT / "doc/results.md").write_text(text, encoding="utf-8")
+    return f"renew: failed: {', '.join(failed)}" if failed else 0

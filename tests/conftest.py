@@ -51,3 +51,9 @@ def pytest_collection_modifyitems(config, items):
 def runs(request):
     """Runs of the program for all tests of a file, in a directory of theirs."""
     return Runs(request.config.option, request.module.__name__)
+
+
+@pytest.fixture
+def fresh(request):
+    """The same for one test, in a directory that is empty."""
+    return Runs(request.config.option, request.node.nodeid.partition("programs/")[2])

@@ -70,6 +70,11 @@ class Calls:
         self.run(name, scene, {**keys, "Time/End time": until}, **options)
         return self.run(name, scene, keys, "--resume", **options)
 
+    def refused(self, scene, keys=(), *arguments, **options):
+        """What is said of a run that is refused."""
+        return self.execute(*self._scene("refused", scene, keys), *arguments,
+                            code=1, **options).text
+
     def explain(self, scene, keys=(), *arguments, code=0):
         """What --explain prints of a scene."""
         return self.call(self.command(*self._scene("explained", scene, keys),

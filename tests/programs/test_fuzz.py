@@ -13,37 +13,36 @@ import random
 import re
 import resource
 import shutil
-import signal
 import subprocess
 
-from tests.common.program import SCENES, ProgramTest
+import pytest
+from tests.common.program import SCENES
 
 ROOT = SCENES.parents[1]
 FILES = ["octahedron.off", "scattered-cells.csv"]  # that scenes name
 
 # Small ones, so that accepted mutants end soon.
-ORIGINALS = [
-    "prm/demo.prm", "prm/hard/properties.prm", "prm/paper/fig-4b.prm",
-    "prm/verification/slip-full-2d.prm", "prm/verification/vortex-2d.prm",
-    *(f"tests/scenes/{name}.prm" for name in (
-        "balance-pressure", "balance-traction", "confined-growth-2d",
-        "cylinder", "ellipsoid", "free-growth-options", "free-growth-points",
-        "mesh-pressure", "points-free", "proliferating-cube",
-        "proliferating-disc", "rigid-motion-2d", "self-weight-h40")),
-]
+ORIGINALS = ["prm/demo.prm", "prm/hard/properties.prm", "prm/paper/fig-4b.prm",
+             "prm/verification/slip-full-2d.prm", "prm/verification/vortex-2d.prm",
+             *(f"tests/scenes/{name}.prm" for name in ("balance-pressure", "balance-traction",
+                                                       "confined-growth-2d", "cylinder",
+                                                       "ellipsoid", "free-growth-options",
+                                                       "free-growth-points", "mesh-pressure",
+                                                       "points-free", "proliferating-cube",
+                                                       "proliferating-disc", "rigid-motion-2d",
+                                                       "self-weight-h40")),]
 
-NUMBERS = ["0", "-0", "-1", "1e-300", "-1e300", "1e300", "1e999", "nan", "-nan",
-           "inf", "-inf", "infinity", "0x10", "1e", "1,5", "1.5.2", "2147483647",
-           "2147483648", "-2147483649", "4294967296", "1e-17", "3 4", "", "+-1",
-           "99999999999999999999", "1e10", "0.1 um", "NaN(1)", "1d3"]
-EXPRESSIONS = ["X", "t", "1/0", "0/0", "log(-1)", "X/", "((X)", "X)", "sqrt(Y)",
-               "X; Y; Z", ";", ";;", "if(X>0,1", "1?2", "1?2:", "rand()", "X=1",
-               "0<X<1", "sin", "sin()", "foo(X)", "\"X\"", "X Y", "1e400", "t^t^t^t",
-               "-(-(-X", "pi(2)", "X && && Y", "_", "1//2", "!X", "%", "X|Y"]
-PIECES = ["\0", "\xff\xfe", "\t", "\r", "\\", "#", "=", "==", "/", "//", ";", ",",
-          "'", "\"", "%s%n", "$(x)", "é", "µ", "\u2028", "\U0001f300", "<", "&",
-          "set ", "end", "subsection ", "include ", "{", "}", "\x1b[31m", "..",
-          "\x7f", "A" * 5000]
+NUMBERS = ["0", "-0", "-1", "1e-300", "-1e300", "1e300", "1e999", "nan", "-nan", "inf", "-inf",
+           "infinity", "0x10", "1e", "1,5", "1.5.2", "2147483647", "2147483648", "-2147483649",
+           "4294967296", "1e-17", "3 4", "", "+-1", "99999999999999999999", "1e10", "0.1 um",
+           "NaN(1)", "1d3"]
+EXPRESSIONS = ["X", "t", "1/0", "0/0", "log(-1)", "X/", "((X)", "X)", "sqrt(Y)", "X; Y; Z", ";",
+               ";;", "if(X>0,1", "1?2", "1?2:", "rand()", "X=1", "0<X<1", "sin", "sin()", "foo(X)",
+               "\"X\"", "X Y", "1e400", "t^t^t^t", "-(-(-X", "pi(2)", "X && && Y", "_", "1//2",
+               "!X", "%", "X|Y"]
+PIECES = ["\0", "\xff\xfe", "\t", "\r", "\\", "#", "=", "==", "/", "//", ";", ",", "'", "\"",
+          "%s%n", "$(x)", "é", "µ", "\u2028", "\U0001f300", "<", "&", "set ", "end", "subsection ",
+          "include ", "{", "}", "\x1b[31m", "..", "\x7f", "A" * 5000]
 LONG = 10 * 1000 * 1000
 
 
@@ -85,8 +84,7 @@ class Mutant:
     def repeat_line(self):
         i = self.any_line()
         if i is not None:
-            self.lines.insert(self.rng.randrange(len(self.lines) + 1),
-                              self.lines[i])
+            self.lines.insert(self.rng.randrange(len(self.lines) + 1), self.lines[i])
 
     def swap_lines(self):
         i, j = self.any_line(), self.any_line()
@@ -129,8 +127,7 @@ class Mutant:
             self.lines[i] = key + " " + ",".join(parts)
 
     def replace_number(self):
-        i = self.any_line(lambda line: numbered(line)
-                          and re.search(r"\d", line.split("=", 1)[1]))
+        i = self.any_line(lambda line: numbered(line) and re.search(r"\d", line.split("=", 1)[1]))
         if i is not None:
             key, value = numbered(self.lines[i])
             found = list(re.finditer(r"\d+(\.\d*)?", value))
@@ -155,15 +152,13 @@ class Mutant:
         key = numbered(self.lines[i])[0] if i is not None else "set Dimension ="
         key = re.sub(r"\s*set\s+", "", key)
         section = self.rng.choice(["Tissue/", "Grid/", "Time/", "", "/", "Gird/"])
-        word = self.rng.choice([
-            section + key + self.bad_value(), key.strip("= "), self.bad_value(),
-            "=" + self.bad_value(), "Grid/Spacing=" + self.bad_value(),
-            "Tissue/Radius=" + self.bad_value()])
+        word = self.rng.choice([section + key + self.bad_value(), key.strip("= "), self.bad_value(),
+                                "=" + self.bad_value(), "Grid/Spacing=" + self.bad_value(),
+                                "Tissue/Radius=" + self.bad_value()])
         self.words += ["-s", word.replace("\0", "")]
 
-    DAMAGES = [drop_line, repeat_line, swap_lines, garble_line, garble_line,
-               cut_file, misspell_key, replace_value, replace_value,
-               replace_value, replace_component, replace_number,
+    DAMAGES = [drop_line, repeat_line, swap_lines, garble_line, garble_line, cut_file, misspell_key,
+               replace_value, replace_value, replace_value, replace_component, replace_number,
                replace_number, noise, override]
 
 
@@ -217,69 +212,61 @@ CHOSEN = {
 }
 
 
-class Fuzz(ProgramTest):
-    n, seed = map(int, os.environ.get("MORULA_FUZZ", "20 1").split())
-
-    def setUp(self):
-        super().setUp()
-        for name in FILES:
-            shutil.copy(SCENES / name, self.work)
-        shutil.copytree(ROOT / "prm", self.work / "prm")
-
-    def explain(self, data, words=()):
-        """(exit code, standard error) of the program for a scene of these
-        bytes; fails if it crashes, hangs or writes a file."""
-        scene = self.work / "mutant.prm"
-        scene.write_bytes(data)
-        before = sorted(self.work.rglob("*"))
-        process = [self.options.morula, scene.name, "--explain", *words]
-        try:
-            result = subprocess.run(
-                process, cwd=self.work, stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=30,
-                preexec_fn=limit_memory, check=False)
-        except subprocess.TimeoutExpired:
-            self.fail("hangs")
-        stderr = result.stderr.decode("utf-8", "replace")
-        code = result.returncode
-        if code < 0:
-            self.fail(f"ended by {signal.Signals(-code).name}: {stderr[-500:]}")
-        self.assertIn(code, (0, 1), stderr[-2000:])
-        self.assertEqual(sorted(self.work.rglob("*")), before, "files written")
-        if code == 1:
-            self.assert_says_what_is_wrong(stderr)
-        else:
-            self.assertIn(b"The scene is valid.", result.stdout)
-        return code
-
-    def assert_says_what_is_wrong(self, message):
-        """Key or line, and what is allowed, in a readable length."""
-        self.assertRegex(message, r"(?s)^morula: .+ = '.*': allowed is .+\.")
-        self.assertRegex(
-            message, r"mutant\.prm|\.prm:\d|-s: |/|^morula: (Dimension|Output "
-            "directory|Random seed|The (scene|command line)|-s) = ")
-        self.assertLess(len(message), 3000, message[:500])
-        for text in ("exception", "std::", ".cc", "basic_string"):
-            self.assertNotIn(text, message)
-
-    def test_chosen(self):
-        for name, (data, refused) in CHOSEN.items():
-            with self.subTest(name):
-                code = self.explain(data)
-                if refused is not None:
-                    self.assertEqual(code, int(refused))
-
-    def test_random(self):
-        codes = []
-        for seed in range(self.seed, self.seed + self.n):
-            mutant = Mutant(seed)
-            with self.subTest(seed=seed, original=mutant.original,
-                              damages=mutant.done, words=mutant.words):
-                codes.append(self.explain(mutant.data(), mutant.words))
-        print(f"seeds {self.seed} to {self.seed + self.n - 1}: "
-              f"{codes.count(0)} accepted, {codes.count(1)} refused")
+N, SEED = map(int, os.environ.get("MORULA_FUZZ", "20 1").split())
 
 
 def limit_memory():
     """So that a scene which asks for too much cannot take the machine along."""
     resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+
+
+@pytest.fixture(scope="module")
+def work(runs):
+    """A directory with the files that scenes name."""
+    for name in FILES:
+        shutil.copy(SCENES / name, runs.work)
+    shutil.copytree(ROOT / "prm", runs.work / "prm")
+    return runs.work
+
+
+def explain(runs, work, data, words=()):
+    """The exit code of the program for a scene of these bytes; fails if it crashes,
+    hangs or writes a file."""
+    scene = work / "mutant.prm"
+    scene.write_bytes(data)
+    before = sorted(work.rglob("*"))
+    result = subprocess.run(
+        [runs.options.morula, scene.name, "--explain", *words], cwd=work,
+        stdin=subprocess.DEVNULL, capture_output=True, timeout=30, preexec_fn=limit_memory,
+        check=False)
+    stderr = result.stderr.decode("utf-8", "replace")
+    assert result.returncode in (0, 1), stderr[-2000:]
+    assert sorted(work.rglob("*")) == before, "files written"
+    if result.returncode == 1:
+        check_message(stderr)
+    else:
+        assert b"The scene is valid." in result.stdout
+    return result.returncode
+
+
+def check_message(message):
+    """Key or line, and what is allowed, in a readable length."""
+    assert re.search(r"(?s)^morula: .+ = '.*': allowed is .+\.", message)
+    assert re.search(r"mutant\.prm|\.prm:\d|-s: |/|^morula: (Dimension|Output directory|Random seed"
+                     r"|The (scene|command line)|-s) = ", message)
+    assert len(message) < 3000, message[:500]
+    for text in ("exception", "std::", ".cc", "basic_string"):
+        assert text not in message
+
+
+@pytest.mark.parametrize("name", CHOSEN)
+def test_chosen(runs, work, name):
+    data, refused = CHOSEN[name]
+    assert explain(runs, work, data) in ((0, 1) if refused is None else (int(refused),))
+
+
+@pytest.mark.parametrize("seed", range(SEED, SEED + N))
+def test_random(runs, work, seed):
+    mutant = Mutant(seed)
+    print(f"{mutant.original}: {mutant.done}, {mutant.words}")
+    explain(runs, work, mutant.data(), mutant.words)

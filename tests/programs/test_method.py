@@ -50,7 +50,8 @@ def test_resuming_asks_for_the_values_not_the_word(runs, discs):
     assert_same_run(discs["spelt"], halves)
     # a scene of before this key goes on as the paper's
     runs.run("older", DISC, {**PAPER, **HALF})
-    error = runs.run("older", DISC, {"Method": "consistent"}, "--resume", code=1).said
+    error = runs.refused(runs.work / "older.prm", {**DISC, "Method": "consistent"}, "--resume",
+                         output=runs.work / "older")
     assert "Nitsche" in error
     assert "as in the snapshot" in error
     runs.run("older", DISC, {"Method": "paper"}, "--resume")

@@ -2,7 +2,6 @@
 # Copyright (C) 2026 by the Morula authors
 """Bodies in contact against closed forms: they press, slide, part again, and no
 step lets them pass through each other."""
-import math
 
 import numpy as np
 import pytest

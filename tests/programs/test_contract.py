@@ -8,9 +8,10 @@ import re
 
 import numpy as np
 import pytest
+from morula.prm import parse
+from morula.scene import normal
 
 from tests.common.program import SCENES, TESTS, assert_same_file
-from tests.common.results import read_keys
 
 CUBE = TESTS / "programs/small-cube.prm"
 SHORT = {"Time/End time": 0.25}
@@ -33,6 +34,31 @@ COLUMNS = {
     "condition.csv": "step,time,unknowns,smallest,largest,condition",
     "newton.csv": "step,attempt,turn,proximity,iteration,energy,residual,part,motion,curvature,"
                   "smallest_J,x,y,z"}
+DEFAULTS = {"Dimension": "3", "Output directory": "", "Random seed": "1", "Time/End time": "1",
+            "Time/Step": "0.05", "Time/Smallest step": "1e-4", "Time/Stop at cells": "0",
+            "Tissue/Shape": "sphere", "Tissue/Center": "0, 0, 0", "Tissue/Radius": "250",
+            "Tissue/Size": "200, 200, 200", "Tissue/Surface mesh": "", "Tissue/Points file": "",
+            "Tissue/Cell spacing": "10", "Tissue/Lattice offset": "0, 0, 0",
+            "Tissue/Boundary points": "0", "Grid/Spacing": "50", "Grid/Offset": "0, 0, 0",
+            "Grid/Occupation parameter": "0.85", "Grid/Extension": "true",
+            "Material/Young's modulus": "1.0", "Material/Poisson's ratio": "0.4",
+            "Material/Energy per": "initial volume", "Growth/Law": "none",
+            "Growth/Isotropic/Stretch": "1", "Proliferation/Law": "none",
+            "Proliferation/Cell cycle/Start": "waiting", "Proliferation/Cell cycle/Duration": "1",
+            "Proliferation/Cell cycle/G0 exit rate": "1",
+            "Proliferation/Cell cycle/Size checkpoint": "0", "Proliferation/Cell cycle/Where": "1",
+            "Proliferation/Cell cycle/Division axis": "random",
+            "Proliferation/Cell cycle/Fixed axis": "0, 0, 1",
+            "Proliferation/Cell cycle/Axis follows rotation": "false",
+            "Boundary conditions/Fixed where": "", "Boundary conditions/Displacement": "0; 0; 0",
+            "Boundary conditions/Slip where": "", "Boundary conditions/Slip normal": "",
+            "Boundary conditions/Traction where": "", "Boundary conditions/Traction": "0; 0; 0",
+            "Boundary conditions/Pressure where": "", "Boundary conditions/Pressure": "0",
+            "Boundary conditions/Nitsche penalty": "20", "Body force/Force density": "0; 0; 0",
+            "Solver/Newton tolerance": "1e-6", "Solver/Linear solver": "automatic",
+            "Output/Interval": "0.25", "Output/Formats": "vtu", "Output/Snapshot interval": "0",
+            "Output/Condition estimate": "false", "Output/Newton trace": "false",
+            "Solver/Newton iterations": "400"}
 ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv", "lineage.csv",
           "snapshot.h5", "forces.csv"}
 WORDS = {"timings.csv": {0}, "forces.csv": {1, 2}}
@@ -162,8 +188,10 @@ def test_formats(runs):
 def test_parameters_as_used(runs):
     """parameters.prm has every key of --parameters, and gives the same run."""
     run = runs.run("used", CUBE, {**SHORT, "Random seed": 9})
-    printed = runs.call([runs.options.morula, "--parameters"]).stdout
-    assert set(read_keys(runs.write("all.prm", printed))) <= set(run.keys)
+    printed = parse(runs.call([runs.options.morula, "--parameters"]).stdout)
+    assert set(printed) <= set(run.keys)
+    assert ({key: normal(printed[key]) for key in DEFAULTS}
+            == {key: normal(DEFAULTS[key]) for key in DEFAULTS})
     assert run.keys["Random seed"] == "9"
     assert run.number("Time/End time") == 0.25
     again = runs.run("again", run.directory / "parameters.prm")

@@ -155,7 +155,8 @@ namespace
   void
   check(const Refusal &refusal, const fs::path &output)
   {
-    std::vector<std::string> overrides = {"Output directory=" + output.string()};
+    std::vector<std::string> overrides = {"Output directory=" +
+                                          output.string()};
     for (const auto &[key, value] : refusal.keys)
       overrides.push_back(key + "=" + value);
     const Scene scene =
@@ -179,12 +180,10 @@ TEST(Refusals, AreSaidAtOnceWithKeyValueAndRemedy)
       SCOPED_TRACE(row);
       const Refusal refusal = table.refusal(row);
       for (const auto &[name, content] : refusal.files)
-        std::ofstream(directory / name, std::ios::binary)
-          << content;
+        std::ofstream(directory / name, std::ios::binary) << content;
       const fs::path      output = directory / "output";
       const dealii::Timer timer;
-      const std::string   message =
-        complaint_of([&] { check(refusal, output); });
+      const std::string message = complaint_of([&] { check(refusal, output); });
       expect_parts(message, refusal.said);
       EXPECT_LT(message.size(), 1500u);
       EXPECT_LT(timer.cpu_time(), 5.);

@@ -8,7 +8,7 @@ from morula.prm import parse
 from morula.program import Program
 from morula.scene import normal
 
-from tests.common.program import assert_same_run
+from tests.common.program import assert_same_run, without_wall_time
 
 FORM = "Boundary conditions/Nitsche form"
 PENALTY = "Boundary conditions/Nitsche penalty"
@@ -47,7 +47,7 @@ def test_parameters_run_again_to_the_same(runs):
 def test_resuming_asks_for_the_values_not_the_word(runs, discs):
     runs.run("halves", DISC, {**CONSISTENT, **HALF})
     halves = runs.run("halves", DISC, {"Method": "consistent"}, "--resume")
-    assert_same_run(discs["spelt"], halves)
+    assert without_wall_time(discs["spelt"].directory) == without_wall_time(halves.directory)
     # a scene of before this key goes on as the paper's
     runs.run("older", DISC, {**PAPER, **HALF})
     error = runs.refused(runs.work / "older.prm", {**DISC, "Method": "consistent"}, "--resume",

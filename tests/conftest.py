@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Options, rings and fixtures of the tests in Python: tests/README.md."""
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -56,4 +57,5 @@ def runs(request):
 @pytest.fixture
 def fresh(request):
     """The same for one test, in a directory that is empty."""
-    return Runs(request.config.option, request.node.nodeid.partition("programs/")[2])
+    name = re.sub(r"\W+", "-", request.node.name)[:80]
+    return Runs(request.config.option, f"{request.module.__name__}/{name}")

@@ -14,18 +14,15 @@ import subprocess
 import time
 
 import h5py
-import numpy
 import pytest
 from morula.run import Run
 
-from tests.common.program import (TESTS, assert_same_columns, assert_same_run, overrides,
-                                  without_wall_time)
+from tests.common.program import TESTS, assert_same_run, overrides, without_wall_time
 
 SCENE = TESTS / "programs/small-cube.prm"
 STEP, INTERVAL = 1 / 32, 1 / 8
 FINE = {"Time/Step": STEP, "Output/Snapshot interval": INTERVAL}
 SEED = 20261
-TIGHT = {"Solver/Newton tolerance": 1e-10}
 DYING = {"Material/Energy per": "grown volume", "Death/Rate": "oxygen > 0.3",
          "Death/Shrinking time": 0.2, "Fields/Names": "oxygen",
          "Fields/oxygen/Time": "transient", "Fields/oxygen/Diffusion": 2e4,
@@ -195,18 +192,6 @@ def test_that_leave_a_semaphore_locked(runs):
     finally:
         libc.sem_unlink(name)
     assert (output / "snapshot.h5").is_file()
-
-
-def test_on_another_number_of_ranks(runs):
-    """Killed on one, resumed on two."""
-    output, near = runs.work / "one-two", dict.fromkeys("xyz", 1e-6)
-    assert interrupt(runs, output, 14, 0, TIGHT)
-    two, one = resume(runs, output, TIGHT, ranks=2), runs.run("tight", SCENE, {**FINE, **TIGHT})
-    assert_same_columns(one.directory / "lineage.csv", two.directory / "lineage.csv", near)
-    a, b = one.cells(2), two.cells(2)
-    assert a[["id", "parent", "generation", "phase"]].equals(
-        b[["id", "parent", "generation", "phase"]])
-    numpy.testing.assert_allclose(a[["x", "y", "z"]], b[["x", "y", "z"]], rtol=0, atol=1e-6)
 
 
 # Ctrl-C, and SIGTERM or SIGUSR1 as batch systems send them; mpiexec hands SIGUSR1 on

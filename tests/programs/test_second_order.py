@@ -45,18 +45,6 @@ def test_wait_that_jumps(runs, step):
     assert abs(births[births > 0].min() - 1) <= 1e-3
 
 
-def test_wait_with_time(runs):
-    # Divided until 1.4, with T = 0.4: 1 - exp(-H(1.2)), H = 0.5 t + 0.4 t².
-    exact = 1 - np.exp(-0.5 * 1.2 - 0.4 * 1.2**2)
-    parts = [runs.run("ramp", WAITING, {
-        "Time/Step": step, "Time/End time": 1.4, CYCLE + "Duration": 0.4,
-        CYCLE + "G0 exit rate": "(0.5 + 0.8*t)*(generation == 0)"})
-        .statistics["dividing"].sum() / 400 for step in (0.2, 0.1, 0.05)]
-    # 400 cells draw the same numbers: chance is common to all steps.
-    assert np.ptp(parts) < 0.004
-    assert abs(parts[-1] - exact) <= 2 * np.sqrt(exact * (1 - exact) / 400)
-
-
 @pytest.mark.parametrize("names", ["a, b", "b, a"])
 @pytest.mark.parametrize("back", [0, 1])
 def test_order_of_fields(runs, names, back):

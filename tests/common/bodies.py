@@ -43,14 +43,22 @@ def circle(radius, center=0.0, sign=1, n=400):
              center + r * math.sin(2 * math.pi * sign * i / n)) for i in range(n + 1)]
 
 
-def points_scene(runs, cells, polygons):
-    """The keys of a scene with these cells. @param polygons lists of rings"""
-    lines = ["x,y,volume,type"] + [f"{x:.9f},{y:.9f},{v:.9f},{t}" for x, y, v, t in cells]
+def points_files(runs, cells, polygons):
+    """The keys for these cells, which may have a type, and for their surface.
+    @param polygons lists of closed rings"""
+    head = "x,y,volume,type" if len(cells[0]) == 4 else "x,y,volume"
+    rows = [",".join(value if isinstance(value, str) else f"{value:.9f}" for value in cell)
+            for cell in cells]
     rings = [["(" + ", ".join(f"{x:.9f} {y:.9f}" for x, y in ring) + ")" for ring in polygon]
              for polygon in polygons]
     surface = "MULTIPOLYGON(" + ", ".join(f"({', '.join(all)})" for all in rings) + ")\n"
-    return {**SCENE, "Tissue/Points file": runs.write("cells.csv", "\n".join(lines) + "\n"),
+    return {"Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n"),
             "Tissue/Points surface": runs.write("surface.wkt", surface)}
+
+
+def points_scene(runs, cells, polygons):
+    """A scene of bodies, which are the types."""
+    return {**SCENE, **points_files(runs, cells, polygons)}
 
 
 def blocks(runs, gap):

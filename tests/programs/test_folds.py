@@ -8,14 +8,14 @@ import random
 import numpy as np
 import pytest
 
-from tests.common.bodies import contact_rows
+from tests.common.bodies import SCENE as BODIES
+from tests.common.bodies import contact_rows, points_files, rectangle
 from tests.common.program import TESTS, assert_same_run
 
 FIXED, MOVES = "Boundary conditions/Fixed where", "Boundary conditions/Displacement"
 SLIP = "Boundary conditions/Slip where"
-SCENE = {"Dimension": 2, "Time/End time": 0.4, "Time/Step": 0.1, "Tissue/Shape": "points",
-         "Grid/Spacing": 10, "Contact/Between": "all", "Material/Young's modulus": 1,
-         "Material/Poisson's ratio": 0.4, "Output/Formats": "csv", "Output/Interval": 0.1}
+SCENE = {key: value for key, value in BODIES.items() if key not in (
+    "Cell types/Names", "Contact/Bodies")} | {"Contact/Between": "all"}
 SNAP = {"Dimension": 2, "Time/Step": 0.05, "Tissue/Refine surface": "true",
         "Tissue/Coarsen surface": "true", "Grid/Spacing": 8, "Contact/Between": "all",
         "Material/Poisson's ratio": 0.45, "Material/Energy per": "grown volume",
@@ -24,17 +24,8 @@ SNAP = {"Dimension": 2, "Time/Step": 0.05, "Tissue/Refine surface": "true",
         "Division by size/Noise": 0.1, "Output/Formats": "csv", "Output/Interval": 0.05}
 
 
-def points_scene(runs, cells, surface, ending="wkt", dim=2):
-    head = "x,y,z,volume" if dim == 3 else "x,y,volume"
-    rows = [",".join(f"{value:.9f}" for value in cell) for cell in cells]
-    return {**SCENE, "Dimension": dim,
-            "Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n"),
-            "Tissue/Points surface": runs.write(f"surface.{ending}", surface)}
-
-
 def polygon(runs, cells, ring):
-    places = ", ".join(f"{x:.9f} {y:.9f}" for x, y in [*ring, ring[0]])
-    return points_scene(runs, cells, f"POLYGON(({places}))\n")
+    return {**SCENE, **points_files(runs, cells, [[[*ring, ring[0]]]])}
 
 
 class Strip:
@@ -161,12 +152,15 @@ def test_a_hairpin_in_3d(runs):
             quad(rows[one][i], rows[one][i + 1], rows[other][i + 1], rows[other][i])
     quad(*(rows[k][0] for k in (0, 1, 3, 2)))
     quad(*(rows[k][n - 1] for k in (2, 3, 1, 0)))
-    surface = "\n".join(["OFF", f"{len(corners)} {len(triangles)} 0"]
-                        + ["%.9g %.9g %.9g" % corner for corner in corners]
-                        + ["3 %d %d %d" % triangle for triangle in triangles])
-    scene = {**points_scene(runs, cells, surface + "\n", "off", dim=3), **strip.moves()}
-    check_closing_and_opening(runs.run("hairpin-3d", scene, {
-        "Tissue/Boundary points": 900, MOVES: strip.moves()[MOVES] + "; 0"}, ranks=2), 3)
+    surface = ["OFF", f"{len(corners)} {len(triangles)} 0",
+               *("%.9g %.9g %.9g" % corner for corner in corners),
+               *("3 %d %d %d" % triangle for triangle in triangles)]
+    rows = ["x,y,z,volume", *("%.9f,%.9f,%.9f,%.9f" % cell for cell in cells)]
+    run = runs.run("hairpin-3d", {**SCENE, **strip.moves()}, {
+        "Dimension": 3, "Tissue/Points file": runs.write("cells.csv", "\n".join(rows) + "\n"),
+        "Tissue/Points surface": runs.write("surface.off", "\n".join(surface) + "\n"),
+        "Tissue/Boundary points": 900, MOVES: strip.moves()[MOVES] + "; 0"}, ranks=2)
+    check_closing_and_opening(run, 3)
 
 
 def test_a_fold_whose_surface_is_made_anew(runs):
@@ -179,8 +173,7 @@ def test_a_fold_whose_surface_is_made_anew(runs):
 def two_blocks(runs):
     """Blocks of 60 um by 30 um, 2 um apart."""
     cells = [(1 + 2 * i, y + 1 + 2 * j, 4) for y in (0, 32) for j in range(15) for i in range(30)]
-    return points_scene(runs, cells, "MULTIPOLYGON(((0 0, 60 0, 60 30, 0 30, 0 0)), "
-                                     "((0 32, 60 32, 60 62, 0 62, 0 32)))\n")
+    return {**SCENE, **points_files(runs, cells, [[rectangle(0, 30)], [rectangle(32, 62)]])}
 
 
 def test_bodies_touch_as_with_bodies_alone(runs):

@@ -12,7 +12,6 @@ from scipy.special import eval_legendre, roots_legendre
 from tests.verification.material import lame
 from tests.verification.pressed_ball import Ball, Contact, cap, force, hertz
 
-pytestmark = pytest.mark.quick
 E, NU = 1.0, 0.4
 POINTS = numpy.array([[0.3, 0.0, 0.4], [0.5, -0.3, 0.6], [-0.2, 0.6, -0.1]])
 RADIAL, TANGENTIAL = numpy.array([-0.3, 0.7, 0.2]), numpy.array([0.0, -0.4, 0.5])

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Cells that die, shrink and are removed: doc/theory.md, section 6.9."""
 import numpy as np
+import pytest
 from scipy.optimize import least_squares
 
 from tests.common.program import TESTS
@@ -45,6 +46,7 @@ def wedge(founders, positions):
     return fit.x[3], np.sqrt((fit.fun**2).mean())
 
 
+@pytest.mark.release
 def test_cut(runs):
     """A ring with F_g = diag(1, 0.9) along R and Theta opens by 36 degrees,
     and less than a millionth of the energy before is left. Measured: 9e-7,

@@ -2,73 +2,24 @@
 # Copyright (C) 2026 by the Morula authors
 """tests/verification/pressed_ball.py, the reference of the scene hertz.
 
-No run of the program: the series is compared with finite differences, closed
-forms and theorems of linear elasticity.
+No run of the program: the series is compared with closed forms and theorems of linear
+elasticity.
 """
 import numpy
 import pytest
-from scipy.special import eval_legendre, roots_legendre
+from scipy.special import roots_legendre
 
 from tests.verification.material import lame
 from tests.verification.pressed_ball import Ball, Contact, cap, force, hertz
 
 E, NU = 1.0, 0.4
-POINTS = numpy.array([[0.3, 0.0, 0.4], [0.5, -0.3, 0.6], [-0.2, 0.6, -0.1]])
-RADIAL, TANGENTIAL = numpy.array([-0.3, 0.7, 0.2]), numpy.array([0.0, -0.4, 0.5])
 BALL = Ball(lame(E, NU))
-FEW = Ball(lame(E, NU), 4)
-SOLUTION = FEW.coefficients(RADIAL, TANGENTIAL)
-
-
-def along_meridian(X):
-    """The cosine of the polar angle, and the unit vectors, radial and to the south."""
-    r = numpy.linalg.norm(X, axis=1)
-    x = X[:, 2] / r
-    e_r = X / r[:, None]
-    return r, x, e_r, (x[:, None] * e_r - [0, 0, 1]) / numpy.sqrt(1 - x**2)[:, None]
-
-
-def displacement(X):
-    """Cartesian."""
-    r, x, e_r, e_theta = along_meridian(X)
-    u_r, u_theta = FEW.displacement(*SOLUTION, r, x)
-    return u_r[:, None] * e_r + u_theta[:, None] * e_theta
-
-
-def derivative(function, X, step=3e-4):
-    """d function_i.../dx_j, the last index, by central differences."""
-    return numpy.stack([(function(X + step * e) - function(X - step * e)) / (2 * step)
-                        for e in numpy.eye(3)], axis=-1)
-
-
-def stress(X):
-    gradient = derivative(displacement, X)
-    strain = (gradient + numpy.swapaxes(gradient, 1, 2)) / 2
-    lame_lambda, mu = lame(E, NU)
-    trace = numpy.trace(strain, axis1=1, axis2=2)[:, None, None]
-    return lame_lambda * trace * numpy.eye(3) + 2 * mu * strain
-
-
-def test_no_force_inside():
-    change = derivative(stress, POINTS)
-    numpy.testing.assert_allclose(numpy.einsum("pijj->pi", change), 0, atol=1e-5)
-    assert abs(change).max() > 0.1
-
-
-def test_traction_of_the_surface():
-    X = POINTS / numpy.linalg.norm(POINTS, axis=1)[:, None]
-    _, x, e_r, e_theta = along_meridian(X)
-    P = eval_legendre([[0], [2], [4]], x)
-    sine = numpy.sqrt(1 - x**2)
-    slopes = [0 * x, -3 * x * sine, -(35 * x**3 - 15 * x) / 2 * sine]
-    expected = (RADIAL @ P)[:, None] * e_r + (TANGENTIAL @ slopes)[:, None] * e_theta
-    found = numpy.einsum("pij,pj->pi", stress(X), X)
-    numpy.testing.assert_allclose(found, expected, atol=1e-5)
 
 
 def test_pressure_all_around():
-    A, B = FEW.coefficients(numpy.array([-0.3, 0, 0]), numpy.zeros(3))
-    u_r, _ = FEW.displacement(A, B, numpy.array([1.0]), numpy.array([0.5]))
+    ball = Ball(lame(E, NU), 4)
+    A, B = ball.coefficients(numpy.array([-0.3, 0, 0]), numpy.zeros(3))
+    u_r, _ = ball.displacement(A, B, numpy.array([1.0]), numpy.array([0.5]))
     assert abs(u_r[0] + 0.3 * (1 - 2 * NU) / E) <= 5e-15
 
 

@@ -237,7 +237,7 @@ def test_expressions_of_transient_fields(runs, production, mean):
      "Fields/a/Production": "3*b", "Fields/a/Value": 1, "Fields/b/Production": "3*a",
      "Fields/a/Consumption": 1, "Fields/b/Consumption": 1, "Fields/a/Fixed where": 1}])
 def test_fields_without_a_state(runs, keys):
-    assert "has no steady state" in runs.refused(keys)
+    assert "has no steady state" in runs.refused(keys, {}, "--replace")
 
 
 @pytest.mark.parametrize("diffusion", [100, 1e5])
@@ -276,7 +276,7 @@ def test_separate_pieces_of_a_field(runs):
     assert word in runs.run("parts", keys).said
     assert word not in runs.run("parts", keys, {"Fields/u/Consumption": 1}).said
     assert ("of each separate piece of the tissue"
-            in runs.refused(keys, {"Fields/u/Production": 1}))
+            in runs.refused(keys, {"Fields/u/Production": 1}, "--replace"))
 
 
 def test_an_obstacle_in_the_tissue(runs):

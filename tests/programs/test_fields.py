@@ -10,7 +10,7 @@ from tests.common.program import TESTS, assert_same_run
 
 SCENE = TESTS / "programs/small-cube.prm"
 SPHEROID = TESTS.parent / "prm/examples/oxygen-limited-spheroid.prm"
-FIELDS = {"Fields/Names": "oxygen, signal", "Fields/oxygen/Diffusion": 1e5,
+FIELDS = {"Fields/Names": "oxygen, signal", "Fields/oxygen/Diffusion": "1e5",
           "Fields/oxygen/Consumption": "6e4/(1 + oxygen)", "Fields/oxygen/Fixed where": "Z > 59",
           "Fields/oxygen/Value": "100 - 40*t", "Fields/oxygen/Initial": 100,
           "Fields/signal/Time": "transient", "Fields/signal/Diffusion": "500*(1 + (X > 0))",
@@ -66,7 +66,7 @@ def test_no_value_any_more_in_mid_run(runs):
 def test_no_steady_state_in_mid_run(runs, consumption, code, word):
     keys = {**FIELDS, "Fields/oxygen/Consumption": consumption}
     if code:
-        keys = {"Fields/Names": "oxygen", "Fields/oxygen/Diffusion": 1e5,
+        keys = {"Fields/Names": "oxygen", "Fields/oxygen/Diffusion": "1e5",
                 "Fields/oxygen/Consumption": consumption}
     assert runs.run(f"steady-{code}", SCENE, keys, code=code).said.count(word) == 1
 

@@ -15,6 +15,7 @@ import time
 
 import h5py
 import pytest
+from morula.execute import environment
 from morula.run import Run
 
 from tests.common.program import TESTS, assert_same_run, overrides, without_wall_time
@@ -77,7 +78,8 @@ def start(runs, output, keys=(), ranks=1, stderr=subprocess.DEVNULL):
     return subprocess.Popen(
         runs.command(SCENE, *overrides({**FINE, **dict(keys), "Output directory": output}),
                      ranks=ranks),
-        stdout=subprocess.DEVNULL, stderr=stderr, text=stderr == subprocess.PIPE)
+        env=environment(), stdout=subprocess.DEVNULL, stderr=stderr,
+        text=stderr == subprocess.PIPE)
 
 
 def wait_for_row(process, output, row):

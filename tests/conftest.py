@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Options, rings and fixtures of the tests in Python: tests/README.md."""
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -51,3 +52,10 @@ def pytest_collection_modifyitems(config, items):
 def runs(request):
     """Runs of the program for all tests of a file, in a directory of theirs."""
     return Runs(request.config.option, request.module.__name__)
+
+
+@pytest.fixture
+def fresh(request):
+    """The same for one test, in a directory that is empty."""
+    name = re.sub(r"\W+", "-", request.node.name)[:80]
+    return Runs(request.config.option, f"{request.module.__name__}/{name}")

@@ -3,51 +3,22 @@
 """Scenes of bodies in contact: blocks, discs, rings."""
 import math
 
-from morula.run import Run
-from tests.common.program import ProgramTest, overrides, read_csv
-
-SCENE = """
-set Dimension = 2
-subsection Time
-  set End time = 0.4
-  set Step     = 0.1
-end
-subsection Tissue
-  set Shape          = points
-  set Points file    = cells.csv
-  set Points surface = surface.wkt
-end
-subsection Grid
-  set Spacing = 10
-end
-subsection Cell types
-  set Names = a, b
-end
-subsection Contact
-  set Between = bodies
-  set Bodies  = cell type
-end
-subsection Material
-  set Young's modulus = 1
-  set Poisson's ratio = 0.4
-end
-subsection Output
-  set Formats  = csv
-  set Interval = 0.1
-end
-"""
+SCENE = {"Dimension": 2, "Time/End time": 0.4, "Time/Step": 0.1, "Tissue/Shape": "points",
+         "Grid/Spacing": 10, "Cell types/Names": "a, b", "Contact/Between": "bodies",
+         "Contact/Bodies": "cell type", "Material/Young's modulus": 1,
+         "Material/Poisson's ratio": 0.4, "Output/Formats": "csv", "Output/Interval": 0.1}
 
 
-def block(low, high, body):
+def block(low, high, body, left=0, width=60):
     """Cells of 2 um in a block that is 60 um wide."""
     n = round((high - low) / 2)
     step = (high - low) / n
-    return [(1 + 2 * i, low + (j + 0.5) * step, 2 * step, body)
-            for j in range(n) for i in range(30)]
+    return [(left + 1 + 2 * i, low + (j + 0.5) * step, 2 * step, body)
+            for j in range(n) for i in range(width // 2)]
 
 
-def rectangle(low, high):
-    return [(0, low), (60, low), (60, high), (0, high), (0, low)]
+def rectangle(low, high, left=0, right=60):
+    return [(left, low), (right, low), (right, high), (left, high), (left, low)]
 
 
 def annulus(inner, outer, body, center=0.0):
@@ -69,40 +40,42 @@ def circle(radius, center=0.0, sign=1, n=400):
     """A polygon with the area of the circle."""
     r = radius * math.sqrt(2 * math.pi / n / math.sin(2 * math.pi / n))
     return [(r * math.cos(2 * math.pi * sign * i / n),
-             center + r * math.sin(2 * math.pi * sign * i / n))
-            for i in range(n + 1)]
+             center + r * math.sin(2 * math.pi * sign * i / n)) for i in range(n + 1)]
 
 
-class BodiesTest(ProgramTest):
-    def scene(self, cells, polygons, text=SCENE):
-        """Writes the files of a scene. @param polygons lists of rings"""
-        lines = ["x,y,volume,type"] + [f"{x:.9f},{y:.9f},{v:.9f},{t}"
-                                       for x, y, v, t in cells]
-        self.write("cells.csv", "\n".join(lines) + "\n")
-        self.write("surface.wkt", "MULTIPOLYGON(" + ", ".join(
-            "(" + ", ".join("(" + ", ".join(f"{x:.9f} {y:.9f}" for x, y in ring)
-                            + ")" for ring in polygon) + ")"
-            for polygon in polygons) + ")\n")
-        return self.write("scene.prm", text)
+def points_files(runs, cells, polygons):
+    """The keys for these cells, which may have a type, and for their surface.
+    @param polygons lists of closed rings"""
+    head = "x,y,volume,type" if len(cells[0]) == 4 else "x,y,volume"
+    rows = [",".join(value if isinstance(value, str) else f"{value:.9f}" for value in cell)
+            for cell in cells]
+    rings = [["(" + ", ".join(f"{x:.9f} {y:.9f}" for x, y in ring) + ")" for ring in polygon]
+             for polygon in polygons]
+    surface = "MULTIPOLYGON(" + ", ".join(f"({', '.join(all)})" for all in rings) + ")\n"
+    return {"Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n"),
+            "Tissue/Points surface": runs.write("surface.wkt", surface)}
 
-    def run_scene(self, scene, keys, ranks=1):
-        self.execute(scene, "--replace", *overrides(keys), ranks=ranks)
-        return read_csv(self.work / "output/statistics.csv")
 
-    def forces(self):
-        """The rows of bodies on bodies."""
-        rows = Run(self.work / "output").forces
-        return rows[rows["kind"] == "contact"]
+def points_scene(runs, cells, polygons):
+    """A scene of bodies, which are the types."""
+    return {**SCENE, **points_files(runs, cells, polygons)}
 
-    def blocks(self, gap):
-        height = 30 + gap
-        return self.scene(block(0, 30, "a") + block(height, height + 30, "b"),
-                          [[rectangle(0, 30)], [rectangle(height, height + 30)]])
 
-    @staticmethod
-    def press(top, way):
-        return {"Boundary conditions/Slip where":
-                "X < 0.001 || X > 59.999 || Y < 0.001",
-                "Boundary conditions/Fixed where": f"Y > {top - 0.001}",
-                "Boundary conditions/Displacement": f"0; -({way})",
-                "Tissue/Boundary points": "144"}
+def blocks(runs, gap):
+    """One above the other."""
+    top = 30 + gap
+    return points_scene(runs, block(0, 30, "a") + block(top, top + 30, "b"),
+                        [[rectangle(0, 30)], [rectangle(top, top + 30)]])
+
+
+def press(top, way):
+    """Keys that move the upper side of the blocks down."""
+    return {"Boundary conditions/Slip where": "X < 0.001 || X > 59.999 || Y < 0.001",
+            "Boundary conditions/Fixed where": f"Y > {top - 0.001}",
+            "Boundary conditions/Displacement": f"0; -({way})", "Tissue/Boundary points": 144}
+
+
+def contact_rows(run, name=None):
+    """Rows of forces.csv of bodies on bodies, or those of a name."""
+    rows = run.forces
+    return rows[rows["kind"] == "contact"] if name is None else rows[rows["name"] == name]

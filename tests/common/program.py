@@ -56,14 +56,38 @@ class Calls:
                                      f"+ {shlex.join(map(str, words))}\n{result.text}")
         return result
 
-    def run(self, name, scene, keys=(), **options):
-        """Runs a scene, a file or its text, with these keys, into work/NAME, and
-        returns what it has written."""
+    def run(self, name, scene, keys=(), *arguments, **options):
+        """Runs a scene, a file, its text or its keys, with these keys, into
+        work/NAME, and returns what it has written; `said` is what it printed."""
+        ended = self.execute(*self._scene(name, scene, keys), *arguments,
+                             output=self.work / name, **options)
+        run = Run(self.work / name)
+        run.said = ended.text
+        return run
+
+    def resumed(self, name, scene, keys, until, **options):
+        """The same, from a run that ended earlier, at a time (day)."""
+        self.run(name, scene, {**keys, "Time/End time": until}, **options)
+        return self.run(name, scene, keys, "--resume", **options)
+
+    def refused(self, scene, keys=(), *arguments, **options):
+        """What is said of a run that is refused."""
+        return self.execute(*self._scene("refused", scene, keys), *arguments,
+                            code=1, **options).text
+
+    def explain(self, scene, keys=(), *arguments, code=0):
+        """What --explain prints of a scene."""
+        return self.call(self.command(*self._scene("explained", scene, keys),
+                                      *(arguments or ["--explain"])), code).text
+
+    def _scene(self, name, scene, keys):
+        """The words for a scene, which may be text or a dictionary of keys."""
+        keys = dict(keys)
+        if isinstance(scene, dict):
+            scene, keys = "", {**scene, **keys}
         if isinstance(scene, str):
             scene = self.write(f"{name}.prm", scene)
-        self.execute(scene, *overrides(dict(keys)), output=self.work / name,
-                     **options)
-        return Run(self.work / name)
+        return [scene, *overrides(keys)]
 
     def write(self, name, text):
         """A file in the directory."""
@@ -87,6 +111,16 @@ def assert_same_columns(a, b, tolerances=None, ignore=()):
             difference = abs(one[name] - other[name]).max()
             assert difference <= tolerances.get(name, 0.0), (
                 f"column {name} of {a} and {b}")
+
+
+def assert_same_run(whole, resumed):
+    """Two runs with the same tables, bit for bit but for wall times."""
+    names = {path.name for path in whole.directory.glob("*.csv")}
+    assert names == {path.name for path in resumed.directory.glob("*.csv")}
+    for name in names - {"statistics.csv", "timings.csv"}:
+        assert_same_file(whole.directory / name, resumed.directory / name)
+    assert (without_wall_time(whole.directory)
+            == without_wall_time(resumed.directory))
 
 
 class Runs(Calls):

@@ -1,170 +1,126 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Bad input: exit code 1, key (or option, or file), value, limit and remedy on
-stderr, nothing on stdout, and no output directory. The kinds are listed in
-tests/common/refusals/, those of a resumed run in resume_refusals.py.
+"""Bad input through the program: exit code 1, key (or option, or file), value and remedy
+on stderr, nothing on stdout, and no output directory. tests/program/refusals.txt lists
+all kinds; these are some of each stage, and what only the program refuses.
 """
 import re
-import resource
-from pathlib import Path
 
-from morula import execute
-from morula.keys import keys_of
-from tests.common.program import ProgramTest, overrides
+import pytest
 
-from tests.common import refusals
-from tests.common.refusals.refusal import CYCLE
+from tests.common.program import TESTS, overrides
 
-ROOT = Path(__file__).resolve().parents[2]
-
-SCENE = ROOT / "tests/programs/small-cube.prm"
+pytestmark = pytest.mark.quick
+SCENE = TESTS / "programs/small-cube.prm"
+CYCLE, CONDITIONS = "Proliferation/Cell cycle/", "Boundary conditions/"
+MESH = {CONDITIONS + "Slip where": "", CONDITIONS + "Slip normal": "", "Tissue/Shape": "mesh"}
+POINTS = {**MESH, "Tissue/Shape": "points"}
+FIELD = {"Fields/Names": "oxygen", "Fields/oxygen/Diffusion": "1e8"}
 
 
-class BadInput(ProgramTest):
-    def assert_refused(self, result, texts):
-        self.assertEqual(result.stdout, "")
-        self.assertRegex(result.stderr, r"(?ms)^morula: .+ = '.*': allowed is ")
-        for text in texts:
-            self.assertIn(text, result.stderr)
-        self.assertNotIn("exception", result.stderr.lower())
-        self.assertNotIn(".cc", result.stderr)
-        self.assertFalse((self.work / "output").exists(), "directory touched")
+def check(fresh, result, texts):
+    assert result.stdout == ""
+    assert re.search(r"(?ms)^morula: .+ = '.*': allowed is ", result.stderr)
+    assert result.stderr.count("morula: ") == 1
+    for text in texts:
+        assert text in result.stderr
+    assert "exception" not in result.stderr.lower()
+    assert ".cc" not in result.stderr
+    assert not (fresh.work / "output").exists()
 
-    def prepared(self, refusal):
-        """(overrides, what must be said) with the files written."""
-        for name, content in refusal.files.items():
-            data = content if isinstance(content, bytes) else content.encode()
-            (self.work / name).write_bytes(data)
 
-        def filled(text):
-            return text.replace("{files}", str(self.work))
-        return ({key: filled(value) for key, value in refusal.keys.items()},
-                [filled(text) for text in (refusal.key + " = ", refusal.value,
-                                           refusal.limit, refusal.remedy)])
+@pytest.mark.parametrize("key, value, remedy, more, ranks", [
+    # the parser
+    ("Grid/Spcing", "50", "Did you mean 'Grid/Spacing'?", {}, 1),
+    ("Gird/Spacing", "50", "Did you mean 'Grid/Spacing'?", {}, 1),
+    ("Tissue/Shape", "spere", "Did you mean 'sphere'?", {}, 1),
+    ("Time/End time", "long", "Correct the value", {}, 1),
+    # values, alone and beside others
+    ("Grid/Spacing", "-50", "Choose some cell spacings", {}, 3),
+    ("Material/Poisson's ratio", "0.5", "0.499", {}, 1),
+    ("Time/Step", "0.6", "lengthen", {}, 1),
+    ("Material/Energy per", "initial volume", "Death/Shrinking time", {"Death/Rate": "1"}, 1),
+    ("Tissue/Cell spacing", "0.01", "larger spacing", {}, 1),
+    # expressions
+    (CONDITIONS + "Slip where", "(Z <= 0", "Missing parenthesis", {}, 1),
+    (CONDITIONS + "Fixed where", "Z < t", "remove t", {}, 1),
+    ("Growth/Isotropic/Stretch", "1 - 1.5*t", "stays positive", {"Growth/Law": "isotropic"}, 1),
+    # what is asked at founders and at the surface
+    ("Material/Young's modulus", "X", "Make it positive", {}, 3),
+    (CYCLE + "Where", "Z > 400", "Proliferation/Law = none", {}, 3),
+    (CONDITIONS + "Fixed where", "Z < -100", "leave it empty", {}, 3),
+    ("Fields/oxygen/Consumption", "X", "Production", FIELD, 1),
+    ("Fields/oxygen/Consumption", "0", "Without a sink", FIELD, 1),
+    # files
+    ("Tissue/Surface mesh", "nowhere.stl", "Check its name", MESH, 3),
+    ("Tissue/Points file", "nowhere.csv", "Check its name", POINTS, 3)])
+def test_keys(fresh, key, value, remedy, more, ranks):
+    result = fresh.execute(SCENE, *overrides({**more, key: value}), ranks=ranks, code=1)
+    check(fresh, result, [f"{key} = '", value, remedy])
 
-    def test_table(self):
-        """At least sixty kinds, none twice."""
-        names = [refusal.name for refusal in refusals.KEYS]
-        self.assertGreaterEqual(len(names), 60)
-        self.assertEqual(len(names), len(set(names)))
 
-    def test_keys(self):
-        units = {key.path: key.unit for key in keys_of(self.options.morula)}
-        for refusal in refusals.KEYS:
-            with self.subTest(refusal.name):
-                keys, texts = self.prepared(refusal)
-                result = self.execute(SCENE, *overrides(keys), code=1)
-                self.assert_refused(result, texts)
-                unit = units.get(refusal.key)
-                if unit and refusal in refusals.NUMBERS:
-                    self.assertRegex(result.stderr,
-                                     rf"\b{re.escape(unit)}s?(\W|$)")
+def test_a_cell_astray_on_ranks(fresh):
+    """One message, and no rank left waiting."""
+    rows = [f"{12 * i},{12 * j},0" for i in range(9) for j in range(9)]
+    file = fresh.write("cells.csv", "\n".join(["x,y,z", *rows, "1e6,0,0"]) + "\n")
+    result = fresh.execute(SCENE, *overrides({**POINTS, "Tissue/Points file": file}), ranks=3,
+                           code=1)
+    check(fresh, result, ["cells.csv, line 83) = ", "1e+06, 0, 0", "correct or drop it"])
 
-    def test_outliers(self):
-        """Refused at once, by --explain too: nothing is made as large as they
-        are. The time of a start on a busy machine, and 1 GB for libraries."""
-        for refusal in refusals.OUTLIERS:
-            with self.subTest(refusal.name):
-                keys, texts = self.prepared(refusal)
-                words = self.command(
-                    SCENE, "--explain", "-s",
-                    f"Output directory={self.work / 'output'}",
-                    *overrides(keys))
-                before = resource.getrusage(resource.RUSAGE_CHILDREN)
-                result = self.run_words(words, 1, call=execute.call)
-                after = resource.getrusage(resource.RUSAGE_CHILDREN)
-                self.assert_refused(result, texts)
-                self.assertLess(len(result.stderr), 1500)
-                self.assertLess(after.ru_utime - before.ru_utime, 5)
-                self.assertLess(after.ru_maxrss, 1e6)  # KB, the largest so far
 
-    def test_on_several_ranks(self):
-        """One message, and no rank left waiting."""
-        for refusal in refusals.KEYS:
-            if refusal.name not in ("grid spacing", "missing mesh",
-                                    "stiffness negative somewhere",
-                                    "a cell at 1e6,0,0", "a vertex at 1e6",
-                                    "a cell across the diagonal"):
-                continue
-            with self.subTest(refusal.name):
-                keys, texts = self.prepared(refusal)
-                result = self.execute(SCENE, *overrides(keys), ranks=3, code=1)
-                self.assert_refused(result, texts)
-                self.assertEqual(result.stderr.count("morula: "), 1)
+@pytest.mark.parametrize("arguments", [(), ("--explain",)])
+@pytest.mark.parametrize("old, new, key", [
+    ("set End time = 1", "set End time = -1", "Time/End time"),
+    ("set G0 exit rate = 2", "set G0 exit rate = 2 - X", CYCLE + "G0 exit rate"),
+    ("set Slip where  = Z <= 0", "set Slip where = Z < -9", CONDITIONS + "Slip where")])
+def test_places(fresh, arguments, old, new, key):
+    """Values that are refused after the file has been read: file and line."""
+    text = SCENE.read_text()
+    scene = fresh.write("scene.prm", text.replace(old, new))
+    number = 1 + text[:text.index(old)].count("\n")
+    result = fresh.execute(scene, *arguments, code=1)
+    check(fresh, result, [f"morula: {scene}:{number}: {key} = "])
 
-    def test_places(self):
-        """Values that are refused after the file has been read: file and line,
-        or -s."""
-        text = SCENE.read_text()
-        for name, value, key in (
-                ("set End time = 1", "set End time = -1", "Time/End time"),
-                ("set Spacing = 35", "set Spacing = -35", "Grid/Spacing"),
-                ("set G0 exit rate = 2", "set G0 exit rate = 2 - X",
-                 CYCLE + "G0 exit rate"),
-                ("set Slip where  = Z <= 0", "set Slip where = Z < -9",
-                 "Boundary conditions/Slip where")):
-            with self.subTest(key):
-                scene = self.write("scene.prm", text.replace(name, value))
-                number = 1 + text[:text.index(name)].count("\n")
-                for arguments in ((), ("--explain",)):
-                    result = self.execute(scene, *arguments, code=1)
-                    self.assertIn(f"morula: {scene}:{number}: {key} = ",
-                                  result.stderr)
-        result = self.execute(SCENE, *overrides({"Time/End time": "-1"}),
-                              code=1)
-        self.assertIn("morula: -s: Time/End time = ", result.stderr)
 
-    def test_explain_refuses_alike(self):
-        result = self.execute(
-            SCENE, "--explain", *overrides({"Material/Poisson's ratio": "0.5"}),
-            code=1)
-        self.assert_refused(result, ["Material/Poisson's ratio", "'0.5'",
-                                     "< 0.5", "0.499"])
+def test_place_on_the_command_line(fresh):
+    result = fresh.execute(SCENE, *overrides({"Time/End time": "-1"}), code=1)
+    check(fresh, result, ["morula: -s: Time/End time = "])
 
-    def test_command_line(self):
-        for arguments, value, remedy in (
-                (["-s", "Grid/Spacing"], "'Grid/Spacing'", "Put '='"),
-                (["-s"], "-s", "'morula --help' explains"),
-                (["--resumee"], "--resumee", "'morula --help' explains"),
-                (["--explain=3"], "--explain=3", "'morula --help' explains"),
-                (["a.prm", "b.prm"], "a.prm b.prm", "Name one scene"),
-                ([], "''", "Name the scene")):
-            with self.subTest(arguments):
-                words = [self.options.morula, *arguments]
-                if arguments and not arguments[0].endswith(".prm"):
-                    words.insert(1, str(SCENE))
-                self.assert_refused(self.run_words(words, 1), [value, remedy])
 
-    def test_scenes(self):
-        """Mistakes in the file itself name file and line."""
-        for name, content, texts in refusals.SCENES:
-            with self.subTest(name):
-                scene = self.work / f"{name}.prm"
-                if name == "directory":
-                    scene.mkdir()
-                elif content is not None:
-                    scene.write_bytes(content)
-                result = self.execute(scene, code=1)
-                self.assert_refused(result, [f"{name}.prm", *texts])
+@pytest.mark.parametrize("arguments, value, remedy", [
+    ([SCENE, "-s", "Grid/Spacing"], "'Grid/Spacing'", "Put '='"),
+    ([SCENE, "-s"], "-s", "'morula --help' explains"),
+    ([SCENE, "--resumee"], "--resumee", "'morula --help' explains"),
+    ([SCENE, "--explain=3"], "--explain=3", "'morula --help' explains"),
+    (["a.prm", "b.prm"], "a.prm b.prm", "Name one scene"), ([], "''", "Name the scene")])
+def test_command_line(fresh, arguments, value, remedy):
+    check(fresh, fresh.call([fresh.options.morula, *arguments], 1), [value, remedy])
 
-    def test_scene_that_cannot_be_read(self):
-        """A file that opens, but whose reading fails."""
-        result = self.execute("/proc/self/mem", code=1)
-        self.assert_refused(result, ["'/proc/self/mem'",
-                                     "a file that can be read to its end",
-                                     "Check its permissions"])
 
-    def test_output_directory(self):
-        blocked = self.write("file", "kept\n")
-        for output, limit, remedy in (
-                (blocked, "a directory, but", "Choose another one"),
-                (blocked / "below", "a directory, but", "Choose another one"),
-                ("/proc/nowhere", "a directory that can be written",
-                 "Choose another one")):
-            with self.subTest(str(output)):
-                result = self.execute(SCENE, output=output, code=1)
-                self.assert_refused(result, ["Output directory",
-                                             str(output).split("/below")[0],
-                                             limit, remedy])
-        self.assertEqual(blocked.read_text(), "kept\n")
+@pytest.mark.parametrize("content, said", [
+    (None, "a .prm file that can be read"),
+    (b"PK\x03\x04\0\0", ":1"), (b"subsection Grid\n  set Spacing = 5\n", ":1: subsection = 'Grid'"),
+    (b"\nsubsection Material\n  set Young's modulus = X\nend\n", ":3: Material/Young's modulus"),
+    (b"include nowhere.prm\n", ":1"), (b"include scene.prm\n", ":1"),
+    (b"subsection Tissue\n  set Shape = box\nsubsection Grid\nend\nend\n",
+     ":1 is still open here: is an 'end' missing?")])
+def test_scenes(fresh, content, said):
+    """Mistakes in the file itself name file and line; tests/scene/scene.cc has more."""
+    scene = fresh.work / "scene.prm"
+    if content is not None:
+        scene.write_bytes(content)
+    check(fresh, fresh.execute(scene, code=1), ["scene.prm", said])
 
+
+def test_scene_that_cannot_be_read(fresh):
+    """A directory, and a file that opens, but whose reading fails."""
+    check(fresh, fresh.execute("/proc", code=1), ["a .prm file that can be read"])
+    check(fresh, fresh.execute("/proc/self/mem", code=1), ["'/proc/self/mem'", "to its end"])
+
+
+@pytest.mark.parametrize("place", ["file", "file/below", "/proc/nowhere"])
+def test_output_directory(fresh, place):
+    blocked = fresh.write("file", "kept\n")
+    result = fresh.execute(SCENE, output=fresh.work / place, code=1)
+    check(fresh, result, ["Output directory", place.split("/below")[0], "Choose another one"])
+    assert blocked.read_text() == "kept\n"

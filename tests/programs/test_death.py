@@ -1,47 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Cells that die, shrink and are removed: doc/theory.md, section 6.9."""
-import csv
-
 import numpy as np
-from morula.run import Run
-from tests.common.program import TESTS, ProgramTest, overrides, without_wall_time
+import pytest
 from scipy.optimize import least_squares
 
+from tests.common.program import TESTS
+
 EXAMPLES = TESTS.parent / "prm/examples"
-
-# A few dozen cells in 2-D that divide, die and shrink.
-DISC = """
-set Dimension = 2
-subsection Time
-  set End time = 1
-  set Step = 0.125
-end
-subsection Tissue
-  set Shape = sphere
-  set Radius = 60
-  set Cell spacing = 10
-end
-subsection Grid
-  set Spacing = 30
-end
-subsection Material
-  set Energy per = grown volume
-end
-subsection Output
-  set Formats = csv
-  set Interval = 0.25
-end
-"""
-DIVIDING = {"Proliferation/Law": "cell cycle",
-            "Proliferation/Cell cycle/Duration": "0.5",
-            "Proliferation/Cell cycle/G0 exit rate": "4"}
-DYING = {"Death/Rate": "1.5", "Death/Shrinking time": "0.25"}
-
-
-def rows(file):
-    with open(file, newline="", encoding="utf-8") as table:
-        return list(csv.DictReader(table))
+DISC = {"Dimension": 2, "Time/End time": 1, "Time/Step": 0.125, "Tissue/Shape": "sphere",
+        "Tissue/Radius": 60, "Tissue/Cell spacing": 10, "Grid/Spacing": 30,
+        "Material/Energy per": "grown volume", "Output/Formats": "csv", "Output/Interval": 0.25}
+DIVIDING = {"Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/Duration": 0.5,
+            "Proliferation/Cell cycle/G0 exit rate": 4}
+DYING = {"Death/Rate": 1.5, "Death/Shrinking time": 0.25}
+AT_ONCE = {"Death/Shrinking time": 0}
 
 
 def ring(inner, outer, spacing):
@@ -66,189 +39,132 @@ def wedge(founders, positions):
 
     def away(values):
         x, y, turn, factor = values
-        return np.concatenate([
-            x + radius * np.cos(turn + factor * angle) - positions[:, 0],
-            y + radius * np.sin(turn + factor * angle) - positions[:, 1]])
+        return np.concatenate([x + radius * np.cos(turn + factor * angle) - positions[:, 0],
+                               y + radius * np.sin(turn + factor * angle) - positions[:, 1]])
 
     fit = least_squares(away, [0, 0, 0.3, 0.9], x_scale=[1, 1, 0.01, 0.01])
     return fit.x[3], np.sqrt((fit.fun**2).mean())
 
 
-class Death(ProgramTest):
-    def run_disc(self, keys, *arguments, name="output", **more):
-        scene = self.write("disc.prm", DISC)
-        output = self.work / name
-        process = self.execute(scene, *overrides(keys), *arguments,
-                               output=output, **more)
-        return output, process
+@pytest.mark.release
+def test_cut(runs):
+    """A ring with F_g = diag(1, 0.9) along R and Theta opens by 36 degrees,
+    and less than a millionth of the energy before is left. Measured: 9e-7,
+    and 9e-6 with twice the spacings."""
+    points = runs.work / "ring.csv"
+    np.savetxt(points, ring(150, 300, 1.25), delimiter=",", header="x,y,volume", comments="",
+               fmt="%.12g")
+    run = runs.run("cut", EXAMPLES / "cut-and-opening.prm", {
+        "Tissue/Shape": "points", "Grid/Spacing": 6.25, "Grid/Points per cell": 2,
+        "Tissue/Points file": points, "Tissue/Cell spacing": 1.25, "Output/Interval": 0,
+        "Output/Formats": "csv", "Death/When": "t >= 1 && X > 0 && abs(Y) < 30"})
+    cells, born = run.cells(-1), run.lineage.table
+    factor, error = wedge(born.loc[cells["id"], ["x", "y"]].to_numpy(),
+                          cells[["x", "y"]].to_numpy())
+    energy = run.statistics["mean_energy_density"]
+    assert abs(360 * (1 - factor) - 36) < 0.01
+    assert error < 0.0002
+    assert energy[10] > 2e-4
+    assert energy.iloc[-1] < 1e-6 * energy[10]
+    removed = run.events[run.events["event"] == "removal"]
+    assert {*removed["time"]} == {1.0}
+    assert run.statistics["removed"].sum() == len(removed)
 
-    def test_cut(self):
-        """A ring with F_g = diag(1, 0.9) along R and Theta opens by 36 degrees,
-        and less than a millionth of the energy before is left. Measured: 9e-7,
-        and 9e-6 with twice the spacings."""
-        np.savetxt(self.work / "ring.csv", ring(150, 300, 1.25),
-                   delimiter=",", header="x,y,volume", comments="",
-                   fmt="%.12g")
-        output = self.work / "output"
-        self.execute(EXAMPLES / "cut-and-opening.prm", *overrides({
-            "Tissue/Shape": "points", "Grid/Spacing": "6.25",
-            "Grid/Points per cell": "2",
-            "Tissue/Points file": self.work / "ring.csv",
-            "Tissue/Cell spacing": "1.25", "Output/Interval": "0",
-            "Output/Formats": "csv",
-            "Death/When": "t >= 1 && X > 0 && abs(Y) < 30"}), output=output)
-        run = Run(output)
-        cells, born = run.cells(-1), run.lineage.table
-        factor, error = wedge(born.loc[cells["id"], ["x", "y"]].to_numpy(),
-                              cells[["x", "y"]].to_numpy())
-        energy = run.statistics["mean_energy_density"]
-        print("opening:", 360 * (1 - factor), "energy:",
-              energy.iloc[-1] / energy[10])
-        self.assertLess(abs(360 * (1 - factor) - 36), 0.01)
-        self.assertLess(error, 0.0002)
-        self.assertGreater(energy[10], 2e-4)
-        self.assertLess(energy.iloc[-1], 1e-6 * energy[10])
-        removed = run.events[run.events["event"] == "removal"]
-        self.assertEqual({*removed["time"]}, {1.0})
-        self.assertEqual(run.statistics["removed"].sum(), len(removed))
 
-    def test_ranks(self):
-        """Cells, deaths and removals are the same, byte for byte."""
-        keys = {**DIVIDING, **DYING}
-        one, _ = self.run_disc(keys, name="1")
-        for ranks in (2, 3):
-            several, _ = self.run_disc(keys, name=f"{ranks}", ranks=ranks)
-            self.assert_same_file(one / "events.csv", several / "events.csv")
-            for a, b in zip(rows(one / "lineage.csv"),
-                            rows(several / "lineage.csv"), strict=True):
-                for name in ("id", "parent", "birth_time"):
-                    self.assertEqual(a[name], b[name])
-        kinds = [row["event"] for row in rows(one / "events.csv")]
-        self.assertGreater(kinds.count("death"), 50)
-        self.assertGreater(kinds.count("removal"), 30)
+def test_numbers(runs):
+    """Every table tells the same."""
+    run = runs.run("numbers", DISC, {**DIVIDING, **DYING, "Death/When": "X > 35 && t >= 0.5"})
+    table = run.statistics
+    np.testing.assert_array_equal(np.diff(table["cells"]),
+                                  (table["dividing"] - table["removed"])[1:])
+    np.testing.assert_array_equal(np.diff(table["dying"]),
+                                  (table["deaths"] - table["removed"])[1:])
+    lineage, last = run.lineage, run.cells(-1)
+    assert np.isfinite(lineage.death_time).sum() == table["deaths"].sum()
+    there = last["death_time"] < 0
+    np.testing.assert_array_equal(lineage.living, last["id"][there])
+    dying = last[~there]
+    died = lineage.death_time[dying["id"].astype(int)]
+    np.testing.assert_allclose(dying["death_time"], died, rtol=0, atol=5e-10)
+    np.testing.assert_allclose(dying["remaining_volume"], 1 - 0.95 * (1 - died) / 0.25,
+                               rtol=0, atol=5e-7)
+    assert {*dying["phase"]} == {9}
+    assert {*run.events[run.events["event"] == "death"]["cause"]} == {"rate", "when"}
+    gone = np.isfinite(lineage.removal_time)
+    np.testing.assert_allclose(lineage.removal_time[gone] - lineage.death_time[gone], 0.25)
 
-    def test_resume(self):
-        keys = {**DIVIDING, **DYING,
-                "Death/When": "abs(X) < 5 && t >= 0.3"}
-        whole, _ = self.run_disc(keys, name="whole")
-        self.run_disc({**keys, "Time/End time": "0.5"}, name="parts")
-        parts, _ = self.run_disc(keys, "--resume", name="parts")
-        names = sorted(path.name for path in whole.glob("*.csv"))
-        self.assertIn("events.csv", names)
-        for name in names:
-            if name not in ("statistics.csv", "timings.csv"):
-                self.assert_same_file(whole / name, parts / name)
-        self.assertEqual(without_wall_time(whole), without_wall_time(parts))
 
-    def test_numbers(self):
-        """Every table tells the same."""
-        output, _ = self.run_disc({**DIVIDING, **DYING,
-                                   "Death/When": "X > 35 && t >= 0.5"})
-        run = Run(output)
-        table = run.statistics
-        np.testing.assert_array_equal(
-            np.diff(table["cells"]), (table["dividing"] - table["removed"])[1:])
-        np.testing.assert_array_equal(
-            np.diff(table["dying"]), (table["deaths"] - table["removed"])[1:])
-        lineage, last = run.lineage, run.cells(-1)
-        self.assertEqual(np.isfinite(lineage.death_time).sum(),
-                         table["deaths"].sum())
-        there = last["death_time"] < 0
-        np.testing.assert_array_equal(lineage.living, last["id"][there])
-        for _, cell in last[~there].iterrows():
-            died = lineage.death_time[int(cell["id"])]
-            self.assertAlmostEqual(cell["death_time"], died, 9)
-            self.assertAlmostEqual(cell["remaining_volume"],
-                                   1 - 0.95 * (1 - died) / 0.25, 6)
-        causes = run.events[run.events["event"] == "death"]["cause"]
-        self.assertEqual({*causes}, {"rate", "when"})
-        gone = np.isfinite(lineage.removal_time)
-        np.testing.assert_allclose(
-            lineage.removal_time[gone] - lineage.death_time[gone], 0.25)
-        self.assertEqual({*last["phase"][~there]}, {9})
+def test_all_die(runs):
+    run = runs.run("all", DISC, {"Death/Rate": 15})
+    assert "Finished: all cells are dead" in run.said
+    last = run.statistics.iloc[-1]
+    assert last["cells"] == last["total_volume"] == 0
+    assert last["time"] < 1
+    assert np.isfinite(run.lineage.removal_time).all()
+    assert "nothing to resume" in runs.run("all", DISC, {"Death/Rate": 15}, "--resume").said
 
-    def test_all_die(self):
-        output, process = self.run_disc({"Death/Rate": "15"})
-        self.assertIn("Finished: all cells are dead", process.text)
-        run = Run(output)
-        self.assertEqual(run.statistics["cells"].iloc[-1], 0)
-        self.assertLess(run.statistics["time"].iloc[-1], 1)
-        self.assertEqual(run.statistics["total_volume"].iloc[-1], 0)
-        self.assertTrue(np.isfinite(run.lineage.removal_time).all())
-        _, again = self.run_disc({"Death/Rate": "15"}, "--resume")
-        self.assertIn("nothing to resume", again.text)
 
-    def test_last_of_a_piece(self):
-        """A cut parts the disc; when the smaller part dies its surface goes
-        with it, and nothing of it is pulled to the other part."""
-        output, _ = self.run_disc({
-            "Tissue/Radius": "150", "Death/Shrinking time": "0",
-            "Death/When": "abs(X - 50) < 35 || (X > 50 && t >= 0.4)"})
-        run = Run(output)
-        self.assertGreater(run.surface(1)["x"].max(), 140)
-        self.assertGreater(run.cells(1)["x"].max(), 130)
-        for kind in (run.cells, run.surface):
-            self.assertLess(kind(-1)["x"].max(), 40)
-        # the surface of the part that stays has not moved
-        np.testing.assert_array_equal(
-            run.surface(1)[run.surface(1)["x"] < 40]["x"],
-            run.surface(-1)["x"])
+def test_last_of_a_piece(runs):
+    """A cut parts the disc; when the smaller part dies its surface goes
+    with it, and nothing of it is pulled to the other part."""
+    run = runs.run("piece", DISC, {
+        **AT_ONCE, "Tissue/Radius": 150,
+        "Death/When": "abs(X - 50) < 35 || (X > 50 && t >= 0.4)"})
+    assert run.surface(1)["x"].max() > 140
+    assert run.cells(1)["x"].max() > 130
+    for kind in (run.cells, run.surface):
+        assert kind(-1)["x"].max() < 40
+    # the surface of the part that stays has not moved
+    before = run.surface(1)["x"]
+    np.testing.assert_array_equal(before[before < 40], run.surface(-1)["x"])
 
-    def test_last_cells(self):
-        """Cells die until one is left of each piece, and then of all: also one
-        cell has a state of equilibrium, and the run ends without any."""
-        output, process = self.run_disc({
-            "Death/Shrinking time": "0",
-            "Death/When": "abs(X) > 10 || abs(Y) > 10"
-                          " || t >= 0.4*(noise > 0.5) + 0.4*(X > 0)"})
-        self.assertIn("Finished: all cells are dead", process.text)
-        table = Run(output).statistics
-        self.assertIn(1, {*table["cells"]} | {*table["pieces"]})
-        self.assertEqual(table["cells"].iloc[-1], 0)
-        self.assertEqual(table["rejected_steps"].sum(), 0)
 
-    def test_with_obstacles_and_coarsening(self):
-        """Half of the cells on a plate die. The rest is as large as it was, and
-        under little stress: what was left of its dead neighbours has stretched
-        it beside them. Its surface is closed where they were."""
-        box = {"Tissue/Shape": "box", "Tissue/Size": "120, 60, 60",
-               "Tissue/Cell spacing": "10", "Tissue/Refine surface": "true",
-               "Tissue/Coarsen surface": "true",
-               "Tissue/Renew surface": "0.5",
-               "Material/Relaxation time": "0.05",
-               "Obstacles/Names": "plate"}
-        plate = "Obstacles/plate/"
-        output, _ = self.run_disc({
-            **box, plate + "Shape": "plane", plate + "Center": "0, -29.5, 0",
-            plate + "Normal": "0, 1, 0", "Time/End time": "1.5",
-            "Death/When": "X > 0 && t >= 0.25"})
-        run = Run(output)
-        last = run.statistics.iloc[-1]
-        self.assertEqual(last["cells"], 36)
-        self.assertEqual(last["dying"], 0)
-        self.assertAlmostEqual(last["total_volume"] / 3600, 1, delta=0.02)
-        self.assertLess(last["mean_energy_density"], 0.02)
-        surface = run.surface(-1)
-        self.assertLess(surface["x"].max(), run.cells(-1)["x"].max() + 10)
-        self.assertLess(abs((surface["nx"] * surface["area"]).sum()), 1e-6)
+def test_last_cells(runs):
+    """Cells die until one is left of each piece, and then of all: also one
+    cell has a state of equilibrium, and the run ends without any."""
+    run = runs.run("last", DISC, {
+        **AT_ONCE, "Death/When": "abs(X) > 10 || abs(Y) > 10"
+                                 " || t >= 0.4*(noise > 0.5) + 0.4*(X > 0)"})
+    assert "Finished: all cells are dead" in run.said
+    table = run.statistics
+    assert 1 in {*table["cells"]} | {*table["pieces"]}
+    assert table["cells"].iloc[-1] == 0
+    assert table["rejected_steps"].sum() == 0
 
-    def test_pieces(self):
-        """A bar is cut: two pieces, which the user is told once."""
-        output, process = self.run_disc({
-            "Tissue/Shape": "box", "Tissue/Size": "300, 50, 50",
-            "Death/Shrinking time": "0",
-            "Death/When": "abs(X) < 50 && t >= 0.25"})
-        self.assertEqual([*Run(output).statistics["pieces"]],
-                         [1, 1, 1, 2, 2, 2, 2, 2, 2])
-        self.assertEqual(process.text.count("the tissue has parted"), 1)
-        self.assertIn("it has 2 pieces now, and had 1", process.text)
 
-    def test_rates_that_become_negative(self):
-        keys = {"Death/Rate": "0.35 - t"}
-        for more in ((), ("--resume",)):
-            output, process = self.run_disc(keys, *more, code=2)
-            self.assertIn("Death/Rate", process.text)
-            self.assertIn("snapshot.h5", process.text)
-        self.assertAlmostEqual(float(
-            rows(output / "statistics.csv")[-1]["time"]), 0.375)
+def test_with_obstacles_and_coarsening(runs):
+    """Half of the cells on a plate die. The rest is as large as it was, and
+    under little stress: what was left of its dead neighbours has stretched
+    it beside them. Its surface is closed where they were."""
+    run = runs.run("plate", DISC, {
+        "Tissue/Shape": "box", "Tissue/Size": "120, 60", "Tissue/Refine surface": "true",
+        "Tissue/Coarsen surface": "true", "Tissue/Renew surface": 0.5,
+        "Material/Relaxation time": 0.05, "Obstacles/Names": "plate",
+        "Obstacles/plate/Shape": "plane", "Obstacles/plate/Center": "0, -29.5, 0",
+        "Obstacles/plate/Normal": "0, 1, 0", "Time/End time": 1.5,
+        "Death/When": "X > 0 && t >= 0.25"})
+    last = run.statistics.iloc[-1]
+    assert (last["cells"], last["dying"]) == (36, 0)
+    assert abs(last["total_volume"] / 3600 - 1) <= 0.02
+    assert last["mean_energy_density"] < 0.02
+    surface = run.surface(-1)
+    assert surface["x"].max() < run.cells(-1)["x"].max() + 10
+    assert abs((surface["nx"] * surface["area"]).sum()) < 1e-6
 
+
+def test_pieces(runs):
+    """A bar is cut: two pieces, which the user is told once."""
+    run = runs.run("bar", DISC, {
+        **AT_ONCE, "Tissue/Shape": "box", "Tissue/Size": "300, 50",
+        "Death/When": "abs(X) < 50 && t >= 0.25"})
+    assert [*run.statistics["pieces"]] == [1, 1, 1, 2, 2, 2, 2, 2, 2]
+    assert run.said.count("the tissue has parted") == 1
+    assert "it has 2 pieces now, and had 1" in run.said
+
+
+def test_rates_that_become_negative(runs):
+    for more in ((), ("--resume",)):
+        run = runs.run("negative", DISC, {"Death/Rate": "0.35 - t"}, *more, code=2)
+        assert "Death/Rate" in run.said
+        assert "snapshot.h5" in run.said
+    assert run.statistics["time"].iloc[-1] == 0.375

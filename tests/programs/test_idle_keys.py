@@ -2,47 +2,39 @@
 # Copyright (C) 2026 by the Morula authors
 """Keys that a scene sets and nothing reads: each is said, and none without
 cause."""
-from morula.execute import overrides
-from tests.common.program import ProgramTest
+import re
+
+import pytest
 
 BOX = {"Dimension": 2, "Tissue/Shape": "box", "Tissue/Size": "100, 100",
        "Tissue/Cell spacing": 10, "Grid/Spacing": 40, "Time/End time": 0.2,
        "Time/Step": 0.1, "Output/Formats": "none"}
 TYPES = {**BOX, "Cell types/Names": "a, b", "Cell types/b/Where": "X > 0"}
-CYCLE = {**TYPES, "Proliferation/Law": "cell cycle",
-         "Proliferation/Cell cycle/Duration": 0.2}
-GROWS = {**TYPES, "Growth/Law": "isotropic",
-         "Growth/Isotropic/Stretch": "1 + 0.1*t"}
+CYCLE = {**TYPES, "Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/Duration": 0.2}
+GROWS = {**TYPES, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.1*t"}
 RATE = {**TYPES, "Growth/Law": "rate", "Growth/Rate/Rate": 0.1}
 MOVES = {**TYPES, "Rearrangement/Diffusion": 10}
 DIES = {**BOX, "Death/When": "X > 40", "Death/Shrinking time": 0}
-FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100,
-         "Fields/u/Consumption": 1, "Fields/u/Production": 1}
+FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100, "Fields/u/Consumption": 1,
+         "Fields/u/Production": 1}
 
-POINTS = {**{key: value for key, value in BOX.items()
-             if key not in ("Tissue/Size", "Tissue/Cell spacing")},
-          "Tissue/Shape": "points"}
-POINTS_CYCLE = {**POINTS, **{key: CYCLE[key] for key in CYCLE
-                             if key.startswith("Proliferation")}}
+POINTS = {**{key: value for key, value in BOX.items() if key not
+             in ("Tissue/Size", "Tissue/Cell spacing")}, "Tissue/Shape": "points"}
+POINTS_CYCLE = {**POINTS, **{key: CYCLE[key] for key in CYCLE if key.startswith("Proliferation")}}
 POINTS_TYPES = {**POINTS, "Cell types/Names": "a, b"}
 
 # Key, value, the other keys, and the columns of a points file.
-OF_POINTS = (
-    ("Tissue/Cell spacing", 12, POINTS, {"volume": 100}),
-    ("Tissue/Closed gap", 5, POINTS, {}),
-    ("Tissue/Boundary points", 50, POINTS, {}),
-    ("Tissue/Refine surface", "true", POINTS, {}),
-    ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE,
-     {"phase": 1}),
-    ("Cell types/b/Where", "X > 0", POINTS_TYPES, {"type": "a"}))
-OF_POINTS_READ = (
-    ("Tissue/Cell spacing", 12, POINTS, {}),
-    ("Tissue/Closed gap", 5, {**POINTS, "Tissue/Points surface": "always"},
-     {}),
-    ("Tissue/Refine surface", "true",
-     {**POINTS, "Boundary conditions/Fixed where": "X < -45"}, {}),
-    ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {}),
-    ("Cell types/b/Where", "X > 0", POINTS_TYPES, {}))
+OF_POINTS = (("Tissue/Cell spacing", 12, POINTS, {"volume": 100}),
+             ("Tissue/Closed gap", 5, POINTS, {}), ("Tissue/Boundary points", 50, POINTS, {}),
+             ("Tissue/Refine surface", "true", POINTS, {}),
+             ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {"phase": 1}),
+             ("Cell types/b/Where", "X > 0", POINTS_TYPES, {"type": "a"}))
+OF_POINTS_READ = (("Tissue/Cell spacing", 12, POINTS, {}),
+                  ("Tissue/Closed gap", 5, {**POINTS, "Tissue/Points surface": "always"}, {}),
+                  ("Tissue/Refine surface", "true", {**POINTS,
+                                                     "Boundary conditions/Fixed where": "X < -45"},
+                   {}), ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {}),
+                  ("Cell types/b/Where", "X > 0", POINTS_TYPES, {}))
 
 # Effects that are asked for and happen to nobody: what is said, and a scene of
 # the same kind in which something happens.
@@ -111,84 +103,72 @@ READ = (
     ("Fields/u/Value", 3, {**FIELD, "Fields/u/Fixed where": "X > 49"}))
 
 
-class IdleKeys(ProgramTest):
-    def explain(self, keys, number):
-        return self.run_words(self.command(
-            self.write(f"{number}.prm", ""), "--explain",
-            *overrides(keys))).text
+@pytest.mark.parametrize("key, value, keys", IDLE)
+def test_said(runs, key, value, keys):
+    lines = [line for line in runs.explain(keys, {key: value}).splitlines()
+             if line.startswith(f"Warning: {key} = ")]
+    assert len(lines) == 1
+    assert "it does nothing" in lines[0]
+    assert f"Warning: {key}" not in runs.explain(keys)
 
-    def test_said(self):
-        for number, (key, value, keys) in enumerate(IDLE):
-            said = self.explain({**keys, key: value}, number)
-            lines = [line for line in said.splitlines()
-                     if line.startswith(f"Warning: {key} = ")]
-            self.assertEqual(len(lines), 1, f"{key}: {said}")
-            self.assertIn("it does nothing", lines[0])
-            self.assertNotIn(f"Warning: {key}", self.explain(keys, number))
 
-    def test_not_said_of_what_is_read(self):
-        for number, (key, value, keys) in enumerate(READ):
-            self.assertNotIn("it does nothing",
-                             self.explain({**keys, key: value}, number), key)
+@pytest.mark.parametrize("key, value, keys", READ)
+def test_not_said_of_what_is_read(runs, key, value, keys):
+    assert "it does nothing" not in runs.explain(keys, {key: value})
 
-    def points(self, columns, name):
-        """A file of 100 cells, with columns that are the same in all rows."""
-        rows = [",".join(map(str, (x, y, *columns.values())))
-                for x in range(-45, 50, 10) for y in range(-45, 50, 10)]
-        return str(self.write(f"{name}.csv", "\n".join(
-            [",".join(["x", "y", *columns]), *rows]) + "\n"))
 
-    def test_of_points(self):
-        for number, (key, value, keys, columns) in enumerate(OF_POINTS):
-            file = {"Tissue/Points file": self.points(columns, number)}
-            said = self.explain({**keys, **file, key: value}, number)
-            self.assertIn(f"Warning: {key} = '{value}': it does nothing here: ",
-                          said)
-        for number, (key, value, keys, columns) in enumerate(OF_POINTS_READ):
-            file = {"Tissue/Points file": self.points(columns, number)}
-            self.assertNotIn("it does nothing", self.explain(
-                {**keys, **file, key: value}, number), key)
+def points(runs, columns):
+    """A file of 100 cells, with columns that are the same in all rows."""
+    rows = [",".join(map(str, (x, y, *columns.values())))
+            for x in range(-45, 50, 10) for y in range(-45, 50, 10)]
+    head = ",".join(["x", "y", *columns])
+    return {"Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n")}
 
-    def test_columns_that_nothing_reads(self):
-        file = {"Tissue/Points file": self.points({"phase": 1, "id": 7}, "s")}
-        said = self.explain({**POINTS, **file}, "none")
-        self.assertIn("its columns 'id' say nothing about cells here and are "
-                      "skipped. Read are 'x', 'y', 'phase'.", said)
-        self.assertIn("nothing reads its column 'phase'", said)
-        self.assertNotIn("nothing reads its column",
-                         self.explain({**POINTS_CYCLE, **file}, "cycle"))
 
-    def test_what_happens_to_nobody(self):
-        for number, (keys, idle, acts, word) in enumerate(NOBODY):
-            self.assertIn(word, self.explain({**keys, **idle}, number), idle)
-            self.assertNotIn(word, self.explain({**keys, **acts}, number), acts)
+@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS)
+def test_of_points(runs, key, value, keys, columns):
+    said = runs.explain({**keys, **points(runs, columns), key: value})
+    assert f"Warning: {key} = '{value}': it does nothing here: " in said
 
-    def test_key_twice(self):
-        """The last line counts, and both are named."""
-        scene = self.write("twice.prm", "set Grid/Spacing = 30\n"
-                           "subsection Grid\n  set Spacing = 40\nend\n")
-        said = self.run_words(self.command(scene, "--explain", *overrides(
-            {key: BOX[key] for key in BOX if key != "Grid/Spacing"}))).text
-        self.assertRegex(said, "twice.prm:3: the key 'Grid/Spacing' is set to "
-                               "'40', which counts; .*twice.prm:1: it was set "
-                               "to '30'")
 
-    def test_all_of_an_effect_in_one_line(self):
-        said = self.explain({**GROWS, "Growth/Rate/Rate": 0.3,
-                             "Growth/Rate/Homeostasis": 0.1,
-                             "Cell types/a/Growth/Rate/Rate": 2}, "all")
-        self.assertIn("Growth/Law = isotropic; so do "
-                      "Cell types/a/Growth/Rate/Rate, Growth/Rate/Homeostasis.",
-                      said)
+@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS_READ)
+def test_of_points_that_are_read(runs, key, value, keys, columns):
+    assert "it does nothing" not in runs.explain({**keys, **points(runs, columns), key: value})
 
-    def test_founders_that_no_type_wants(self):
-        """The first type is that of all others, whatever its Where says."""
-        keys = {**TYPES, "Cell types/b/Where": "X > 20"}
-        word = "they are of this type all the same"
-        said = self.explain({**keys, "Cell types/a/Where": "X < -20"}, "left")
-        self.assertIn("it does not hold at 40 founders", said)
-        self.assertIn(word, said)
-        for where in ("X <= 20", "1"):
-            self.assertNotIn(word, self.explain(
-                {**keys, "Cell types/a/Where": where}, "all"))
 
+def test_columns_that_nothing_reads(runs):
+    file = points(runs, {"phase": 1, "id": 7})
+    said = runs.explain(POINTS, file)
+    assert "its columns 'id' say nothing about cells here and are skipped." in said
+    assert "nothing reads its column 'phase'" in said
+    assert "nothing reads its column" not in runs.explain(POINTS_CYCLE, file)
+
+
+@pytest.mark.parametrize("keys, idle, acts, word", NOBODY)
+def test_what_happens_to_nobody(runs, keys, idle, acts, word):
+    assert word in runs.explain(keys, idle)
+    assert word not in runs.explain(keys, acts)
+
+
+def test_key_twice(runs):
+    """The last line counts, and both are named."""
+    scene = runs.write("twice.prm", "set Grid/Spacing = 30\nsubsection Grid\n"
+                                    "  set Spacing = 40\nend\n")
+    said = runs.explain(scene, {key: BOX[key] for key in BOX if key != "Grid/Spacing"})
+    assert re.search("twice.prm:3: the key 'Grid/Spacing' is set to '40', which counts; "
+                     ".*twice.prm:1: it was set to '30'", said)
+
+
+def test_all_of_an_effect_in_one_line(runs):
+    said = runs.explain(GROWS, {"Growth/Rate/Rate": 0.3, "Growth/Rate/Homeostasis": 0.1,
+                                "Cell types/a/Growth/Rate/Rate": 2})
+    assert ("Growth/Law = isotropic; so do Cell types/a/Growth/Rate/Rate, "
+            "Growth/Rate/Homeostasis.") in said
+
+
+@pytest.mark.parametrize("where, is_said", [("X < -20", True), ("X <= 20", False), ("1", False)])
+def test_founders_that_no_type_wants(runs, where, is_said):
+    """The first type is that of all others, whatever its Where says."""
+    said = runs.explain(TYPES, {"Cell types/b/Where": "X > 20", "Cell types/a/Where": where})
+    assert ("it does not hold at 40 founders" in said) == is_said
+    assert ("they are of this type all the same" in said) == is_said

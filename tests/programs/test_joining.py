@@ -4,97 +4,56 @@
 once."""
 import re
 
-from tests.common.program import ProgramTest, overrides
+import pytest
 
-SCENE = """\
-set Dimension = 2
-subsection Time
-  set End time          = 1
-  set Step              = 0.1
-end
-subsection Tissue
-  set Shape       = points
-  set Points file = {points}
-end
-subsection Grid
-  set Spacing = 25
-end
-subsection Growth
-  set Law = isotropic
-  subsection Isotropic
-    set Stretch = 1 + {rate} * t
-  end
-end
-subsection Output
-  set Interval          = 0
-  set Snapshot interval = 0.1
-  set Formats           = csv
-end
-"""
-
-MESSAGE = re.compile(
-    r"Warning: at t = ([0-9.]+) day two parts of the tissue have come within a "
-    r"grid spacing of each other near \(([-0-9.e]+) ([-0-9.e]+)\) um\.")
-
-AT_START = re.compile(r"the tissue is (\d+) bodies, and the grid makes (\d+) "
-                      r"pieces? of them")
+SCENE = {"Dimension": 2, "Time/End time": 1, "Time/Step": 0.1, "Tissue/Shape": "points",
+         "Grid/Spacing": 25, "Growth/Law": "isotropic", "Output/Formats": "csv",
+         "Output/Interval": 0, "Output/Snapshot interval": 0.1}
+MESSAGE = re.compile(r"Warning: at t = ([0-9.]+) day two parts of the tissue have come within a "
+                     r"grid spacing of each other near \(([-0-9.e]+) ([-0-9.e]+)\) um\.")
+AT_START = re.compile(r"the tissue is (\d+) bodies, and the grid makes (\d+) pieces? of them")
 
 
-class Joining(ProgramTest):
-    def bodies(self, gaps, rate):
-        """A scene of bodies of 10 x 10 cells of 10 µm, with these gaps (µm)
-        between them along x."""
-        rows, left = ["x,y"], 0.0
-        for gap in (0.0, *gaps):
-            left += gap
-            rows += [f"{left + 10 * i + 5},{10 * j + 5}"
-                     for i in range(10) for j in range(10)]
-            left += 100.0
-        points = self.write("cells.csv", "\n".join(rows) + "\n")
-        return self.write("bodies.prm", SCENE.format(points=points, rate=rate))
+def bodies(runs, gaps, rate):
+    """Bodies of 10 x 10 cells of 10 µm, with these gaps (µm) between them along x."""
+    rows, left = ["x,y"], 0.0
+    for gap in (0.0, *gaps):
+        left += gap
+        rows += [f"{left + 10 * i + 5},{10 * j + 5}" for i in range(10) for j in range(10)]
+        left += 100.0
+    return {**SCENE, "Tissue/Points file": runs.write("cells.csv", "\n".join(rows) + "\n"),
+            "Growth/Isotropic/Stretch": f"1 + {rate} * t"}
 
-    def said(self, gaps, rate, *arguments, ranks=1):
-        """The warnings of a run of such bodies."""
-        scene = self.bodies(gaps, rate)
-        text = self.execute(scene, *arguments, ranks=ranks).stdout
-        found = MESSAGE.findall(text)
-        log = (self.work / "output/log.txt").read_text()
-        self.assertEqual(len(MESSAGE.findall(log)), len(found))
-        return [[float(number) for number in one] for one in found]
 
-    def test_once_with_time_and_place(self):
-        """Two joints: the later one is not told of."""
-        for ranks in (1, 2):
-            with self.subTest(ranks=ranks):
-                said = self.said((60.0, 70.0), 0.6, ranks=ranks)
-                self.assertEqual(len(said), 1, said)
-                t, x, y = said[0]
-                # each body grows by 30 t µm on either side
-                gap = 60 - 60 * t
-                self.assertGreater(gap, 0)
-                self.assertLess(gap, 50)
-                self.assertLess(abs(x - 130), 25)
-                self.assertLess(abs(y - 50), 100)
+def warnings(run):
+    """Time and place of each."""
+    return [[float(number) for number in one] for one in MESSAGE.findall(run.said)]
 
-    def test_not_of_bodies_that_stay_apart(self):
-        self.assertEqual(self.said((60.0,), 0.05), [])
 
-    def test_from_the_start(self):
-        """Bodies that share a piece before anything has moved: of three one
-        stands alone. A gap of a cell is no gap, and makes no body."""
-        for gaps, counts in (((20.0, 70.0), [("3", "2")]), ((20.0,), [("2", "1")]),
-                             ((60.0,), []), ((10.0,), [])):
-            for ranks in (1, 2):
-                with self.subTest(gaps=gaps, ranks=ranks):
-                    text = self.execute(self.bodies(gaps, 0.0), "--explain",
-                                        *overrides({"Grid/Spacing": 30}),
-                                        ranks=ranks)
-                    found = AT_START.findall(text.stdout + text.stderr)
-                    self.assertEqual(found, counts)
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_once_with_time_and_place(runs, ranks):
+    """Two joints: the later one is not told of."""
+    run = runs.run("joins", bodies(runs, (60.0, 70.0), 0.6), ranks=ranks)
+    (t, x, y), = warnings(run)
+    # each body grows by 30 t µm on either side
+    assert 0 < 60 - 60 * t < 50
+    assert abs(x - 130) < 25
+    assert abs(y - 50) < 100
+    assert len(MESSAGE.findall((run.directory / "log.txt").read_text())) == 1
 
-    def test_resumed(self):
-        """The first step after --resume has nothing to compare with."""
-        self.said((60.0,), 0.6, *overrides({"Time/End time": 0.2}))
-        said = self.execute(self.work / "bodies.prm", "--resume").stdout
-        self.assertEqual(len(MESSAGE.findall(said)), 1)
 
+def test_not_of_bodies_that_stay_apart(runs):
+    assert warnings(runs.run("apart", bodies(runs, (60.0,), 0.05))) == []
+
+
+@pytest.mark.parametrize("gaps, counts", [
+    ((20.0, 70.0), [("3", "2")]), ((20.0,), [("2", "1")]), ((60.0,), []), ((10.0,), [])])
+def test_from_the_start(runs, gaps, counts):
+    """Bodies that share a piece before anything has moved: of three one
+    stands alone. A gap of a cell is no gap, and makes no body."""
+    assert AT_START.findall(runs.explain(bodies(runs, gaps, 0.0), {"Grid/Spacing": 30})) == counts
+
+
+def test_resumed(runs):
+    """The first step after --resume has nothing to compare with."""
+    assert len(warnings(runs.resumed("parts", bodies(runs, (60.0,), 0.6), {}, 0.2))) == 1

@@ -1,179 +1,103 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What cells know of their neighbours, and what they do by it: columns by closed
-forms on a lattice, on one rank and on several, and resumed; lateral inhibition; that
+forms on a lattice, on one rank and on several; lateral inhibition; that
 scenes without them have nothing of it."""
-import csv
 import json
 
 import numpy
-from tests.common.program import TESTS, ProgramTest, overrides, read_csv
 
-ALL = ("neighbours + neighbours_b + touching_b + unlike + free + around_x + "
-       "around_type + around_c")
-SCENE = """
-set Dimension = 2
-subsection Time
-  set End time = 0.2
-  set Step     = 0.1
-end
-subsection Tissue
-  set Shape        = box
-  set Size         = 120, 100
-  set Cell spacing = 10
-end
-subsection Grid
-  set Spacing = 30
-end
-subsection Fields
-  set Names = c
-  subsection c
-    set Diffusion   = 1000
-    set Fixed where = abs(X) > 59
-    set Value       = 0.5 + X/120
-  end
-end
-subsection Cell types
-  set Names = a, b
-  subsection b
-    set Where = X > 0
-    subsection Transitions
-      set To a = 0*({all}) + 1e3*(slope_c > 0.0080 && slope_c < 0.0086)*(t > 0.1)
-    end
-  end
-end
-subsection Output
-  set Formats  = csv
-  set Interval = 0.1
-end
-"""
+from tests.common.program import TESTS
+
+ALL = ("neighbours + neighbours_b + touching_b + unlike + free + around_x + around_type "
+       "+ around_c")
+LEAVE = "Cell types/b/Transitions/To a"
+SCENE = {"Dimension": 2, "Time/End time": 0.2, "Time/Step": 0.1, "Tissue/Shape": "box",
+         "Tissue/Size": "120, 100", "Tissue/Cell spacing": 10, "Grid/Spacing": 30,
+         "Fields/Names": "c", "Fields/c/Diffusion": 1000, "Fields/c/Fixed where": "abs(X) > 59",
+         "Fields/c/Value": "0.5 + X/120", "Cell types/Names": "a, b",
+         "Cell types/b/Where": "X > 0",
+         LEAVE: f"0*({ALL}) + 1e3*(slope_c > 0.0080 && slope_c < 0.0086)*(t > 0.1)",
+         "Output/Formats": "csv", "Output/Interval": 0.1}
 INHIBITION = TESTS.parent / "prm/examples/lateral-inhibition.prm"
 
 
-class Neighbours(ProgramTest):
-    def cells(self, output, number=0):
-        return read_csv(output / f"cells-{number:04d}.csv")
+def test_on_a_lattice(runs):
+    one, three = (runs.run(f"on-{ranks}", SCENE, ranks=ranks) for ranks in (1, 3))
+    cells = one.cells(0)
+    x, y, kind = cells["x"], cells["y"], cells["type"]
+    inside, rim = (abs(x) < 50) & (abs(y) < 40), abs(y) > 44
+    left, right = inside & x.between(-6, 0), inside & x.between(0, 6)
+    far = inside & (abs(x) > 6)
+    for column, where, value in (
+            ("neighbours", inside, 4), ("neighbours", rim & (abs(x) < 50), 3),
+            ("neighbours", rim & (abs(x) > 54), 2), ("neighbours_b", left, 1),
+            ("neighbours_b", right, 3), ("touching_b", left, 0.25), ("touching_b", right, 0.75),
+            ("unlike", left, 0.25), ("unlike", right, 0.25), ("around_type", left, 0.25),
+            ("around_type", right, 0.75), ("unlike", far, 0), ("free", inside, 0),
+            ("neighbours_b", far, 4 * kind[far]),
+            # linear things are their own means
+            ("around_x", inside, x[inside]), ("around_c", inside, cells["c"][inside])):
+        numpy.testing.assert_allclose(cells[column][where], value,
+                                      atol=1e-6 if column == "around_c" else 1e-9)
+    assert (cells["free"][rim] > 0.1).all()
+    # slopes have no column, but are known: all have changed by them
+    assert "slope_c" not in cells
+    assert set(one.cells(2)["type"]) == {0}
+    for number in (0, 1, 2):
+        numpy.testing.assert_allclose(three.cells(number), one.cells(number), rtol=1e-8, atol=1e-8)
 
-    def test_on_a_lattice(self):
-        scene = self.write("lattice.prm", SCENE.format(all=ALL))
-        outputs = {}
-        for ranks in (1, 2, 3):
-            outputs[ranks] = self.work / f"on-{ranks}"
-            self.execute(scene, ranks=ranks, output=outputs[ranks])
-        cells = self.cells(outputs[1])
-        x, y, kind = cells["x"], cells["y"], cells["type"]
-        inside = (abs(x) < 50) & (abs(y) < 40)
-        rim = abs(y) > 44
-        numpy.testing.assert_array_equal(cells["neighbours"][inside], 4)
-        numpy.testing.assert_array_equal(
-            cells["neighbours"][rim & (abs(x) < 50)], 3)
-        numpy.testing.assert_array_equal(
-            cells["neighbours"][rim & (abs(x) > 54)], 2)
-        left, right = inside & (x > -6) & (x < 0), inside & (x > 0) & (x < 6)
-        for column, on_left, on_right in (
-                ("neighbours_b", 1, 3), ("touching_b", 0.25, 0.75),
-                ("unlike", 0.25, 0.25), ("around_type", 0.25, 0.75)):
-            numpy.testing.assert_allclose(cells[column][left], on_left)
-            numpy.testing.assert_allclose(cells[column][right], on_right)
-        far = inside & (abs(x) > 6)
-        numpy.testing.assert_array_equal(cells["unlike"][far], 0)
-        numpy.testing.assert_array_equal(cells["neighbours_b"][far],
-                                         4 * kind[far])
-        # linear things are their own means
-        numpy.testing.assert_allclose(cells["around_x"][inside], x[inside],
-                                      atol=1e-9)
-        numpy.testing.assert_allclose(cells["around_c"][inside],
-                                      cells["c"][inside], atol=1e-6)
-        numpy.testing.assert_array_equal(cells["free"][inside], 0)
-        self.assertTrue((cells["free"][rim] > 0.1).all())
-        # slopes have no column, but are known: all have changed by them
-        self.assertNotIn("slope_c", cells.dtype.names)
-        self.assertEqual(set(self.cells(outputs[1], 2)["type"]), {0})
-        for number in (0, 1, 2):
-            one = self.cells(outputs[1], number)
-            for ranks in (2, 3):
-                other = self.cells(outputs[ranks], number)
-                for column in one.dtype.names:
-                    numpy.testing.assert_allclose(other[column], one[column],
-                                                  rtol=1e-8, atol=1e-8)
 
-    def test_by_radius(self):
-        scene = self.write("radius.prm", SCENE.format(all=ALL))
-        output = self.work / "radius"
-        self.execute(scene, *overrides({"Neighbours/Found by": "radius"}),
-                     output=output)
-        cells = self.cells(output)
-        inside = (abs(cells["x"]) < 50) & (abs(cells["y"]) < 40)
-        numpy.testing.assert_array_equal(cells["neighbours"][inside], 8)
+def test_by_radius(runs):
+    cells = runs.run("radius", SCENE, {"Neighbours/Found by": "radius"}).cells(0)
+    inside = (abs(cells["x"]) < 50) & (abs(cells["y"]) < 40)
+    assert (cells["neighbours"][inside] == 8).all()
 
-    def test_lateral_inhibition(self):
-        """Random sequential adsorption on the square lattice covers 0.3641 of it,
-        whatever the rate times step; no two stand beside each other."""
-        output = self.work / "inhibition"
-        self.execute(INHIBITION, *overrides(
-            {"Tissue/Size": "2000, 2000", "Output/Interval": "3", "Time/Step": 0.125,
-             "Time/End time": 3}), output=output)
-        cells = self.cells(output, 1)
-        senders = cells["type"] == 1
-        inside = (abs(cells["x"]) < 950) & (abs(cells["y"]) < 950)
-        self.assertAlmostEqual(senders[inside].mean(), 0.3641, delta=0.002)
-        self.assertEqual(cells["neighbours_sender"][senders].max(), 0)
-        # each that is undecided stays so for a sender beside it, but for the
-        # few that had no time
-        free = ~senders & (cells["neighbours_sender"] == 0)
-        self.assertLess(free.mean(), 1e-4)
 
-    def test_inhibition_on_any_ranks(self):
-        """The events of one rank, of steps of any length while rates are constant:
-        each has its exact time."""
-        tables = {}
-        for ranks, step in ((1, 0.125), (2, 0.125), (3, 0.125), (2, 0.5)):
-            output = self.work / f"ranks-{ranks}-{step}"
-            self.execute(INHIBITION, *overrides(
-                {"Tissue/Size": "300, 300", "Time/Step": step, "Time/End time": 1}),
-                ranks=ranks, output=output)
-            with open(output / "events.csv", encoding="utf-8") as file:
-                tables[ranks, step] = zip(*sorted(
-                    (int(row["id"]), float(row["time"]))
-                    for row in csv.DictReader(file)))
-        ids, times = tables.pop((1, 0.125))
-        self.assertGreater(len(ids), 250)
-        for other_ids, other_times in tables.values():
-            numpy.testing.assert_array_equal(other_ids, ids)
-            numpy.testing.assert_allclose(other_times, times, atol=1e-12)
+def test_lateral_inhibition(runs):
+    """Random sequential adsorption on the square lattice covers 0.3641 of it,
+    whatever the rate times step; no two stand beside each other."""
+    cells = runs.run("inhibition", INHIBITION, {
+        "Tissue/Size": "2000, 2000", "Output/Interval": 3, "Time/Step": 0.125,
+        "Time/End time": 3}).cells(1)
+    senders = cells["type"] == 1
+    inside = (abs(cells["x"]) < 950) & (abs(cells["y"]) < 950)
+    assert abs(senders[inside].mean() - 0.3641) <= 0.002
+    assert cells["neighbours_sender"][senders].max() == 0
+    # each that is undecided stays so for a sender beside it, but for the
+    # few that had no time
+    free = ~senders & (cells["neighbours_sender"] == 0)
+    assert free.mean() < 1e-4
 
-    def test_absent(self):
-        """A scene of types that asks for nothing has no column, no section."""
-        text = SCENE.format(all="0").replace(
-            "1e3*(slope_c > 0.0080 && slope_c < 0.0086)*(t > 0.1)", "1")
-        output = self.work / "absent"
-        self.execute(self.write("absent.prm", text), output=output)
-        names = set(self.cells(output).dtype.names)
-        self.assertFalse({name for name in names if name.startswith(
-            ("neighb", "touch", "unlike", "free", "around", "slope"))})
-        timings = (output / "timings.csv").read_text()
-        self.assertIn("commit", timings)
-        for section in ("neighbours", "rearrangement", "type tension"):
-            self.assertNotIn(section, timings)
-        self.assertNotIn("exchanges",
-                         read_csv(output / "statistics.csv").dtype.names)
-        said = self.execute(self.work / "absent.prm", "--explain").stdout
-        self.assertIn("  time: about ", said)
-        self.assertNotIn("    of it ", said)
 
-    def test_time_is_told(self):
-        """Before the run, where neighbours take a large part of it: found by
-        distance they take less."""
-        def seconds(*words):
-            said = json.loads(self.execute(
-                INHIBITION, "--explain=json", *words).stdout)["size"]
-            self.assertLess(sum(said["seconds of effects"].values()),
-                            said["seconds"])
-            return said["seconds of effects"]
-        facets = seconds()
-        self.assertEqual(set(facets), {"neighbours", "transitions"})
-        self.assertLess(seconds("-s", "Neighbours/Found by=radius")["neighbours"],
-                        facets["neighbours"])
-        self.assertIn("of it neighbours: ",
-                      self.execute(INHIBITION, "--explain").stdout)
+def test_inhibition_on_any_ranks(runs):
+    """The events of one rank, of steps of any length while rates are constant:
+    each has its exact time."""
+    one, *others = (runs.run(f"{ranks}-{step}", INHIBITION, {
+        "Tissue/Size": "300, 300", "Time/Step": step, "Time/End time": 1}, ranks=ranks)
+        .events.sort_values(["id", "time"]) for ranks, step in ((1, 0.125), (3, 0.125), (2, 0.5)))
+    assert len(one) > 250
+    for other in others:
+        numpy.testing.assert_allclose(other[["id", "time"]], one[["id", "time"]], atol=1e-12)
 
+
+def test_absent(runs):
+    """A scene of types that asks for nothing has no column, no section."""
+    run = runs.run("absent", SCENE, {LEAVE: 1})
+    assert not [name for name in run.cells(0) if name.startswith(
+        ("neighb", "touch", "unlike", "free", "around", "slope"))]
+    assert "commit" in run.timings.index
+    assert not {"neighbours", "rearrangement", "type tension"} & {*run.timings.index}
+    assert "exchanges" not in run.statistics
+
+
+def test_time_is_told(runs):
+    """Before the run, where neighbours take a large part of it: found by
+    distance they take less."""
+    def seconds(keys):
+        said = json.loads(runs.explain(INHIBITION, keys, "--explain=json"))["size"]
+        assert sum(said["seconds of effects"].values()) < said["seconds"]
+        return said["seconds of effects"]
+    facets = seconds({})
+    assert set(facets) == {"neighbours", "transitions"}
+    assert seconds({"Neighbours/Found by": "radius"})["neighbours"] < facets["neighbours"]

@@ -5,65 +5,30 @@ volume and J_e are those of the closed form, in every grid cell and for many
 relaxation times, though nothing but its cells' volumes resists for long."""
 import math
 
-from tests.common.program import ProgramTest, overrides, read_csv
+import pytest
 from scipy.optimize import brentq
 
 from tests.verification.material import lame
 
 E, NU, PRESSURE = 10.0, 0.4, 16.0  # kPa
-SCENE = f"""
-subsection Time
-  set End time = 1
-  set Step     = 0.025
-end
-subsection Tissue
-  set Shape         = sphere
-  set Radius        = 100
-  set Cell spacing  = 12
-  set Surface cells = trimmed
-end
-subsection Grid
-  set Spacing = 45
-end
-subsection Material
-  set Young's modulus = {E}
-  set Poisson's ratio = {NU}
-  set Energy per      = grown volume
-  set Relaxation time = 0.125
-end
-subsection Boundary conditions
-  set Pressure where = 1
-  set Pressure       = {PRESSURE}*min(1, t/0.1)
-end
-subsection Output
-  set Formats  = csv
-  set Interval = 0
-end
-"""
+SCENE = {"Time/End time": 1, "Time/Step": 0.025, "Tissue/Shape": "sphere", "Tissue/Radius": 100,
+         "Tissue/Cell spacing": 12, "Tissue/Surface cells": "trimmed", "Grid/Spacing": 45,
+         "Material/Young's modulus": E, "Material/Poisson's ratio": NU,
+         "Material/Energy per": "grown volume", "Material/Relaxation time": 0.125,
+         "Boundary conditions/Pressure where": 1,
+         "Boundary conditions/Pressure": f"{PRESSURE}*min(1, t/0.1)",
+         "Output/Formats": "csv", "Output/Interval": 0}
 
 
 def volume_ratio():
     """J_e, by mu (J^(2/3) - 1) + lambda ln J = -p J."""
     LAMBDA, MU = lame(E, NU)
-    return brentq(lambda J: (MU * (J**(2 / 3) - 1) + LAMBDA * math.log(J)
-                             + PRESSURE * J), 0.1, 1)
+    return brentq(lambda J: MU * (J**(2 / 3) - 1) + LAMBDA * math.log(J) + PRESSURE * J, 0.1, 1)
 
 
-class PressedTissue(ProgramTest):
-    def test_stays_as_it_is(self):
-        scene = self.write("ball.prm", SCENE)
-        expected = volume_ratio()
-        for form in ("projected", "pooled"):
-            output = self.work / form
-            self.execute(scene, *overrides({
-                "Material/Volumetric strain": form}), output=output)
-            rows = read_csv(output / "statistics.csv")
-            volume = rows["total_volume"][-1] / rows["total_volume"][0]
-            ratios = read_csv(sorted(output.glob("cells-*.csv"))[-1])[
-                "elastic_volume_ratio"]
-            print(f"{form}: J_e {expected:.4f}, of all {volume:.4f},",
-                  f"of cells {ratios.min():.4f} to {ratios.max():.4f}")
-            self.assertLess(abs(volume / expected - 1), 1e-3)
-            self.assertGreater(ratios.min(), 0.95 * expected)
-            self.assertLess(ratios.max(), 1.05 * expected)
-
+@pytest.mark.parametrize("form", ["projected", "pooled"])
+def test_stays_as_it_is(runs, form):
+    run = runs.run(form, SCENE, {"Material/Volumetric strain": form})
+    volume, expected = run.statistics["total_volume"], volume_ratio()
+    assert abs(volume.iloc[-1] / volume[0] / expected - 1) < 1e-3
+    assert run.cells(-1)["elastic_volume_ratio"].between(0.95 * expected, 1.05 * expected).all()

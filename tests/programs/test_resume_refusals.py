@@ -5,55 +5,43 @@ and the remedy on stderr, and no file of the earlier run changed.
 """
 import re
 import shutil
-from pathlib import Path
 
 import h5py
 import numpy as np
-from tests.common.program import ProgramTest, overrides
+import pytest
 
+from tests.common.program import TESTS, overrides
 from tests.common.sealing import seal
 
-SCENE = Path(__file__).resolve().parent / "small-cube.prm"
-ESTIMATE = overrides({"Output/Condition estimate": "true"})
-HALF = overrides({"Time/End time": "0.25"})
-ANEW = "or start the run anew"
+SCENE = TESTS / "programs/small-cube.prm"
+ESTIMATE = {"Output/Condition estimate": "true"}
+ANEW, FILE, DIGEST = "or start the run anew", "Restore the file", "their digest differs"
 
 
-def cut_rows(path, n):
-    lines = path.read_text().splitlines(keepends=True)
-    path.write_text("".join(lines[:n]))
-
-
-def without(name):
-    """Removes a table or a number of the snapshot, as another program might
-    write it: with the digest of what is left."""
+def sealed(change):
+    """A damage of the snapshot with the digest of what is left, as another program
+    might write it."""
     def damage(output):
         with h5py.File(output / "snapshot.h5", "r+") as file:
-            group, _, item = name.partition("/")
-            if group == "numbers":
-                del file["numbers"].attrs[item]
-            else:
-                del file[name]
+            change(file)
         seal(output / "snapshot.h5")
     return damage
 
 
-def other_columns(output):
-    """As a program whose cell cycle has columns of other names writes it."""
-    with h5py.File(output / "snapshot.h5", "r+") as file:
-        names = file["cells/columns"][()].item().decode()
-        del file["cells/columns"]
-        file["cells/columns"] = np.bytes_(
-            names.replace("event_time 1", "other_time 1"))
-    seal(output / "snapshot.h5")
+def without(name):
+    """Removes a table or a number of the snapshot."""
+    group, _, item = name.partition("/")
+    if group == "numbers":
+        return sealed(lambda file: file["numbers"].attrs.__delitem__(item))
+    return sealed(lambda file: file.__delitem__(name))
 
 
-def fewer_numbers(output):
-    with h5py.File(output / "snapshot.h5", "r+") as file:
-        properties = file["cells/properties"][:, :-1]
-        del file["cells/properties"]
-        file["cells/properties"] = properties
-    seal(output / "snapshot.h5")
+def replaced(name, change):
+    def anew(file):
+        data = change(file[name][()])
+        del file[name]
+        file[name] = data
+    return sealed(anew)
 
 
 def changed(change, name="snapshot.h5"):
@@ -84,12 +72,15 @@ def other_digit(name, row, column):
     def change(data):
         rows = data.split(b"\n")
         fields = rows[row].split(b",")
-        fields[column] = re.sub(
-            rb"\d(?=\D*$)", lambda m: b"%d" % ((int(m[0]) + 1) % 10),
-            fields[column])
+        fields[column] = re.sub(rb"\d(?=\D*$)", lambda m: b"%d" % ((int(m[0]) + 1) % 10),
+                                fields[column])
         rows[row] = b",".join(fields)
         return b"\n".join(rows)
     return changed(change, name)
+
+
+def cut_rows(name, n):
+    return changed(lambda data: b"".join(data.splitlines(keepends=True)[:n]), name)
 
 
 def foreign(output):
@@ -103,119 +94,88 @@ def other_position(output):
         file["cells/positions"][3, 0] += 1.0
 
 
-def text(output):
-    (output / "snapshot.h5").write_text("x,y,z\n")
-
-
-# name -> (what is done to the finished run, what must be said)
 DAMAGES = {
     "no snapshot": (lambda output: (output / "snapshot.h5").unlink(),
-                    ("a snapshot that can be read",
-                     "start the run without --resume")),
-    "truncated": (changed(lambda data: data[:len(data) // 2]),
-                  ("an undamaged snapshot", ANEW)),
-    "appended": (changed(lambda data: data + b"\0"),
-                 ("an undamaged snapshot", ANEW)),
-    "a page of zeros": (changed(lambda data: data[:4096] + bytes(4096)
-                                + data[8192:]), ("their digest differs", ANEW)),
-    "swapped blocks": (changed(swapped), ("their digest differs", ANEW)),
-    **{f"one bit at {where}": (one_bit(where), ("their digest differs", ANEW))
+                    ("start the run without --resume",)),
+    "truncated": (changed(lambda data: data[:len(data) // 2]), ("an undamaged snapshot", ANEW)),
+    "appended": (changed(lambda data: data + b"\0"), ("an undamaged snapshot", ANEW)),
+    "a page of zeros": (changed(lambda data: data[:4096] + bytes(4096) + data[8192:]),
+                        (DIGEST, ANEW)),
+    "swapped blocks": (changed(swapped), (DIGEST, ANEW)),
+    **{f"one bit at {where}": (one_bit(where), (DIGEST, ANEW))
        for where in (0.01, 0.1, 0.35, 0.6, 0.85, 0.999)},
-    "another position": (other_position, ("their digest differs", ANEW)),
-    "foreign": (foreign, ("a snapshot that begins with a digest",
-                          "the HDF5 file of another program", ANEW)),
-    "no HDF5": (text, ("this file does not begin as one", ANEW)),
-    "no box": (without("integer tables/box_n"),
-               ("the table 'box_n' of 3 integers", "lacks it", ANEW)),
-    "no weights": (without("grid weights"),
-                   ("an undamaged snapshot", ANEW)),
-    "no output times": (without("tables/output_times"),
-                        ("the table 'output_times'", "lacks it", ANEW)),
+    "another position": (other_position, (DIGEST, ANEW)),
+    "foreign": (foreign, ("the HDF5 file of another program", ANEW)),
+    "no HDF5": (changed(lambda data: b"x,y,z\n"), ("this file does not begin as one", ANEW)),
+    "no box": (without("integer tables/box_n"), ("the table 'box_n' of 3 integers", ANEW)),
+    "no weights": (without("grid weights"), ("an undamaged snapshot", ANEW)),
+    "no output times": (without("tables/output_times"), ("the table 'output_times'", ANEW)),
     "no id": (without("numbers/next_id"), ("the number 'next_id'", ANEW)),
-    "no row count": (without("numbers/statistics_rows"),
-                     ("the number 'statistics_rows'", ANEW)),
+    "no row count": (without("numbers/statistics_rows"), ("the number 'statistics_rows'", ANEW)),
     "no digest of rows": (without("integer tables/lineage_digest"),
                           ("the table 'lineage_digest' of 2", ANEW)),
-    "no step": (without("numbers/step_level"),
-                ("the number 'step_level'", ANEW)),
+    "no step": (without("numbers/step_level"), ("the number 'step_level'", ANEW)),
     "no cells": (without("cells/positions"), ("an undamaged snapshot", ANEW)),
     "no parameters": (without("parameters"), ("an undamaged snapshot", ANEW)),
-    "cells of another kind": (fewer_numbers, ("a snapshot whose cells have",
-                                              "numbers each", ANEW)),
+    "cells of another kind": (replaced("cells/properties", lambda data: data[:, :-1]),
+                              ("a snapshot whose cells have", ANEW)),
     "cells with other columns": (
-        other_columns, ("a snapshot whose cells have the columns that the "
-                        "scene's effects declare (this one lacks 'event_time' "
-                        "and has 'other_time')", ANEW)),
-    "statistics cut": (lambda output: cut_rows(output / "statistics.csv", 2),
-                       ("statistics.csv", "at least the 3 rows",
-                        "there are 1", "Restore the file")),
-    "lineage cut": (lambda output: cut_rows(output / "lineage.csv", 5),
-                    ("lineage.csv", "rows that the snapshot counts",
-                     "Restore the file")),
-    "another digit in the statistics": (
-        other_digit("statistics.csv", 1, 4),
-        ("statistics.csv", "whose first 3 rows are those of the run",
-         "Restore the file")),
-    "another digit in the lineage": (
-        other_digit("lineage.csv", 40, 5),
-        ("lineage.csv", "rows are those of the run", "Restore the file")),
-    "another digit in the conditions": (
-        other_digit("condition.csv", 2, 3),
-        ("condition.csv", "whose first 2 rows are those of the run",
-         "Restore the file")),
-    "lineage missing": (lambda output: (output / "lineage.csv").unlink(),
-                        ("lineage.csv", "a readable file next to the snapshot",
-                         "Restore the file")),
-    "statistics of another run": (
-        lambda output: (output / "statistics.csv").write_text("a,b\n1,2\n"),
-        ("statistics.csv", "a file with the header", "Restore the file")),
-}
-
-KEYS = {"Grid/Spacing": ("34", "'35', as in the snapshot"),
-        "Random seed": ("5", "'4', as in the snapshot"),
-        "Material/Young's modulus": ("2", "as in the snapshot"),
-        "Tissue/Cell spacing": ("10", "'12', as in the snapshot"),
-        "Proliferation/Cell cycle/Duration": ("1.5", "as in the snapshot")}
+        replaced("cells/columns", lambda data: np.bytes_(
+            data.item().decode().replace("event_time 1", "other_time 1"))),
+        ("this one lacks 'event_time' and has 'other_time'", ANEW)),
+    "statistics cut": (cut_rows("statistics.csv", 2), ("at least the 3 rows", "there are 1", FILE)),
+    "lineage cut": (cut_rows("lineage.csv", 5), ("lineage.csv", FILE)),
+    "digit in the statistics": (other_digit("statistics.csv", 1, 4),
+                                ("statistics.csv", "whose first 3 rows", FILE)),
+    "digit in the lineage": (other_digit("lineage.csv", 40, 5), ("lineage.csv", FILE)),
+    "digit in the conditions": (other_digit("condition.csv", 2, 3),
+                                ("condition.csv", "whose first 2 rows", FILE)),
+    "lineage missing": (lambda output: (output / "lineage.csv").unlink(), ("lineage.csv", FILE)),
+    "statistics of another run": (changed(lambda data: b"a,b\n1,2\n", "statistics.csv"),
+                                  ("statistics.csv", "a file with the header", FILE))}
 
 
-class ResumeRefusals(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.execute(SCENE, *ESTIMATE, *HALF, output=self.work / "good")
+@pytest.fixture(scope="module")
+def good(runs):
+    return runs.run("good", SCENE, {**ESTIMATE, "Time/End time": 0.25}).directory
 
-    def refused(self, output, texts, *arguments):
-        """Resumes; nothing may change but by what is said."""
-        before = {path: path.read_bytes() for path in output.iterdir()}
-        result = self.execute(SCENE, *ESTIMATE, "--resume", *arguments,
-                              output=output, code=1)
-        for expected in texts:
-            self.assertIn(expected, result.stderr)
-        self.assertEqual(result.stdout, "")
-        self.assertEqual(before,
-                         {path: path.read_bytes() for path in output.iterdir()})
 
-    def test_damages(self):
-        for name, (damage, texts) in DAMAGES.items():
-            with self.subTest(name):
-                output = self.work / name.replace(" ", "-")
-                shutil.copytree(self.work / "good", output)
-                damage(output)
-                self.refused(output, ("--resume = '" + str(output), *texts))
+def check(runs, output, texts, keys=(), ranks=1):
+    """Resumes; nothing may change but by what is said."""
+    before = {path: path.read_bytes() for path in output.iterdir()}
+    result = runs.execute(SCENE, *overrides({**ESTIMATE, **dict(keys)}), "--resume",
+                          output=output, code=1, ranks=ranks)
+    for expected in texts:
+        assert expected in result.stderr
+    assert result.stderr.count("morula: ") == 1
+    assert result.stdout == ""
+    assert before == {path: path.read_bytes() for path in output.iterdir()}
 
-    def test_damage_on_two_ranks(self):
-        output = self.work / "two"
-        shutil.copytree(self.work / "good", output)
-        DAMAGES["no box"][0](output)
-        result = self.execute(SCENE, "--resume", output=output, ranks=2,
-                              code=1)
-        self.assertIn("'box_n'", result.stderr)
-        self.assertEqual(result.stderr.count("morula: "), 1)
 
-    def test_changed_keys(self):
-        for key, (value, limit) in KEYS.items():
-            with self.subTest(key):
-                self.refused(self.work / "good",
-                             (f"{key} = '{value}'", limit,
-                              "Put the old value back"),
-                             *overrides({key: value}))
+@pytest.mark.parametrize("name, ranks", [*((name, 1) for name in DAMAGES), ("no box", 2)])
+def test_damages(runs, good, name, ranks):
+    damage, texts = DAMAGES[name]
+    output = runs.work / f"{name}-{ranks}".replace(" ", "-")
+    shutil.copytree(good, output)
+    damage(output)
+    check(runs, output, (f"--resume = '{output}", *texts), ranks=ranks)
 
+
+@pytest.mark.parametrize("key, value, limit", [
+    ("Grid/Spacing", "34", "'35', as in the snapshot"),
+    ("Random seed", "5", "'4', as in the snapshot"),
+    ("Material/Young's modulus", "2", "as in the snapshot"),
+    ("Tissue/Cell spacing", "10", "'12', as in the snapshot"),
+    ("Proliferation/Cell cycle/Duration", "1.5", "as in the snapshot")])
+def test_changed_keys(runs, good, key, value, limit):
+    check(runs, good, (f"{key} = '{value}'", limit, "Put the old value back"), {key: value})
+
+
+def test_step_too_long_for_the_cycle(runs, good):
+    check(runs, good, ("Time/Step",), {"Time/Step": "0.6"})
+
+
+def test_no_run(runs):
+    said = runs.refused(SCENE, {}, "--resume", output=runs.work / "nothing")
+    assert "snapshot.h5" in said
+    assert not (runs.work / "nothing").exists()

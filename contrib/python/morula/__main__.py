@@ -20,11 +20,11 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "report": "morula.report.tool", "sweep": "morula.sweep.tool",
     "reproduce": "reproduction.tool",
     "accuracy-ladders": "upkeep.accuracy", "changes": "upkeep.changes",
-    "parameters": "upkeep.parameters", "half-fixed-sphere": "upkeep.half_fixed_sphere",
+    "parameters": "upkeep.parameters",
     "doxygen": "upkeep.manual.tool", "man-pages": "upkeep.man_pages",
     "renew": "upkeep.renew",
     "step-pages": "upkeep.steps", "showcase": "upkeep.showcase.tool",
-    "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
+    "benchmark": "tests.benchmarks.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "numpy": "python3-numpy", "scipy": "python3-scipy",

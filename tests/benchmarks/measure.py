@@ -12,7 +12,7 @@ import subprocess
 from morula.execute import Processes, call, overrides
 
 from tests.benchmarks import scaling
-from tests.common.kept import ROOT
+from tests.common.program import ROOT
 
 NEWTON = ("tangent", "residual", "preconditioner", "linear solver")
 # What happens once, whatever the number of steps or cells.

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from morula.execute import call, command, overrides
 
-from tests.common.kept import ROOT
+from tests.common.program import ROOT
 
 
 @dataclass

@@ -5,7 +5,6 @@ import math
 import re
 import shutil
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy
 from morula.execute import overrides
@@ -13,10 +12,9 @@ from morula.run import Run
 from morula.tables import markdown
 
 from tests.common import forks
-from tests.common.program import Runs
+from tests.common.program import ROOT, Runs
 from tests.common.results import Results, positions, read_csv
 
-ROOT = Path(__file__).resolve().parents[2]
 NOT_A_NUMBER = re.compile(r"(^|,)\s*[-+]?(nan|inf)", re.IGNORECASE | re.MULTILINE)
 TIME = r"[Aa]t t = ([-+.0-9e]+) day"
 FAILED = "the step failed even at"

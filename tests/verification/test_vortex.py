@@ -65,8 +65,8 @@ SMOOTH = {"displacement": 1.9, "stress": 0.9}
            [0.5, 0.25, 0.125, 0.0625, 0.03125],
            {"Grid/Spacing": "10", "Tissue/Cell spacing": "1.25"},
            most={"displacement": 0.04, "stress": 0.25}),
-    Ladder("3d-h", SPACE, "Grid/Spacing", "h/L_p = 6, one step", [30, 15, 10], spacing(6),
- least_orders=SMOOTH))
+    Ladder("3d-h", SPACE, "Grid/Spacing", "h/L_p = 6, one step", [30, 15, 10],
+           spacing(6), least_orders=SMOOTH))
 def test_ladder(case, ladder):
     ladder.climb(case, lambda results: field_errors(
         results, motion, lambda X, t: cauchy(gradient(X, t), lame())))

@@ -65,7 +65,8 @@ LUMENS = {"ring": ({**RING, SURFACE + "Lumen volume": "1 + t^2/2"}, 0.002, 0.001
           "shell": ({**RING, **BALL, SURFACE + "Lumen volume": "1 + t"}, 0.005, 0.003)}
 
 
-@pytest.mark.parametrize("name", LUMENS)
+@pytest.mark.parametrize("name", [
+    "ring", "gas", pytest.param("shell", marks=pytest.mark.check)])
 def test_lumen(scene, name):
     """Around a lumen whose volume is given, or that a gas fills whose pressure
     rises."""
@@ -195,6 +196,7 @@ def test_points_pressure(scene, runs):
     agree("enclosed volume over the cells'", enclosed / cells["volume"].sum(), 1, 0.02)
 
 
+@pytest.mark.check
 def test_points_pulled(scene, runs):
     """A bar of cells from a file, held along its axis at one end by a slip plane and
     pulled at the other: F = diag(a, a, b), tau_zz = b T and tau_xx = 0, where T is the
@@ -251,8 +253,8 @@ FINE = {"Method": "consistent", "Grid/Spacing": 20, "Tissue/Cell spacing": 2.5}
 
 
 @pytest.mark.parametrize("keys, of_stress, of_settling", [
-    ({}, 2.5e-3, 4e-4), (FINE, 1.25e-3, 2e-4), (SPACE, 1e-2, 2e-3)],
-    ids=["h40", "h20", "3d"])
+    ({}, 2.5e-3, 4e-4), (FINE, 1.25e-3, 2e-4),
+    pytest.param(SPACE, 1e-2, 2e-3, marks=pytest.mark.check)], ids=["h40", "h20", "3d"])
 def test_self_weight(scene, keys, of_stress, of_settling):
     """A column between slip walls under its own weight, free on top. The first
     Piola-Kirchhoff stress carries the weight above: P(L) =

@@ -152,7 +152,7 @@ def test_relaxation(scene, keys, axis):
         agree("largest b_e", b_e.max(), 1.30294944, 0.002)
 
 
-@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("dim", [2, pytest.param(3, marks=pytest.mark.check)])
 def test_pooled_volume_is_the_sum(scene, dim):
     """Free tissue of which every second cell shrinks to 5 % of its volume, as dying
     cells do: the tissue has the sum of its cells' grown volumes, 0.525 of that at
@@ -214,6 +214,7 @@ def test_flowing_drop(scene):
     assert abs(radii - 1).max() < 0.04
 
 
+@pytest.mark.check
 def test_wound(scene):
     """A round hole of radius a in a disc of radius R that flows, with a tension of
     its edge, a purse string: v = A/r with the constant pressure 2 eta A / R^2, so that

@@ -4,12 +4,14 @@
 with published values, closed forms and finite differences, before they judge
 anything."""
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy
 import pytest
 from morula.prm import parse
 from scipy.integrate import trapezoid
 
+from tests.common.cases import Case, Table, assert_finite
 from tests.common.results import function
 from tests.verification import layouts, test_self_weight, test_vortex
 from tests.verification.finite_elements import Axis, Block
@@ -154,3 +156,23 @@ def test_order():
     assert abs(order(sizes, 3 * sizes**2) - 2) < 1e-7
     for errors in (0 * sizes, sizes * numpy.nan, [1.0, 0.1, 0.0]):
         assert numpy.isnan(order(sizes, errors))
+
+
+@pytest.mark.parametrize("value, limits", [
+    (1.2, {"at_most": 1}), (0.8, {"at_least": 1}), (1, {"equals": (1.1, 0.05)}),
+    (numpy.nan, {"at_most": 1}), (1, {})])
+def test_figures_outside_of_their_limits_fail(value, limits):
+    case = SimpleNamespace(table=Table())
+    Case.found(case, "right", 1, at_least=1, at_most=1)
+    with pytest.raises(AssertionError):
+        Case.found(case, "wrong", value, **limits)
+
+
+@pytest.mark.parametrize("number", ["nan", "-nan", "inf", "NaN"])
+def test_numbers_that_are_none_are_found(tmp_path, number):
+    file = tmp_path / "statistics.csv"
+    file.write_text("nan,banana\n1,2\n")
+    assert_finite(tmp_path)
+    file.write_text(f"step,time\n1,2\n2,{number}\n")
+    with pytest.raises(AssertionError):
+        assert_finite(tmp_path)

@@ -13,16 +13,6 @@ def read_keys(file):
     return parse(Path(file).read_text(encoding="utf-8"))
 
 
-def function(text, X, t, dim=3):
-    """An expression, or the first `dim` of several, at positions X (rows) and time
-    t."""
-    names = dict(zip("XYZ", [*X.T, numpy.zeros(len(X))]), t=t,
-                 **{name: getattr(numpy, name) for name in ("sin", "cos", "exp", "sqrt")})
-    values = [numpy.broadcast_to(eval(part.replace("^", "**"), {}, names), len(X))
-              for part in text.split(";")]
-    return values[0] if len(values) == 1 else numpy.array(values[:dim]).T
-
-
 class Results:
     """The files in an output directory, read on demand."""
 
@@ -57,7 +47,18 @@ class Results:
 
     def function(self, key, X, t):
         """A key that is an expression, at positions X (rows) and time t."""
-        return function(self.keys[key], X, t, self.dimension)
+        def value(text):
+            names = dict(zip("XYZ", [*X.T, numpy.zeros(len(X))]), t=t,
+                         **{name: getattr(numpy, name)
+                            for name in ("sin", "cos", "exp", "sqrt")})
+            formula = text.replace("^", "**")
+            return numpy.broadcast_to(eval(formula, {}, names), len(X))
+
+        components = self.keys[key].split(";")
+        if len(components) == 1:
+            return value(components[0])
+        return numpy.array(
+            [value(text) for text in components[: self.dimension]]).T
 
     def lame(self):
         """The Lame constants (lambda, mu) in kPa of a homogeneous tissue."""

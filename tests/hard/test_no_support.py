@@ -72,8 +72,8 @@ BODIES = {"direct": (DIRECT, None, (0, 0), SAME), "points": ({}, 0, (0, 0), SAME
 
 
 @pytest.mark.parametrize("name", [
-    name if name in ("direct", "turned") else
-    pytest.param(name, marks=pytest.mark.release) for name in BODIES])
+    name if name == "turned" else pytest.param(name, marks=pytest.mark.release)
+    for name in BODIES])
 def test_body(case, body, name):
     """Moved by whole grid cells, or solved directly, its cells are where they were;
     with grid lines elsewhere, or turned, they are near."""
@@ -111,21 +111,19 @@ def farthest(cells, other):
         numpy.round(initial_positions(cells), 2), positions(cells)) if tuple(X) in of)
 
 
-@pytest.mark.parametrize("names", [
-    ["1 plane"], pytest.param(list(BLOCKS), marks=pytest.mark.release)])
-def test_block(case, names):
+@pytest.mark.release
+def test_block(case):
     """Parts of a free block on slip planes."""
     def run(name, center, size, slip):
-        small = {} if case.full else {"Tissue/Cell spacing": "10", "Grid/Spacing": "20"}
-        return case.trial(f"block, {name}, {len(names)}", "free-block.prm", {
+        return case.trial(f"block, {name}", "free-block.prm", {
             "Tissue/Center": center, "Tissue/Size": size,
-            "Boundary conditions/Slip where": slip, **small}).results
+            "Boundary conditions/Slip where": slip}).results
 
     free = run("free", "0, 0, 0", "120, 80, 60", "")
     energy = free.statistics()["mean_energy_density"][-1]
     h = free.number("Grid/Spacing")
     stays(case, "block", free)
-    for name in names:
+    for name in BLOCKS:
         part = run(name, *BLOCKS[name])
         case.found(f"{name}: cells against the free block [µm]",
                    farthest(part.last_cells(), free.last_cells()),
@@ -155,6 +153,7 @@ def test_breaking_off(case):
                last["elastic_volume_ratio"][inside].mean(), equals=(1, 2e-3))
 
 
+@pytest.mark.release
 def test_pushed(case):
     """No equilibrium balances the push; forces of inertia do."""
     base = case.trial("pushed", "pushed-body.prm")

@@ -16,19 +16,17 @@ from tests.verification.radial import GrowingBall, Layer
 # that the others are believed to 2e-3.
 PANEL = {0.4: (1.003369, 9.63196e-4), 0.49: (1.000350, 9.04235e-4),
          0.499: (1.000035, 8.96530e-4), 0.4999: (1.0000035, 8.95557e-4)}
-COARSE = {"Grid/Spacing": "8", "Tissue/Cell spacing": "2",
-          "Tissue/Boundary points": "2000"}
 
 
+@pytest.mark.release
 @pytest.mark.parametrize("form", ["projected", "pointwise"])
-@pytest.mark.parametrize("nu", [
-    nu if nu == 0.4999 else pytest.param(nu, marks=pytest.mark.release) for nu in PANEL])
+@pytest.mark.parametrize("nu", PANEL)
 def test_cook(case, nu, form):
     """Projected, the volume is kept; pointwise, the panel locks or fails."""
     projected = form == "projected"
     trial = case.trial(f"cook, {form}, {nu}", "cook.prm", {
         "Material/Poisson's ratio": nu, "Material/Volumetric strain": form,
-        "Solver/Linear solver": "direct", **({} if case.full else COARSE)},
+        "Solver/Linear solver": "direct"},
         exits=(0,) if projected else (0, 2))
     if trial.code == 2:
         case.found(f"energy, {form}, nu = {nu}: fails at t", trial.last("time"),
@@ -37,13 +35,11 @@ def test_cook(case, nu, form):
     volume, energy = PANEL[nu]
     error = trial.last("mean_energy_density") / energy - 1
     if projected:
-        case.found(f"energy, {form}, nu = {nu}", error,
-                   equals=(0, 0.01 if case.full else 0.015))
+        case.found(f"energy, {form}, nu = {nu}", error, equals=(0, 0.01))
         ratio = trial.last("total_volume") / trial.rows["total_volume"][0]
         case.found(f"volume, nu = {nu}", ratio / volume - 1, equals=(0, 3e-4))
     elif nu == 0.4999:
-        case.found(f"energy, {form}, nu = {nu}", error,
-                   at_most=-0.04 if case.full else -0.12)
+        case.found(f"energy, {form}, nu = {nu}", error, at_most=-0.04)
     else:
         case.found(f"energy, {form}, nu = {nu}", error, equals=(0, 0.15))
 
@@ -95,13 +91,13 @@ def test_squeezed(case):
                equals=(0, 1e-3))
 
 
+@pytest.mark.release
 def test_stiff_core(case):
     """The strain jumps at the core's surface, the splines are smooth: order 1."""
     exact = inclusion.mean_energy(1000.0, 1.0, 0.4, 1.1)
-    step = {} if case.full else {"Time/Step": "0.5"}
     coarse = case.trial("stiff-core-coarse", "stiff-core.prm", {
-        **step, "Grid/Spacing": "50", "Tissue/Cell spacing": "10"})
-    fine = case.trial("stiff-core", "stiff-core.prm", step)
+        "Grid/Spacing": "50", "Tissue/Cell spacing": "10"})
+    fine = case.trial("stiff-core", "stiff-core.prm")
     errors = [trial.last("mean_energy_density") / exact - 1 for trial in (coarse, fine)]
     for name, error in zip(("coarse", "fine"), errors):
         case.found(f"energy, stiff core, {name}", error, at_least=-0.02, at_most=0.4)
@@ -124,11 +120,10 @@ def test_soft_and_stiff(case):
     effort(case, "soft-and-stiff", trial)
 
 
+@pytest.mark.release
 def test_soft_half(case):
     """The stiff half cannot be squeezed: what it grows the other one loses."""
-    small = {} if case.full else {"Dimension": "2", "Time/End time": "1.5",
-                                  "Boundary conditions/Fixed where": "-Y + 0.01"}
-    figures = case.trial("soft-half", "soft-half.prm", small).figures()
+    figures = case.trial("soft-half", "soft-half.prm").figures()
     case.found("rejected steps, soft half", figures["rejected"], at_most=2)
     case.found("smallest J_e, soft half", figures["smallest J_e"], at_least=0.01,
                at_most=0.1)

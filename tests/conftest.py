@@ -9,6 +9,7 @@ import pytest
 
 pytest.register_assert_rewrite("tests.common")
 
+from tests.common.cases import Case, Table  # noqa: E402
 from tests.common.program import ProgramTest, Runs  # noqa: E402
 
 BUILD = Path(__file__).resolve().parents[1] / "build"
@@ -24,6 +25,10 @@ def pytest_addoption(parser):
                      help="directory for the runs")
     parser.addoption("--ring", default=os.environ.get("MORULA_RING", "check"),
                      choices=RINGS, help="which tests: each ring has the former")
+    parser.addoption("--update", action="store_true",
+                     help="write the references of scenes instead of comparing")
+    parser.addoption("--tables", type=Path,
+                     help="directory for the tables of verification and hard cases")
 
 
 def pytest_configure(config):
@@ -59,3 +64,24 @@ def fresh(request):
     """The same for one test, in a directory that is empty."""
     name = re.sub(r"\W+", "-", request.node.name)[:80]
     return Runs(request.config.option, f"{request.module.__name__}/{name}")
+
+
+@pytest.fixture(scope="module")
+def table(request):
+    """The table of a case; --tables DIR: written as DIR/NAME.md."""
+    rows = Table()
+    yield rows
+    if request.config.option.tables and rows.parts:
+        name = request.module.__name__.rpartition(".test_")[2]
+        folder = request.config.option.tables
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / f"{name}.md").write_text(rows.markdown(), encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def case(request, table):
+    """A hard case, or one of verification."""
+    runs = Case(request.config.option, request.module.__name__, table)
+    yield runs
+    if request.config.option.tables:
+        runs.finish()

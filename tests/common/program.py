@@ -14,6 +14,7 @@ from tests.common import forks
 from tests.common.results import read_csv
 
 TESTS = Path(__file__).resolve().parents[1]
+ROOT = TESTS.parent
 SCENES = TESTS / "scenes"
 
 

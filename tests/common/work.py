@@ -2,8 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The work that a run has done, counted, not timed: a change that costs more
 shows on any machine."""
-import csv
-import re
+from morula.run import Run
 
 # Iterations depend on the rounding, that is on the processor.
 TOLERANCE = 0.1
@@ -22,46 +21,29 @@ def flop_per_point(dim):
     return dim * n * (n + 1) + dim * (dim - 1) // 2 * 4 * n * n
 
 
-def read(path):
-    with open(path, newline="") as stream:
-        return list(csv.DictReader(stream))
-
-
 def counters(output):
     """name -> number, of a run's output directory."""
-    rows = read(output / "statistics.csv")
-    calls = {row["section"]: int(row["calls"])
-             for row in read(output / "timings.csv")}
-    dim = int(re.search(r"set Dimension *= *(\d)",
-                        (output / "parameters.prm").read_text())[1])
-
-    def total(name):
-        return sum(int(row[name]) for row in rows[1:])
+    run = Run(output)
+    rows, calls = run.statistics, run.timings["calls"]
+    totals = rows[1:].sum()
+    newton = int(totals["newton_iterations"])
+    tangents = int(calls.get("tangent", 0))
     # Steps take tangents in the same proportion as Newton iterations.
-    points = sum(int(before["cells"]) * int(row["newton_iterations"])
-                 for before, row in zip(rows, rows[1:]))
-    points = (points * calls.get("tangent", 0)
-              // max(total("newton_iterations"), 1))
-    return {"unknowns": total("unknowns"),
-            "newton_iterations": total("newton_iterations"),
-            "linear_iterations": total("linear_iterations"),
-            "tangents": calls.get("tangent", 0),
-            "residuals": calls.get("residual", 0),
-            "preconditioners": calls.get("preconditioner", 0),
-            "tangent_kflop": points * flop_per_point(dim) // 1000}
+    points = (rows["cells"].shift()[1:] * rows["newton_iterations"][1:]).sum()
+    points = int(points) * tangents // max(newton, 1)
+    return {"unknowns": int(totals["unknowns"]),
+            "newton_iterations": newton,
+            "linear_iterations": int(totals["linear_iterations"]),
+            "tangents": tangents,
+            "residuals": int(calls.get("residual", 0)),
+            "preconditioners": int(calls.get("preconditioner", 0)),
+            "tangent_kflop": points * flop_per_point(run.dimension) // 1000}
 
 
-def write(path, found):
-    with open(path, "w") as stream:
-        stream.write("counter,value\n")
-        stream.writelines(f"{name},{value}\n" for name, value in found.items())
-
-
-def excess(found, reference, ranks):
-    """What was done more often than in the reference, or less often: then the
-    reference is to be renewed. A list of texts."""
+def excess(found, usual_work, ranks):
+    """What was done more often than usual, or less often: then the reference is to be
+    renewed. A list of texts."""
     texts = []
-    usual_work = {row["counter"]: int(row["value"]) for row in read(reference)}
     for name, usual in usual_work.items():
         lower, upper = usual * (1 - TOLERANCE), usual * (1 + TOLERANCE)
         if ranks > 1 and name == "linear_iterations":

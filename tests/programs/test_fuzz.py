@@ -27,7 +27,7 @@ ORIGINALS = [
     "prm/verification/slip-full-2d.prm", "prm/verification/vortex-2d.prm",
     *(f"tests/scenes/{name}.prm" for name in (
         "balance-pressure", "balance-traction", "confined-growth-2d", "cylinder", "ellipsoid",
-        "free-growth-options", "free-growth-points", "mesh-pressure", "points-free",
+        "mesh-pressure", "points-free",
         "proliferating-cube", "proliferating-disc", "rigid-motion-2d", "self-weight-h40"))]
 
 NUMBERS = ["0", "-0", "-1", "1e-300", "-1e300", "1e300", "1e999", "nan", "-nan", "inf", "-inf",

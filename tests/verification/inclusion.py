@@ -66,7 +66,3 @@ def mean_energy(E_core, E_shell, nu, theta):
     centre = numpy.log(s / theta)
     return (density(core, centre, centre) * CORE**2
             + numpy.average(density(shell, a, b), weights=R) * (1 - CORE**2))
-
-
-if __name__ == "__main__":
-    print(mean_energy(1000.0, 1.0, 0.4, 1.1))

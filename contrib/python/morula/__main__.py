@@ -22,7 +22,7 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "parameters": "upkeep.parameters",
     "man-pages": "upkeep.man_pages", "renew": "upkeep.renew",
     "showcase": "upkeep.showcase.tool",
-    "benchmark": "tests.benchmarks.tool", "cases": "tests.cases.tool"}
+    "benchmark": "tests.benchmarks.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
             "numpy": "python3-numpy", "scipy": "python3-scipy",

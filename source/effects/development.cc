@@ -218,7 +218,7 @@ namespace Morula
     // is not touched here: the motion of the step updates it afterwards. Rows
     // that were not kept are computed again from the same committed state and
     // the same times, and so come out the same to the last bit.
-    if (!present())
+    if (!grows() && !keeps_rows)
       return;
     const CellReader<dim>  reader = this->reader(t0, of_step.past);
     std::vector<double>    row;

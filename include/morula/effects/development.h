@@ -137,11 +137,11 @@ namespace Morula
              !effects.flows.empty() || is_mortal();
     }
 
-    /** Whether any effect changes cells. */
+    /** Whether a step changes what cells are or how stiff they are. */
     bool
     present() const
     {
-      return grows() || keeps_rows;
+      return grows() || keeps_rows || material.depends_on_state();
     }
 
     /** The cell cycle, or null. */

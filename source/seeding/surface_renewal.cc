@@ -432,12 +432,13 @@ namespace Morula
                  const std::function<SurfaceCondition(
                    const Point<dim> &, const Tensor<1, dim> &)> &condition,
                  types::particle_index                          &next_id,
-                 const MPI_Comm                                  comm)
+                 const MPI_Comm                                  comm,
+                 const std::optional<unsigned int>              &body)
   {
     // As in renewed_surface(), with two differences. All present points stay,
     // as their cells do. The patches of the cuts have no former point whose
     // condition they could take; so each is decided about as at t = 0.
-    const PointList<dim>  all         = volumes_of_all_ranks(cells, comm);
+    const PointList<dim>  all = volumes_of_all_ranks(cells, comm, body);
     const PointList<dim>  all_present = of_all_ranks(present, comm);
     PointList<dim>        list(columns.n_numbers());
     types::particle_index n_new = 0;
@@ -461,11 +462,13 @@ namespace Morula
       for (const SurfacePatch<dim> &patch :
            patches_of_cuts(kept, *around, std::pow(area, 1. / (dim - 1))))
         {
-          const std::vector<double> row =
+          std::vector<double> row =
             columns.initial_point(patch.position,
                                   patch.normal,
                                   patch.area,
                                   condition(patch.position, patch.normal));
+          if (body)
+            columns.body.set(make_array_view(row), *body);
           list.add(next_id + n_new++, patch.position, make_array_view(row));
         }
     });

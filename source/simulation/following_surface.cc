@@ -64,6 +64,22 @@ namespace Morula
              largest_stretch * std::sqrt(dim);
     }
 
+    /** The points of body number @p b. */
+    template <int dim>
+    PointList<dim>
+    of_body(const PointList<dim>       &list,
+            const BoundaryColumns<dim> &columns,
+            const unsigned int          b)
+    {
+      PointList<dim> some(list.n_numbers);
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (columns.body.get(list.row(i)) == b)
+          some.add(list.ids[i],
+                   list.positions[i],
+                   ArrayView<const double>(list.row(i)));
+      return some;
+    }
+
     /** What a renewed surface shall be like in a scene. */
     SurfaceWish
     wish_of(const Scene &scene)
@@ -129,19 +145,32 @@ namespace Morula
     if (!exists_)
       return {};
     // The conditions of the new patches are decided here, as those of all
-    // patches at t = 0. Rank 0 makes them, and none where the cells have no
-    // common surface.
-    const auto list = carved_surface<dim>(
-      tissue.cells(),
-      tissue.boundary_points().copy(),
-      tissue.boundary_points().columns(),
-      [this](const Point<dim> &x, const Tensor<1, dim> &n) {
-        return model.boundary_conditions.condition(x, n);
-      },
-      next_id,
-      comm);
-    if (list)
-      tissue.replace_surface(*list);
+    // patches at t = 0. Rank 0 makes them, around the cells of each body, and
+    // none where these have no common surface.
+    const BoundaryPoints<dim> &points  = tissue.boundary_points();
+    const PointList<dim>       present = points.copy();
+    const auto                 add_cuts = [&](const PointList<dim>              &of_these,
+                              const std::optional<unsigned int> &body,
+                              PointList<dim>                    &list) {
+      const auto carved = carved_surface<dim>(
+        tissue.cells(),
+        of_these,
+        points.columns(),
+        [this](const Point<dim> &x, const Tensor<1, dim> &n) {
+          return model.boundary_conditions.condition(x, n);
+        },
+        next_id,
+        comm,
+        body);
+      list.append(carved ? *carved : of_these);
+    };
+    PointList<dim> list(points.columns().n_numbers());
+    if (!points.has_bodies())
+      add_cuts(present, {}, list);
+    else
+      for (unsigned int b = 0; b < n_bodies(tissue); ++b)
+        add_cuts(of_body(present, points.columns(), b), b, list);
+    tissue.replace_surface(list);
     return begin(tissue);
   }
 
@@ -394,20 +423,8 @@ namespace Morula
     const Cells<dim>          &cells   = tissue.cells();
     const BoundaryPoints<dim> &points  = tissue.boundary_points();
     const auto                &columns = points.columns();
-    const auto of_body = [&](const PointList<dim> &list, const unsigned int b) {
-      PointList<dim> some(list.n_numbers);
-      for (std::size_t i = 0; i < list.size(); ++i)
-        if (columns.body.get(list.row(i)) == b)
-          some.add(list.ids[i],
-                   list.positions[i],
-                   ArrayView<const double>(list.row(i)));
-      return some;
-    };
-    unsigned int n = 0;
-    for (const unsigned int body : cells.bodies())
-      n = std::max(n, body + 1);
-    n = Utilities::MPI::max(n, comm);
-    std::vector<double> volumes(n, 0.);
+    const unsigned int         n       = n_bodies(tissue);
+    std::vector<double>        volumes(n, 0.);
     for (unsigned int p = 0; p < cells.size(); ++p)
       volumes[cells.body(p)] += cells.volume(p);
     Utilities::MPI::sum(volumes, comm, volumes);
@@ -419,14 +436,14 @@ namespace Morula
           continue;
         if (!selects(b))
           {
-            list.append(of_body(points.copy(), b));
+            list.append(of_body(points.copy(), columns, b));
             continue;
           }
         SurfaceWish of_this = wish;
         of_this.volume *= volumes[b] / all;
         const auto more = renewed_surface(cells,
-                                          of_body(former, b),
-                                          of_body(points.copy(), b),
+                                          of_body(former, columns, b),
+                                          of_body(points.copy(), columns, b),
                                           columns,
                                           of_this,
                                           longest_edge,

@@ -62,6 +62,8 @@ namespace Morula
    * @param condition what holds or loads a point of t = 0 at this place (µm)
    *        with this outward unit normal
    * @param next_id is raised by the number of new points
+   * @param body the cells are those of this body alone, if given, and so are the
+   *        @p present points
    * @return all points, on rank 0; nothing if the cells have no common surface
    */
   template <int dim>
@@ -72,7 +74,8 @@ namespace Morula
                  const std::function<SurfaceCondition(
                    const Point<dim> &, const Tensor<1, dim> &)> &condition,
                  types::particle_index                          &next_id,
-                 const MPI_Comm                                  comm);
+                 const MPI_Comm                                  comm,
+                 const std::optional<unsigned int>              &body = {});
 } // namespace Morula
 
 #endif

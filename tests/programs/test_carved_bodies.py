@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 by the Morula authors
+"""Cells that die at t = 0 in a scene with contact: the tissue is carved before its first
+step, and the surface of each body that they leave is closed again."""
+import pytest
+
+CARVED = {"Dimension": 2, "Time/End time": 0.2, "Time/Step": 0.1, "Output/Formats": "csv",
+          "Tissue/Radius": 60, "Tissue/Cell spacing": 10, "Grid/Spacing": 20,
+          "Death/Shrinking time": 0, "Contact/Between": "bodies"}
+BY_TYPE = {"Cell types/Names": "a, b", "Cell types/b/Where": "X > 0",
+           "Contact/Bodies": "cell type", "Death/When": "X > 10"}
+DISCS = "\n".join(["x,y", *(f"{x + side * 45},{y}" for side in (-1, 1)
+                           for x in range(-35, 40, 5) for y in range(-35, 40, 5)
+                           if x * x + y * y < 1250)])
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("name", ["by type", "apart"])
+def test_surface(runs, name, ranks):
+    keys = dict(CARVED)
+    if name == "by type":
+        keys |= BY_TYPE
+    else:
+        keys |= {"Tissue/Shape": "points", "Tissue/Cell spacing": 5, "Grid/Spacing": 10,
+                 "Tissue/Points file": runs.write("discs.csv", DISCS + "\n"),
+                 "Death/When": "X > 60"}
+    rows = runs.run(f"{name.split()[-1]}-{ranks}", keys, ranks=ranks).statistics
+    enclosed, volume = rows["enclosed_volume"], rows["total_volume"]
+    assert enclosed.tolist() == pytest.approx(volume.tolist(), rel=0.01)
+    assert rows["removed"].iloc[0] > 20
+    assert rows["removed"].iloc[1:].sum() == 0

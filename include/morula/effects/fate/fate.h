@@ -155,8 +155,8 @@ namespace Morula
     virtual void
     grow(const PresentCell<dim> & /*before*/,
          const CellView<dim, double> & /*cell*/,
-         const double /*t1*/,
-         const Stretch & /*ratio*/) const
+         const double /*ratio*/,
+         const Stretch & /*step*/) const
     {}
 
     /** When the cell divides by this fate, if at or before @p t; day; infinity:

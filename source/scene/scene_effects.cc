@@ -162,7 +162,12 @@ namespace Morula
     const auto make_fates = [&](const bool that_grow) {
       for (const auto &choice : catalogue.fates)
         if (choice.keys().is_on() && choice.keys().grows_cells() == that_grow)
-          fates.push_back(make(choice));
+          {
+            fates.push_back(make(choice));
+            // The dead may shrink, whatever else grows.
+            if (fates.back()->is_deadly())
+              effects.columns.need_growth();
+          }
     };
     make_fates(true);
     std::unique_ptr<CellTypes<dim>> types;

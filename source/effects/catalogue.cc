@@ -37,54 +37,154 @@ namespace Morula
 {
   namespace
   {
+    Catalogue::Settings
+    with(Catalogue::Settings settings, const Catalogue::Settings &more)
+    {
+      settings.insert(settings.end(), more.begin(), more.end());
+      return settings;
+    }
+
+
     /** Adds one of the library's own effects. Its section is empty, as its keys
      *  know their full paths; an effect of a user's program gets a section. */
     template <template <int> class Effect, template <int> class Interface>
     void
-    add(Choices<Interface> &choices, const std::string &name)
+    add(Choices<Interface>        &choices,
+        const std::string         &name,
+        const Catalogue::Settings &example)
     {
-      choices.push_back(Choice<Interface>::template of<Effect>(name, ""));
+      choices.push_back(
+        Choice<Interface>::template of<Effect>(name, "", example));
     }
   } // namespace
 
 
   Catalogue::Catalogue()
   {
+    // Parts of the examples.
+    const std::string cycle  = "Proliferation/Cell cycle/";
+    const Settings    uneven = {
+      "Growth/Law=isotropic",
+      "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"};
+    const Settings growing   = {"Growth/Law=rate",
+                                "Growth/Rate/Rate=J_e + 0.1*X*Y"};
+    const Settings held      = {"Boundary conditions/Fixed where=X + Y < -2"};
+    const Settings two_types = {"Cell types/Names=a, b",
+                                "Cell types/b/Where=X*Y > 0"};
+    const Settings cycling   = {"Proliferation/Law=cell cycle",
+                                cycle + "Start=together",
+                                cycle + "Duration=0.4",
+                                cycle + "Division axis=fixed",
+                                cycle + "Fixed axis=1; 1; 0"};
+    const auto     dividing  = [&](const std::string &axis) {
+      return with(growing,
+                       {"Division by size/Volume=1.1",
+                   cycle + "Division axis=" + axis,
+                   cycle + "Least anisotropy=1"});
+    };
+
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
     // factors and flows are applied in it as well, so a new effect belongs at
     // the end of its kind.
-    add<IsotropicGrowth>(growth_laws, "isotropic");
-    add<RateGrowth>(growth_laws, "rate");
-    add<Contraction>(growth_factors, "contraction");
-    add<Relaxation>(flows, "relaxation");
-    add<Proliferation>(fates, "cell cycle");
-    add<DivisionBySize>(fates, "division by size");
-    add<Death>(fates, "death");
-    add<Extrusion>(fates, "extrusion");
-    add<Fields>(equations, "fields");
-    add<FixedAxis>(division_rules, "fixed");
-    add<StretchAxis>(division_rules, "stretch");
-    add<StressAxis>(division_rules, "stress");
-    add<RadialAxis>(division_rules, "radial");
-    add<SurfaceNormalAxis>(division_rules, "surface normal");
-    add<TangentialAxis>(division_rules, "tangential");
-    add<Rearrangement>(step_effects, "rearrangement");
-    add<NeighbourColumns>(step_effects, "neighbours");
-    add<PresentDepth>(step_effects, "present depth");
-    add<CellShapeAxis>(division_rules, "cell shape");
-    add<BodyForce>(forces, "body force");
-    add<Friction>(forces, "friction");
-    add<TypeTension>(forces, "type tension");
-    add<Fixed>(boundary_conditions, "fixed");
-    add<Slip>(boundary_conditions, "slip");
-    add<Traction>(boundary_conditions, "traction");
-    add<Pressure>(boundary_conditions, "pressure");
-    add<SurfaceTension>(boundary_conditions, "surface tension");
-    add<Lumen>(boundary_conditions, "lumen");
-    add<Obstacles>(boundary_conditions, "obstacles");
-    add<TypeSurfaceTension>(boundary_conditions, "type surface tension");
-    add<Contact>(interactions, "contact");
+    add<IsotropicGrowth>(growth_laws, "isotropic", uneven);
+    add<RateGrowth>(growth_laws, "rate", growing);
+    add<Contraction>(growth_factors,
+                     "contraction",
+                     {"Contraction/Stretch=1 - 0.2*t",
+                      "Contraction/Direction=1; 1; 0"});
+    add<Relaxation>(flows,
+                    "relaxation",
+                    with(uneven, {"Material/Relaxation time=0.2"}));
+    add<Proliferation>(fates, "cell cycle", cycling);
+    add<DivisionBySize>(fates, "division by size", dividing("random"));
+    add<Death>(fates,
+               "death",
+               {"Material/Energy per=grown volume",
+                "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
+                "Death/Shrinking time=0.2"});
+    add<Extrusion>(fates, "extrusion", {"Extrusion/Rate=1"});
+    add<Fields>(equations,
+                "fields",
+                {"Fields/Names=signal",
+                 "Fields/signal/Time=transient",
+                 "Fields/signal/Diffusion=1",
+                 "Fields/signal/Consumption=signal",
+                 "Fields/signal/Initial=1 + 0.1*X*Y",
+                 "Fields/signal/Fixed where=X + Y > 2"});
+    add<FixedAxis>(division_rules, "fixed", cycling);
+    add<StretchAxis>(division_rules, "stretch", dividing("stretch"));
+    add<StressAxis>(division_rules, "stress", dividing("stress"));
+    add<RadialAxis>(division_rules, "radial", dividing("radial"));
+    add<SurfaceNormalAxis>(division_rules,
+                           "surface normal",
+                           dividing("surface normal"));
+    add<TangentialAxis>(division_rules, "tangential", dividing("tangential"));
+    add<Rearrangement>(step_effects,
+                       "rearrangement",
+                       {"Rearrangement/Diffusion=1"});
+    add<NeighbourColumns>(step_effects,
+                          "neighbours",
+                          {"Growth/Law=rate",
+                           "Growth/Rate/Rate=0.1*neighbours"});
+    add<PresentDepth>(step_effects,
+                      "present depth",
+                      {"Growth/Law=rate",
+                       "Growth/Rate/Rate=0.2*present_depth"});
+    add<CellShapeAxis>(division_rules, "cell shape", dividing("cell shape"));
+    add<BodyForce>(forces,
+                   "body force",
+                   with(held, {"Body force/Force density=0.01*x; 0.01*y; 0"}));
+    add<Friction>(forces,
+                  "friction",
+                  with(uneven, {"Friction/Coefficient=0.1"}));
+    add<TypeTension>(forces,
+                     "type tension",
+                     with(two_types, {"Cell types/a/Tension/With b=0.1"}));
+    add<Fixed>(boundary_conditions,
+               "fixed",
+               with(held,
+                    {"Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
+    add<Slip>(boundary_conditions,
+              "slip",
+              with(uneven,
+                   {"Boundary conditions/Slip where=X + Y < -2",
+                    "Friction/Coefficient=0.1"}));
+    add<Traction>(boundary_conditions,
+                  "traction",
+                  with(held,
+                       {"Boundary conditions/Traction where=X + Y > 2",
+                        "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
+    add<Pressure>(boundary_conditions,
+                  "pressure",
+                  with(held,
+                       {"Boundary conditions/Pressure where=X + Y > 2",
+                        "Boundary conditions/Pressure=0.1"}));
+    add<SurfaceTension>(boundary_conditions,
+                        "surface tension",
+                        {"Boundary conditions/Surface tension=0.1"});
+    add<Lumen>(boundary_conditions,
+               "lumen",
+               {"Dimension=2",
+                "Tissue/Radius=5",
+                "Tissue/Inner radius=3",
+                "Boundary conditions/Lumen where=X*X + Y*Y < 16",
+                "Boundary conditions/Lumen volume=1 + 0.5*t"});
+    add<Obstacles>(boundary_conditions,
+                   "obstacles",
+                   with(uneven,
+                        {"Obstacles/Names=mould",
+                         "Obstacles/mould/Shape=sphere",
+                         "Obstacles/mould/Side=inside",
+                         "Obstacles/mould/Radius=3.01"}));
+    add<TypeSurfaceTension>(boundary_conditions,
+                            "type surface tension",
+                            with(two_types,
+                                 {"Cell types/b/Tension/With surface=0.1"}));
+    add<Contact>(interactions,
+                 "contact",
+                 with(uneven,
+                      {"Contact/Between=all", "Tissue/Refine surface=true"}));
   }
 
 
@@ -113,6 +213,17 @@ namespace Morula
     std::vector<const EffectKeys *> list;
     for_each(*this,
              [&list](const auto &choice) { list.push_back(&choice.keys()); });
+    return list;
+  }
+
+
+  std::vector<std::pair<std::string, Catalogue::Settings>>
+  Catalogue::examples() const
+  {
+    std::vector<std::pair<std::string, Settings>> list;
+    for_each(*this, [&list](const auto &choice) {
+      list.emplace_back(choice.name(), choice.example());
+    });
     return list;
   }
 

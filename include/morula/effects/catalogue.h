@@ -21,6 +21,7 @@
 #include <deal.II/base/exceptions.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -34,6 +35,9 @@ namespace Morula
   class Catalogue
   {
   public:
+    /** See Choice::example(). */
+    using Settings = std::vector<std::string>;
+
     /** The library's own effects. */
     Catalogue();
 
@@ -41,101 +45,106 @@ namespace Morula
      *  `Growth/<Name>`. See Choice::of(). */
     template <template <int> class Law>
     void
-    add_growth_law(const std::string &name)
+    add_growth_law(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Law>(growth_laws, "Growth/", name);
+      add_in_section<Law>(growth_laws, "Growth/", name, example);
     }
 
     /** Adds a rule that `Proliferation/Cell cycle/Division axis` can name; its
      *  keys stand in `Proliferation/Cell cycle/<Name>`. */
     template <template <int> class Rule>
     void
-    add_division_rule(const std::string &name)
+    add_division_rule(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Rule>(division_rules, "Proliferation/Cell cycle/", name);
+      add_in_section<Rule>(division_rules,
+                           "Proliferation/Cell cycle/",
+                           name,
+                           example);
     }
 
     /** Adds a force. A scene has it if its keys say so; they stand in `<Name>`.
      */
     template <template <int> class AddedForce>
     void
-    add_force(const std::string &name)
+    add_force(const std::string &name, const Settings &example = {})
     {
-      add_in_section<AddedForce>(forces, "", name);
+      add_in_section<AddedForce>(forces, "", name, example);
     }
 
     /** Adds a factor of F_g, left of those before. A scene has it if its keys
      *  say so; they stand in `<Name>`. */
     template <template <int> class Factor>
     void
-    add_growth_factor(const std::string &name)
+    add_growth_factor(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Factor>(growth_factors, "", name);
+      add_in_section<Factor>(growth_factors, "", name, example);
     }
 
     /** Adds a flow, which acts after those before. A scene has it if its keys
      *  say so; they stand in `<Name>`. */
     template <template <int> class AddedFlow>
     void
-    add_flow(const std::string &name)
+    add_flow(const std::string &name, const Settings &example = {})
     {
-      add_in_section<AddedFlow>(flows, "", name);
+      add_in_section<AddedFlow>(flows, "", name, example);
     }
 
     /** Adds a trait. A scene has it if its keys say so; they stand in `<Name>`.
      */
     template <template <int> class AddedTrait>
     void
-    add_trait(const std::string &name)
+    add_trait(const std::string &name, const Settings &example = {})
     {
-      add_in_section<AddedTrait>(traits, "", name);
+      add_in_section<AddedTrait>(traits, "", name, example);
     }
 
     /** Adds a step effect, whose moments come after those before. A scene has
      * it if its keys say so; they stand in `<Name>`. */
     template <template <int> class Added>
     void
-    add_step_effect(const std::string &name)
+    add_step_effect(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Added>(step_effects, "", name);
+      add_in_section<Added>(step_effects, "", name, example);
     }
 
     /** Adds a fate, which is asked after those before. A scene has it if its
      *  keys say so; they stand in `<Name>`. */
     template <template <int> class AddedFate>
     void
-    add_fate(const std::string &name)
+    add_fate(const std::string &name, const Settings &example = {})
     {
-      add_in_section<AddedFate>(fates, "", name);
+      add_in_section<AddedFate>(fates, "", name, example);
     }
 
     /** Adds an equation, found after those before. A scene has it if its keys
      *  say so; they stand in `<Name>`. */
     template <template <int> class Added>
     void
-    add_equation(const std::string &name)
+    add_equation(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Added>(equations, "", name);
+      add_in_section<Added>(equations, "", name, example);
     }
 
     /** Adds an interaction of bodies. A scene has it if its keys say so; they
      *  stand in `<Name>`. */
     template <template <int> class Added>
     void
-    add_interaction(const std::string &name)
+    add_interaction(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Added>(interactions, "", name);
+      add_in_section<Added>(interactions, "", name, example);
     }
 
     /** Adds a condition on the surface. A scene has it if its keys say so; they
      *  stand in `Boundary conditions/<Name>`. */
     template <template <int> class Condition>
     void
-    add_boundary_condition(const std::string &name)
+    add_boundary_condition(const std::string &name,
+                           const Settings    &example = {})
     {
       add_in_section<Condition>(boundary_conditions,
                                 "Boundary conditions/",
-                                name);
+                                name,
+                                example);
     }
 
     /** The keys of an effect, by their type. */
@@ -168,6 +177,10 @@ namespace Morula
     /** The keys of each effect, kind by kind. */
     std::vector<const EffectKeys *>
     all_keys() const;
+
+    /** The name and the Choice::example() of each effect, kind by kind. */
+    std::vector<std::pair<std::string, Settings>>
+    examples() const;
 
     /** The tensions of the cells' types. @throws InputError if keys contradict
      *  each other */
@@ -212,11 +225,12 @@ namespace Morula
     void
     add_in_section(Choices<Interface> &choices,
                    const std::string  &around,
-                   const std::string  &name)
+                   const std::string  &name,
+                   const Settings     &example)
     {
       check_name(name);
-      choices.push_back(
-        Choice<Interface>::template of<Added>(name, section(around, name)));
+      choices.push_back(Choice<Interface>::template of<Added>(
+        name, section(around, name), example));
     }
 
     /** Calls @p action for all effects of all kinds of a catalogue, which may

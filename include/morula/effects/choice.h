@@ -28,10 +28,13 @@ namespace Morula
      *         it, and from an EffectSetting as well if its constructor takes
      *         one; it may throw InputError.
      * @param section in which the keys stand; empty: their paths are full
+     * @param example see example()
      */
     template <template <int> class Effect>
     static Choice
-    of(const std::string &name, const std::string &section)
+    of(const std::string              &name,
+       const std::string              &section,
+       const std::vector<std::string> &example)
     {
       using Parameters = typename Effect<3>::Parameters;
       static_assert(
@@ -39,6 +42,7 @@ namespace Morula
       Choice choice;
       choice.name_         = name;
       choice.section       = section;
+      choice.example_      = example;
       choice.make_defaults = []() -> std::unique_ptr<EffectKeys> {
         return std::make_unique<Parameters>();
       };
@@ -62,6 +66,7 @@ namespace Morula
     {
       name_         = other.name_;
       section       = other.section;
+      example_      = other.example_;
       make_defaults = other.make_defaults;
       clone         = other.clone;
       make_2        = other.make_2;
@@ -75,6 +80,16 @@ namespace Morula
     name() const
     {
       return name_;
+    }
+
+    /** Settings "PATH=value" by which a small ball of cells has the effect, in
+     *  2-D and 3-D, in four steps of a tenth of a day: what the tests of all
+     *  effects try it with. They are the same if x and y are exchanged; one of
+     *  one dimension alone says "Dimension=2" or "Dimension=3". */
+    const std::vector<std::string> &
+    example() const
+    {
+      return example_;
     }
 
     /** Whether its keys have a section of their own. */
@@ -137,6 +152,7 @@ namespace Morula
     }
 
     std::string                 name_, section;
+    std::vector<std::string>    example_;
     std::unique_ptr<EffectKeys> keys_;
     std::unique_ptr<EffectKeys> (*make_defaults)();
     std::unique_ptr<EffectKeys> (*clone)(const EffectKeys &);

@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/elastic_volumes.h>
-#include <morula/effects/step_points.h>
-#include <morula/mechanics/field_unknowns.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -107,45 +94,6 @@ namespace
     std::vector<double>                   ratios;
   };
 
-  /** In each grid cell the volumes are those that the displacement has made,
-   *  and each cell has as much of them as it has grown. */
-  template <int dim>
-  void
-  check_sums()
-  {
-    const Step<dim> step(14.);
-    // No cell is on a grid line, none is several points.
-    ASSERT_FALSE(
-      material_points(step.tissue, *step.space, step.growth, step.material)
-        .subdivided);
-    struct Sums
-    {
-      double moved = 0., kept = 0., smallest = 1e300, largest = 0.;
-    };
-    std::map<unsigned int, Sums> by_grid_cell;
-    const auto                  &cells = step.tissue.cells();
-    const GridBox<dim>          &box   = step.space->box();
-    step.field->at_points(
-      cells,
-      [&](const unsigned int       p,
-          const LocalField<dim>   &field,
-          const SplineValues<dim> &splines) {
-        Sums &sums = by_grid_cell[box.number(box.locate(cells.position(p)))];
-        sums.moved +=
-          cells.initial_volume(p) *
-          determinant(field.step_deformation(splines) * cells[p].F());
-        sums.kept += step.volume(p);
-        sums.smallest = std::min(sums.smallest, step.ratios[p]);
-        sums.largest  = std::max(sums.largest, step.ratios[p]);
-      });
-    EXPECT_GT(by_grid_cell.size(), 4u);
-    for (const auto &[number, sums] : by_grid_cell)
-      {
-        EXPECT_NEAR(sums.kept, sums.moved, 1e-12 * sums.moved);
-        EXPECT_EQ(sums.smallest, sums.largest);
-      }
-  }
-
   /** Cells of several points, some on grid lines, in grid cells of several
    *  ranks: the tissue keeps its volume. */
   template <int dim>
@@ -172,22 +120,48 @@ namespace
     kept  = Utilities::MPI::sum(kept, MPI_COMM_WORLD);
     EXPECT_NEAR(kept, moved, 1e-12 * moved);
   }
-
-  template <int dim>
-  void
-  check_totals()
-  {
-    check_total<dim>(31.); // some points a cell
-    check_total<dim>(20.); // lattice of which points lie on grid lines
-  }
 } // namespace
 
 
-TEST(ElasticVolumes,
-     AreThoseOfTheStepInEachGridCell){MORULA_BOTH_DIMENSIONS(check_sums)}
-
-
-TEST(ElasticVolumes, ConserveTheTissuesVolume)
+/** In each grid cell the volumes are those that the displacement has made,
+ *  and each cell has as much of them as it has grown. */
+TEST_2D_3D(ElasticVolumes, AreThoseOfTheStepInEachGridCell)
 {
-  MORULA_BOTH_DIMENSIONS(check_totals)
+  const Step<dim> step(14.);
+  // No cell is on a grid line, none is several points.
+  ASSERT_FALSE(
+    material_points(step.tissue, *step.space, step.growth, step.material)
+      .subdivided);
+  struct Sums
+  {
+    double moved = 0., kept = 0., smallest = 1e300, largest = 0.;
+  };
+  std::map<unsigned int, Sums> by_grid_cell;
+  const auto                  &cells = step.tissue.cells();
+  const GridBox<dim>          &box   = step.space->box();
+  step.field->at_points(
+    cells,
+    [&](const unsigned int       p,
+        const LocalField<dim>   &field,
+        const SplineValues<dim> &splines) {
+      Sums &sums = by_grid_cell[box.number(box.locate(cells.position(p)))];
+      sums.moved += cells.initial_volume(p) *
+                    determinant(field.step_deformation(splines) * cells[p].F());
+      sums.kept += step.volume(p);
+      sums.smallest = std::min(sums.smallest, step.ratios[p]);
+      sums.largest  = std::max(sums.largest, step.ratios[p]);
+    });
+  EXPECT_GT(by_grid_cell.size(), 4u);
+  for (const auto &[number, sums] : by_grid_cell)
+    {
+      EXPECT_NEAR(sums.kept, sums.moved, 1e-12 * sums.moved);
+      EXPECT_EQ(sums.smallest, sums.largest);
+    }
+}
+
+
+TEST_2D_3D(ElasticVolumes, ConserveTheTissuesVolume)
+{
+  check_total<dim>(31.); // some points a cell
+  check_total<dim>(20.); // lattice of which points lie on grid lines
 }

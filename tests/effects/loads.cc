@@ -1,51 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/dead_load.h>
-#include <morula/effects/surface/following_pressure.h>
-#include <morula/effects/surface/surface_energy.h>
-
-#include <deal.II/base/quadrature_lib.h>
-
-#include <gtest/gtest.h>
-
-#include <random>
-#include <vector>
-
-#include "common/finite_differences.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
-  template <int dim>
-  DeadLoad<dim>
-  random_dead_load(std::mt19937 &generator)
-  {
-    std::vector<Tensor<1, dim>> forces;
-    for (unsigned int p = 0; p < 3; ++p)
-      forces.push_back(5. * random_tensor<1, dim>(generator));
-    return {random_points_in_cell<dim>(generator, 3), forces};
-  }
-
-  template <int dim>
-  void
-  check_dead_load()
-  {
-    std::mt19937        generator(1);
-    const DeadLoad<dim> term  = random_dead_load<dim>(generator);
-    const auto          field = random_field<dim>(generator, 0.2);
-    EXPECT_TRUE(term.is_conservative());
-    const TermOnOneCell<dim> at(term, GrowthAt::current);
-    expect_near(at.energy_differences(field), at.residual(field), 1e-7);
-    for (const double entry : at.tangent(field))
-      EXPECT_EQ(entry, 0.);
-    // Dead: the same forces in any state.
-    expect_near(at.residual(random_field<dim>(generator, 0.2)),
-                at.residual(field),
-                0.);
-  }
-
   template <int dim>
   FollowingPressure<dim>
   random_pressure(std::mt19937 &generator)
@@ -54,16 +13,6 @@ namespace
     for (unsigned int p = 0; p < 3; ++p)
       loads.push_back({1.5 - p, 40. * random_tensor<1, dim>(generator)});
     return {random_points_in_cell<dim>(generator, 3), loads};
-  }
-
-  template <int dim>
-  void
-  check_pressure()
-  {
-    std::mt19937 generator(2);
-    const auto   term = random_pressure<dim>(generator);
-    EXPECT_FALSE(term.is_conservative());
-    expect_derivatives(term, random_field<dim>(generator, 0.2));
   }
 
   /**
@@ -118,48 +67,6 @@ namespace
   }
 
   template <int dim>
-  void
-  check_closed_surface()
-  {
-    constexpr unsigned int n = BSpline<dim>::n;
-    const double           h = 50., pressure = 1.3;
-    std::mt19937           generator(3);
-    const auto             term     = closed_surface<dim>(pressure, h);
-    const auto             field    = random_field<dim>(generator, 0.2);
-    const auto             velocity = random_field<dim>(generator, 0.2);
-    const auto             residual =
-      TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
-    double largest = 0.;
-    for (const double force : residual)
-      largest = std::max(largest, std::abs(force));
-    ASSERT_GT(largest, 0.);
-    double power = 0.;
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        double sum = 0.; // splines sum up to 1: the resultant
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            sum += residual[i * n + a];
-            power += residual[i * n + a] * velocity.coefficient[i][a];
-          }
-        EXPECT_NEAR(sum, 0., 1e-12 * largest);
-      }
-
-    // R·v = p dV/dt: the residual has the loads with a minus.
-    const double eps   = 1e-3;
-    const auto   moved = [&](const double by) {
-      LocalField<dim> result = field;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < n; ++a)
-          result.coefficient[i][a] += by * velocity.coefficient[i][a];
-      return result;
-    };
-    const double rate =
-      (box_volume(moved(eps), h) - box_volume(moved(-eps), h)) / (2. * eps);
-    EXPECT_NEAR(power, pressure * rate, 1e-6 * std::abs(power));
-  }
-
-  template <int dim>
   SurfaceEnergy<dim>
   random_tension(std::mt19937 &generator)
   {
@@ -168,89 +75,93 @@ namespace
       loads.push_back({1.5 * p, 40. * random_tensor<1, dim>(generator)});
     return {random_points_in_cell<dim>(generator, 3), loads};
   }
-
-  template <int dim>
-  void
-  check_tension()
-  {
-    std::mt19937 generator(5);
-    const auto   term = random_tension<dim>(generator);
-    EXPECT_TRUE(term.is_conservative());
-    expect_derivatives(term, random_field<dim>(generator, 0.2));
-  }
-
-  /** A patch under an affine map: the energy is that of the area gained. */
-  template <int dim>
-  void
-  check_stretched_patch()
-  {
-    const double       tension = 3., area = 7.;
-    GroupedPoints<dim> points{{0, 1}, {Point<dim>()}, 50.};
-    points.xi[0][0] = 0.3;
-    Tensor<1, dim> a;
-    a[0] = area;
-    const SurfaceEnergy<dim> term(points, {{tension, a}});
-    const TermOnOneCell<dim> at(term, GrowthAt::current);
-    Tensor<2, dim>           A; // stretches of 1.5, 1.2 (and 1.1), a shear
-    A[0][0]                 = 0.5;
-    A[1][1]                 = 0.2;
-    A[dim - 1][dim - 1]     = dim == 3 ? 0.1 : 0.2;
-    const double in_plane   = dim == 3 ? 1.2 * 1.1 : 1.2;
-    const auto   displaced  = affine_field(Tensor<1, dim>(), A, 50.);
-    const double difference = tension * area * (in_plane - 1.);
-    EXPECT_NEAR(at.energy(displaced), difference, 1e-12 * area);
-    // Along its normal a patch feels nothing.
-    const auto residual = at.residual(displaced);
-    double     largest  = 0.;
-    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-      {
-        EXPECT_NEAR(residual[a], 0., 1e-12);
-        largest = std::max(largest, std::abs(residual[BSpline<dim>::n + a]));
-      }
-    EXPECT_GT(largest, 0.01);
-  }
-
-  template <int dim>
-  void
-  check_inversion()
-  {
-    std::mt19937   generator(4);
-    const auto     term    = random_pressure<dim>(generator);
-    const auto     tension = random_tension<dim>(generator);
-    Tensor<2, dim> mirror;
-    mirror[0][0] = -2.5;
-    for (const auto wanted :
-         {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
-      for (const Term<dim> *load :
-           std::vector<const Term<dim> *>{&term, &tension})
-        EXPECT_TRUE(
-          TermOnOneCell<dim>(*load, GrowthAt::current)
-            .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));
-  }
 } // namespace
 
 
-TEST(DeadLoad,
-     ResidualIsTheEnergysDerivative){MORULA_BOTH_DIMENSIONS(check_dead_load)}
-
-
-TEST(FollowingPressure,
-     TangentIsTheResidualsDerivative){MORULA_BOTH_DIMENSIONS(check_pressure)}
-
-
-TEST(FollowingPressure, OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume){
-  MORULA_BOTH_DIMENSIONS(check_closed_surface)}
-
-
-TEST(SurfaceEnergy, ResidualAndTangentAreTheEnergysDerivatives){
-  MORULA_BOTH_DIMENSIONS(check_tension)}
-
-
-TEST(SurfaceEnergy,
-     IsThatOfTheAreaGained){MORULA_BOTH_DIMENSIONS(check_stretched_patch)}
-
-
-TEST(SurfaceLoads, NoticeInversion)
+TEST_2D_3D(FollowingPressure,
+           OnAClosedSurfaceHasNoResultantAndDoesWorkOnTheVolume)
 {
-  MORULA_BOTH_DIMENSIONS(check_inversion)
+  constexpr unsigned int n = BSpline<dim>::n;
+  const double           h = 50., pressure = 1.3;
+  std::mt19937           generator(3);
+  const auto             term     = closed_surface<dim>(pressure, h);
+  const auto             field    = random_field<dim>(generator, 0.2);
+  const auto             velocity = random_field<dim>(generator, 0.2);
+  const auto             residual =
+    TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
+  double largest = 0.;
+  for (const double force : residual)
+    largest = std::max(largest, std::abs(force));
+  ASSERT_GT(largest, 0.);
+  double power = 0.;
+  for (unsigned int i = 0; i < dim; ++i)
+    {
+      double sum = 0.; // splines sum up to 1: the resultant
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          sum += residual[i * n + a];
+          power += residual[i * n + a] * velocity.coefficient[i][a];
+        }
+      EXPECT_NEAR(sum, 0., 1e-12 * largest);
+    }
+
+  // R·v = p dV/dt: the residual has the loads with a minus.
+  const double eps   = 1e-3;
+  const auto   moved = [&](const double by) {
+    LocalField<dim> result = field;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int a = 0; a < n; ++a)
+        result.coefficient[i][a] += by * velocity.coefficient[i][a];
+    return result;
+  };
+  const double rate =
+    (box_volume(moved(eps), h) - box_volume(moved(-eps), h)) / (2. * eps);
+  EXPECT_NEAR(power, pressure * rate, 1e-6 * std::abs(power));
+}
+
+
+/** A patch under an affine map: the energy is that of the area gained. */
+TEST_2D_3D(SurfaceEnergy, IsThatOfTheAreaGained)
+{
+  const double       tension = 3., area = 7.;
+  GroupedPoints<dim> points{{0, 1}, {Point<dim>()}, 50.};
+  points.xi[0][0] = 0.3;
+  Tensor<1, dim> a;
+  a[0] = area;
+  const SurfaceEnergy<dim> term(points, {{tension, a}});
+  const TermOnOneCell<dim> at(term, GrowthAt::current);
+  Tensor<2, dim>           A; // stretches of 1.5, 1.2 (and 1.1), a shear
+  A[0][0]                 = 0.5;
+  A[1][1]                 = 0.2;
+  A[dim - 1][dim - 1]     = dim == 3 ? 0.1 : 0.2;
+  const double in_plane   = dim == 3 ? 1.2 * 1.1 : 1.2;
+  const auto   displaced  = affine_field(Tensor<1, dim>(), A, 50.);
+  const double difference = tension * area * (in_plane - 1.);
+  EXPECT_NEAR(at.energy(displaced), difference, 1e-12 * area);
+  // Along its normal a patch feels nothing.
+  const auto residual = at.residual(displaced);
+  double     largest  = 0.;
+  for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+    {
+      EXPECT_NEAR(residual[a], 0., 1e-12);
+      largest = std::max(largest, std::abs(residual[BSpline<dim>::n + a]));
+    }
+  EXPECT_GT(largest, 0.01);
+}
+
+
+TEST_2D_3D(SurfaceLoads, NoticeInversion)
+{
+  std::mt19937   generator(4);
+  const auto     term    = random_pressure<dim>(generator);
+  const auto     tension = random_tension<dim>(generator);
+  Tensor<2, dim> mirror;
+  mirror[0][0] = -2.5;
+  for (const auto wanted :
+       {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
+    for (const Term<dim> *load :
+         std::vector<const Term<dim> *>{&term, &tension})
+      EXPECT_TRUE(
+        TermOnOneCell<dim>(*load, GrowthAt::current)
+          .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));
 }

@@ -4,10 +4,6 @@
 #ifndef morula_tests_effects_lone_cell_h
 #define morula_tests_effects_lone_cell_h
 
-#include <morula/effects/effect.h>
-#include <morula/effects/state/present_cell.h>
-
-#include <vector>
 
 namespace Morula
 {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/growth/contraction.h>
-#include <morula/effects/growth/relaxation.h>
-#include <morula/scene/scene.h>
-
-#include <gtest/gtest.h>
-
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 // F_g of law, cycle, contraction and relaxation together: doc/theory.md (8.7).
 
@@ -63,30 +55,8 @@ namespace
         contraction.direction = dim == 2 ? "3; 4" : "3; 4; 0";
       }
     scene.keys<RelaxationParameters>().time = wanted.relaxation_time;
-    auto effects                            = effects_of<dim>(scene);
-    return CellDevelopment<dim>(std::move(effects.development),
-                                effects.columns,
-                                effects.state,
-                                TissueMaterial(scene.material),
-                                scene.random_seed);
+    return development_of<dim>(scene);
   }
-
-  /** Some cells of a ball, deformed, with their columns at t = 0. */
-  template <int dim>
-  struct Ball : public Tissue<dim>
-  {
-    explicit Ball(const CellDevelopment<dim> &growth)
-      : Tissue<dim>(GridParameters(), growth.columns(), MPI_COMM_SELF)
-    {
-      this->place(founders(ball_points(Point<dim>(), 60., 20.),
-                           std::pow(20., dim),
-                           growth,
-                           [](const Point<dim> &x) {
-                             return some_deformation<dim>(x);
-                           }),
-                  PointList<dim>());
-    }
-  };
 
   /** F_a of theory at a cell. */
   template <int dim>
@@ -106,9 +76,9 @@ namespace
     const auto relaxing = development<dim>(wanted);
     const auto elastic =
       development<dim>({wanted.law, wanted.cycle, wanted.contraction});
-    Ball<dim>  tissue(relaxing), other(elastic);
-    const bool is_complete = wanted.relaxation_time == "1e-9";
-    const auto relaxed =
+    SmallBall<dim> tissue(relaxing), other(elastic);
+    const bool     is_complete = wanted.relaxation_time == "1e-9";
+    const auto     relaxed =
       relaxing.columns().template find<Tensor<2, dim>>("relaxed");
     EXPECT_EQ(relaxed.exists(), !wanted.cycle);
     double flow = 0.;
@@ -159,18 +129,6 @@ namespace
     EXPECT_EQ(flow > 1., wanted.relaxation_time != "0*t");
   }
 
-  template <int dim>
-  void
-  check_products()
-  {
-    for (const std::string tau : {"1e-9", "0.3 + 0.2*generation", "0*t"})
-      for (unsigned int i = 0; i < 8; ++i)
-        {
-          SCOPED_TRACE(tau + ", " + std::to_string(i));
-          check_product<dim>({i % 2 == 1, i / 2 % 2 == 1, i / 4 == 1, tau});
-        }
-  }
-
   /** The von Mises stress of the cells, one cell after the other, after a step
    *  of complete relaxation. */
   template <int dim>
@@ -184,14 +142,9 @@ namespace
     scene.keys<RelaxationParameters>().time         = "1e-9";
     scene.keys<RelaxationParameters>().yield_stress = yield_stress;
     scene.keys<IsotropicGrowthParameters>().stretch = "1.1";
-    auto                       effects              = effects_of<dim>(scene);
-    TissueMaterial             material(scene.material);
-    const CellDevelopment<dim> growth(std::move(effects.development),
-                                      effects.columns,
-                                      effects.state,
-                                      material,
-                                      1);
-    Ball<dim>                  tissue(growth);
+    const TissueMaterial material(scene.material);
+    const auto           growth = development_of<dim>(scene);
+    SmallBall<dim>       tissue(growth);
     grow(tissue, growth, 0., 1.);
     std::vector<double> stresses;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
@@ -210,61 +163,34 @@ namespace
       }
     return stresses;
   }
-
-  /** The yield stress is one of the stress that the files show. */
-  template <int dim>
-  void
-  check_true_yield_stress()
-  {
-    for (const std::string per : {"initial volume", "grown volume"})
-      {
-        SCOPED_TRACE(per);
-        const auto   elastic = stress_after<dim>(per, "1000");
-        const auto   yielded = stress_after<dim>(per, "0.02 + 0*J_e");
-        unsigned int flowed  = 0;
-        for (std::size_t i = 0; i < elastic.size(); ++i)
-          {
-            EXPECT_NEAR(yielded[i], std::min(elastic[i], 0.02), 1e-8);
-            flowed += elastic[i] > 0.021;
-          }
-        EXPECT_GT(flowed, 10u);
-      }
-  }
 } // namespace
 
 
-TEST(PartsOfGrowth,
-     AreMultipliedInTheirOrder){MORULA_BOTH_DIMENSIONS(check_products)}
-
-
-TEST(PartsOfGrowth,
-     YieldAtATrueStress){MORULA_BOTH_DIMENSIONS(check_true_yield_stress)}
-
-
-TEST(PartsOfGrowth, HaveColumnsOnlyWhereNeeded)
+TEST_2D_3D(PartsOfGrowth, AreMultipliedInTheirOrder)
 {
-  const auto names = [](const Wanted &wanted) {
-    std::vector<std::string> names;
-    const auto               growing = development<3>(wanted);
-    for (const auto &entry : growing.columns().entries())
-      names.push_back(entry.name);
-    return names;
-  };
-  using Names         = std::vector<std::string>;
-  const Names of_each = {"founder_position", "initial_volume", "deformation"};
-  const auto  with    = [&](const Names &more) {
-    Names names = of_each;
-    names.insert(names.end(), more.begin(), more.end());
-    return names;
-  };
-  EXPECT_EQ(names({false, false, false}), of_each);
-  EXPECT_EQ(names({true, false, false}), with({"growth"}));
-  EXPECT_EQ(names({false, false, false, "1"}),
-            with({"growth", "motion_of_step", "relaxed"}));
-  EXPECT_EQ(names({false, false, true}), with({"growth", "contraction"}));
-  EXPECT_EQ(names({true, false, true}),
-            with({"growth", "contraction", "law_growth"}));
-  Names with_cycle = names({false, true, false});
-  with_cycle.push_back("motion_of_step");
-  EXPECT_EQ(names({false, true, false, "1"}), with_cycle);
+  for (const std::string tau : {"1e-9", "0.3 + 0.2*generation", "0*t"})
+    for (unsigned int i = 0; i < 8; ++i)
+      {
+        SCOPED_TRACE(tau + ", " + std::to_string(i));
+        check_product<dim>({i % 2 == 1, i / 2 % 2 == 1, i / 4 == 1, tau});
+      }
+}
+
+
+/** The yield stress is one of the stress that the files show. */
+TEST_2D_3D(PartsOfGrowth, YieldAtATrueStress)
+{
+  for (const std::string per : {"initial volume", "grown volume"})
+    {
+      SCOPED_TRACE(per);
+      const auto   elastic = stress_after<dim>(per, "1000");
+      const auto   yielded = stress_after<dim>(per, "0.02 + 0*J_e");
+      unsigned int flowed  = 0;
+      for (std::size_t i = 0; i < elastic.size(); ++i)
+        {
+          EXPECT_NEAR(yielded[i], std::min(elastic[i], 0.02), 1e-8);
+          flowed += elastic[i] > 0.021;
+        }
+      EXPECT_GT(flowed, 10u);
+    }
 }

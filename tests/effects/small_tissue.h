@@ -4,17 +4,6 @@
 #ifndef morula_tests_effects_small_tissue_h
 #define morula_tests_effects_small_tissue_h
 
-#include <morula/effects/development.h>
-#include <morula/effects/growth/isotropic.h>
-#include <morula/particles/tissue.h>
-
-#include <cmath>
-#include <map>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "common/body_on_grid.h"
 
 namespace Morula
 {
@@ -69,6 +58,25 @@ namespace Morula
       }
     return cells;
   }
+
+  /** A small ball of cells at t = 0, strained or not. */
+  template <int dim>
+  struct SmallBall : public Tissue<dim>
+  {
+    explicit SmallBall(const CellDevelopment<dim> &growth,
+                       const bool                  strained = true)
+      : Tissue<dim>(GridParameters(), growth.columns(), MPI_COMM_SELF)
+    {
+      this->place(founders(ball_points(Point<dim>(), 60., 20.),
+                           std::pow(20., dim),
+                           growth,
+                           [=](const Point<dim> &x) {
+                             return strained ? some_deformation<dim>(x) :
+                                               unit_tensor<dim>();
+                           }),
+                  PointList<dim>());
+    }
+  };
 
   /** On one rank what all ranks give alike, so that it is placed once. */
   template <int dim>

@@ -70,11 +70,9 @@ namespace Own
       {"Boundary conditions/Fixed where=X + Y < -2",
        "Boundary conditions/Drag/Where=X + Y > 2",
        "Boundary conditions/Drag/Load=0.1; 0.1; 0"});
-    catalogue.add_interaction<Own::Tethers>("tethers",
-                                            {"Cell types/Names=a, b",
-                                             "Cell types/b/Where=X + Y > 0",
-                                             "Tethers/Stiffness=1",
-                                             "Tethers/Reach=2"});
+    // Bodies to hold together come from a file, so that there is no example:
+    // tests/programs/test_own_effects.py has them.
+    catalogue.add_interaction<Own::Tethers>("tethers");
     catalogue.materials.add("twofold", own_material(Twofold()));
   }
 } // namespace Own

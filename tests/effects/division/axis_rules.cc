@@ -1,22 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/development.h>
-#include <morula/effects/division/axis_rules.h>
-#include <morula/effects/division/directions.h>
-#include <morula/effects/fate/random.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -148,20 +133,6 @@ namespace
     return keys;
   }
 
-  template <int dim>
-  void
-  check_fixed()
-  {
-    OneCell<dim, FixedAxis> cell(fixed_along("X; -Y; 0"));
-    Tensor<1, dim>          expected;
-    expected[0]      = 0.6;
-    expected[1]      = -0.8;
-    const auto state = cell.onset();
-    EXPECT_LT((state.axis - expected).norm(), 1e-15);
-    // Placed along n_s itself.
-    EXPECT_EQ(cell.development.placement_axis(cell.view()), state.axis);
-  }
-
   /** The rule's direction is where the deformation carries n_s, and where the
    *  daughters go. */
   template <int dim, template <int> class Rule>
@@ -176,96 +147,19 @@ namespace
     EXPECT_LT((cell.development.placement_axis(cell.view()) - expected).norm(),
               1e-14);
   }
-
-  template <int dim>
-  void
-  check_present()
-  {
-    using Some = OneCell<dim, StretchAxis>;
-    const auto random =
-      Random::direction<dim>(seed, Random::founder_key(seed, 5));
-    const auto stretch =
-      Directions::of_largest_stretch(Some::F(), 1.02, random);
-    ASSERT_TRUE(stretch.has_value());
-    expect_along<dim, StretchAxis>(*stretch);
-    // The material is isotropic.
-    expect_along<dim, StressAxis>(*stretch);
-
-    RadialAxisParameters around;
-    around.center       = "-1; 1; 0";
-    Tensor<1, dim> away = Some::X();
-    away[0] += 1.;
-    away[1] -= 1.;
-    expect_along<dim, RadialAxis>(away / away.norm(), around);
-
-    const auto normal = Directions::carried_normal(Some::F(), Some::normal());
-    expect_along<dim, SurfaceNormalAxis>(normal);
-    expect_along<dim, TangentialAxis>(Directions::across(normal, random));
-  }
-
-  template <int dim>
-  void
-  check_fallback()
-  {
-    DivisionParameters keys;
-    keys.least_anisotropy = "2 + 0*volume";
-    OneCell<dim, StretchAxis> stretched({}, keys);
-    const auto                state = stretched.onset();
-    EXPECT_LT((stretched.carried(state) - random_direction(state)).norm(),
-              1e-14);
-    OneCell<dim, StressAxis> stressed({}, keys);
-    EXPECT_LT(
-      (stressed.carried(stressed.onset()) - random_direction(state)).norm(),
-      1e-14);
-
-    RadialAxisParameters here;
-    here.center = "3; 4; 0";
-    OneCell<dim, RadialAxis> central(here);
-    EXPECT_LT(
-      (central.carried(central.onset()) - random_direction(state)).norm(),
-      1e-14);
-  }
-
-  /** The spread is around what the rule says, where the rule says it. */
-  template <int dim>
-  void
-  check_spread()
-  {
-    DivisionParameters keys;
-    keys.axis_spread = "4 + 0*noise";
-    OneCell<dim, SurfaceNormalAxis> cell({}, keys);
-    const auto normal = Directions::carried_normal(cell.F(), cell.normal());
-    for (unsigned int id = 0; id < 100; ++id)
-      {
-        const auto state = cell.onset(id);
-        EXPECT_LT((cell.carried(state) -
-                   Random::direction_around(normal, 4., seed, state.key))
-                    .norm(),
-                  1e-13);
-      }
-  }
-
-  template <int dim>
-  bool
-  is_refused(const std::string &axis)
-  {
-    try
-      {
-        OneCell<dim, FixedAxis>(fixed_along(axis)).onset();
-        return false;
-      }
-    catch (const InputError &)
-      {
-        return true;
-      }
-  }
 } // namespace
 
 
-TEST(AxisRules, AlongAnExpression)
+TEST_2D_3D(AxisRules, AlongAnExpression)
 {
-  check_fixed<2>();
-  check_fixed<3>();
+  OneCell<dim, FixedAxis> cell(fixed_along("X; -Y; 0"));
+  Tensor<1, dim>          expected;
+  expected[0]      = 0.6;
+  expected[1]      = -0.8;
+  const auto state = cell.onset();
+  EXPECT_LT((state.axis - expected).norm(), 1e-15);
+  // Placed along n_s itself.
+  EXPECT_EQ(cell.development.placement_axis(cell.view()), state.axis);
 }
 
 TEST(AxisRules, PlainNumbersMayBeSeparatedByCommas)
@@ -279,33 +173,62 @@ TEST(AxisRules, PlainNumbersMayBeSeparatedByCommas)
   EXPECT_EQ(FixedAxisParameters().axis.text(), "0, 0, 1");
 }
 
-TEST(AxisRules, ZeroIsRefused)
+
+TEST_2D_3D(AxisRules, AlongPresentDirections)
 {
-  EXPECT_TRUE(is_refused<3>("0, 0, 0"));
-  EXPECT_TRUE(is_refused<2>("0, 0, 1"));
-  EXPECT_FALSE(is_refused<3>("0, 0, 1"));
-  EXPECT_TRUE(is_refused<3>("1, 1"));
-  EXPECT_FALSE(is_refused<2>("1, 1"));
-  EXPECT_TRUE(is_refused<3>("X, 1, 1"));
-  // Of this cell only: X = 3.
-  EXPECT_TRUE(is_refused<3>("X > 3; 0; 0"));
-  EXPECT_FALSE(is_refused<3>("X >= 3; 0; 0"));
+  using Some = OneCell<dim, StretchAxis>;
+  const auto random =
+    Random::direction<dim>(seed, Random::founder_key(seed, 5));
+  const auto stretch = Directions::of_largest_stretch(Some::F(), 1.02, random);
+  ASSERT_TRUE(stretch.has_value());
+  expect_along<dim, StretchAxis>(*stretch);
+  // The material is isotropic.
+  expect_along<dim, StressAxis>(*stretch);
+
+  RadialAxisParameters around;
+  around.center       = "-1; 1; 0";
+  Tensor<1, dim> away = Some::X();
+  away[0] += 1.;
+  away[1] -= 1.;
+  expect_along<dim, RadialAxis>(away / away.norm(), around);
+
+  const auto normal = Directions::carried_normal(Some::F(), Some::normal());
+  expect_along<dim, SurfaceNormalAxis>(normal);
+  expect_along<dim, TangentialAxis>(Directions::across(normal, random));
 }
 
-TEST(AxisRules, AlongPresentDirections)
+TEST_2D_3D(AxisRules, AtRandomWhereThereIsNoDirection)
 {
-  check_present<2>();
-  check_present<3>();
+  DivisionParameters keys;
+  keys.least_anisotropy = "2 + 0*volume";
+  OneCell<dim, StretchAxis> stretched({}, keys);
+  const auto                state = stretched.onset();
+  EXPECT_LT((stretched.carried(state) - random_direction(state)).norm(), 1e-14);
+  OneCell<dim, StressAxis> stressed({}, keys);
+  EXPECT_LT(
+    (stressed.carried(stressed.onset()) - random_direction(state)).norm(),
+    1e-14);
+
+  RadialAxisParameters here;
+  here.center = "3; 4; 0";
+  OneCell<dim, RadialAxis> central(here);
+  EXPECT_LT((central.carried(central.onset()) - random_direction(state)).norm(),
+            1e-14);
 }
 
-TEST(AxisRules, AtRandomWhereThereIsNoDirection)
+/** The spread is around what the rule says, where the rule says it. */
+TEST_2D_3D(AxisRules, SpreadInThePresentConfiguration)
 {
-  check_fallback<2>();
-  check_fallback<3>();
-}
-
-TEST(AxisRules, SpreadInThePresentConfiguration)
-{
-  check_spread<2>();
-  check_spread<3>();
+  DivisionParameters keys;
+  keys.axis_spread = "4 + 0*noise";
+  OneCell<dim, SurfaceNormalAxis> cell({}, keys);
+  const auto normal = Directions::carried_normal(cell.F(), cell.normal());
+  for (unsigned int id = 0; id < 100; ++id)
+    {
+      const auto state = cell.onset(id);
+      EXPECT_LT((cell.carried(state) -
+                 Random::direction_around(normal, 4., seed, state.key))
+                  .norm(),
+                1e-13);
+    }
 }

@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include "effects/division/dividing_tissue.h"
-
-using namespace dealii;
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {

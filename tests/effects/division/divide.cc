@@ -2,16 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/division/divide.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <set>
-
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -80,149 +71,89 @@ namespace
       return sums;
     }
   };
-
-  template <int dim>
-  void
-  check_conservation(const std::string &start, const double t)
-  {
-    const Division<dim> division(start, t, MPI_COMM_WORLD);
-    const std::size_t   n = division.before.size();
-    ASSERT_GT(division.n_due, 0u);
-    EXPECT_EQ(division.n_due == n, start == "together");
-    EXPECT_EQ(division.after.size(), n + division.n_due);
-    EXPECT_EQ(division.next_id, n + 2 * division.n_due);
-
-    const auto [V0, V]             = division.volumes(division.before);
-    const auto [V0_after, V_after] = division.volumes(division.after);
-    EXPECT_NEAR(V0_after, V0, 1e-12 * V0);
-    EXPECT_NEAR(V_after, V, 1e-12 * V);
-  }
-
-  template <int dim>
-  void
-  check_all()
-  {
-    check_conservation<dim>("together", 0.5);
-  }
-
-  template <int dim>
-  void
-  check_some()
-  {
-    check_conservation<dim>("waiting", 0.9);
-  }
-
-  template <int dim>
-  void
-  check_inheritance()
-  {
-    const Division<dim>         division("waiting", 0.9, MPI_COMM_WORLD);
-    const CellDevelopment<dim> &growth = division.growth;
-    const std::size_t           n      = division.before.size();
-    std::set<int>               mothers;
-    std::set<std::uint64_t>     keys;
-    double                      last_time = 0.;
-    for (const auto &[id, cell] : division.after)
-      {
-        const auto view  = division.view(cell);
-        const auto clock = growth.clock(view);
-        keys.insert(clock.key);
-        if (id < n)
-          {
-            EXPECT_TRUE(cell == division.before.at(id)); // did not divide
-            continue;
-          }
-        ASSERT_GE(view.parent(), 0);
-        mothers.insert(view.parent());
-        const auto &mother_cell = division.before.at(view.parent());
-        const auto  mother      = division.view(mother_cell);
-        EXPECT_EQ(division.after.count(view.parent()), 0u);
-        EXPECT_EQ(view.generation(), mother.generation() + 1);
-        EXPECT_EQ(view.initial_volume(), 0.5 * mother.initial_volume());
-        EXPECT_EQ(view.founder_position(), mother.founder_position());
-        EXPECT_EQ(view.F(), mother.F());
-        EXPECT_EQ(view.growth(), mother.growth());
-        const auto before = growth.clock(mother);
-        EXPECT_EQ(clock.event_time, before.event_time);
-        EXPECT_EQ(clock.axis, before.axis);
-        EXPECT_EQ(clock.growth_pre, before.growth_pre);
-        EXPECT_EQ(clock.phase, CyclePhase::divided);
-        // Along the axis: the first daughter on the side of -n_s.
-        const Tensor<1, dim> from_mother = cell.first - mother_cell.first;
-        const double         along =
-          from_mother * clock.axis * ((id - n) % 2 == 0 ? -1. : 1.);
-        EXPECT_GT(along, 0.);
-        EXPECT_NEAR(along, from_mother.norm(), 1e-10);
-        // Numbered by the time of their birth.
-        const double time = clock.event_time + 0.5;
-        EXPECT_GE(time, last_time);
-        EXPECT_LE(time, 0.9 + 1e-9);
-        last_time = time;
-      }
-    EXPECT_EQ(mothers.size(), division.n_due);
-    EXPECT_EQ(keys.size(), division.after.size());
-
-    EXPECT_EQ(Utilities::MPI::sum(division.births.size(), MPI_COMM_WORLD),
-              2 * division.n_due);
-    for (const auto &birth : division.births)
-      {
-        const auto &cell = division.after.at(birth.id);
-        const auto  view = division.view(cell);
-        EXPECT_EQ(birth.parent, view.parent());
-        EXPECT_EQ(birth.generation, 1u);
-        EXPECT_EQ(birth.position, cell.first);
-        EXPECT_NEAR(birth.time, growth.clock(view).event_time + 0.5, 1e-15);
-      }
-  }
-
-  /** Bitwise the same for any number of ranks. */
-  template <int dim>
-  void
-  check_ranks()
-  {
-    for (const std::string start : {"waiting", "together"})
-      {
-        const Division<dim> shared(start, 0.9, MPI_COMM_WORLD);
-        const Division<dim> alone(start, 0.9, MPI_COMM_SELF);
-        EXPECT_EQ(shared.n_due, alone.n_due);
-        EXPECT_TRUE(shared.before == alone.before);
-        EXPECT_TRUE(shared.after == alone.after);
-      }
-  }
-
-  template <int dim>
-  void
-  check_distances()
-  {
-    for (const std::string start : {"waiting", "together"})
-      {
-        const Division<dim> division(start, 0.9, MPI_COMM_WORLD);
-        double              shortest = 1e9;
-        for (const auto &[id, cell] : division.after)
-          for (const auto &[other_id, other] : division.after)
-            if (other_id < id)
-              shortest = std::min(shortest, cell.first.distance(other.first));
-        EXPECT_GT(shortest, 0.02 * spacing<dim>());
-      }
-  }
 } // namespace
 
 
-TEST(Divide, ConservesVolumeWhereAllDivide){MORULA_BOTH_DIMENSIONS(check_all)}
+TEST_2D_3D(Divide, ConservesVolume)
+{
+  for (const auto &[start, t] :
+       {std::pair<std::string, double>("together", 0.5), {"waiting", 0.9}})
+    {
+      const Division<dim> division(start, t, MPI_COMM_WORLD);
+      const std::size_t   n = division.before.size();
+      ASSERT_GT(division.n_due, 0u);
+      EXPECT_EQ(division.n_due == n, start == "together");
+      EXPECT_EQ(division.after.size(), n + division.n_due);
+      EXPECT_EQ(division.next_id, n + 2 * division.n_due);
+
+      const auto [V0, V]             = division.volumes(division.before);
+      const auto [V0_after, V_after] = division.volumes(division.after);
+      EXPECT_NEAR(V0_after, V0, 1e-12 * V0);
+      EXPECT_NEAR(V_after, V, 1e-12 * V);
+    }
+}
 
 
-TEST(Divide, ConservesVolumeWhereSomeDivide){MORULA_BOTH_DIMENSIONS(check_some)}
+TEST_2D_3D(Divide, DaughtersInheritTheMothersState)
+{
+  const Division<dim>         division("waiting", 0.9, MPI_COMM_WORLD);
+  const CellDevelopment<dim> &growth = division.growth;
+  const std::size_t           n      = division.before.size();
+  std::set<int>               mothers;
+  std::set<std::uint64_t>     keys;
+  double                      last_time = 0.;
+  for (const auto &[id, cell] : division.after)
+    {
+      const auto view  = division.view(cell);
+      const auto clock = growth.clock(view);
+      keys.insert(clock.key);
+      if (id < n)
+        {
+          EXPECT_TRUE(cell == division.before.at(id)); // did not divide
+          continue;
+        }
+      ASSERT_GE(view.parent(), 0);
+      mothers.insert(view.parent());
+      const auto &mother_cell = division.before.at(view.parent());
+      const auto  mother      = division.view(mother_cell);
+      EXPECT_EQ(division.after.count(view.parent()), 0u);
+      EXPECT_EQ(view.generation(), mother.generation() + 1);
+      EXPECT_EQ(view.initial_volume(), 0.5 * mother.initial_volume());
+      EXPECT_EQ(view.founder_position(), mother.founder_position());
+      EXPECT_EQ(view.F(), mother.F());
+      EXPECT_EQ(view.growth(), mother.growth());
+      const auto before = growth.clock(mother);
+      EXPECT_EQ(clock.event_time, before.event_time);
+      EXPECT_EQ(clock.axis, before.axis);
+      EXPECT_EQ(clock.growth_pre, before.growth_pre);
+      EXPECT_EQ(clock.phase, CyclePhase::divided);
+      // Along the axis: the first daughter on the side of -n_s.
+      const Tensor<1, dim> from_mother = cell.first - mother_cell.first;
+      const double         along =
+        from_mother * clock.axis * ((id - n) % 2 == 0 ? -1. : 1.);
+      EXPECT_GT(along, 0.);
+      EXPECT_NEAR(along, from_mother.norm(), 1e-10);
+      // Numbered by the time of their birth.
+      const double time = clock.event_time + 0.5;
+      EXPECT_GE(time, last_time);
+      EXPECT_LE(time, 0.9 + 1e-9);
+      last_time = time;
+    }
+  EXPECT_EQ(mothers.size(), division.n_due);
+  EXPECT_EQ(keys.size(), division.after.size());
 
-
-TEST(Divide,
-     DaughtersInheritTheMothersState){MORULA_BOTH_DIMENSIONS(check_inheritance)}
-
-
-TEST(Divide, IsTheSameForAnyNumberOfRanks){MORULA_BOTH_DIMENSIONS(check_ranks)}
-
-
-TEST(Divide,
-     LeavesNoTwoCellsInOnePlace){MORULA_BOTH_DIMENSIONS(check_distances)}
+  EXPECT_EQ(Utilities::MPI::sum(division.births.size(), MPI_COMM_WORLD),
+            2 * division.n_due);
+  for (const auto &birth : division.births)
+    {
+      const auto &cell = division.after.at(birth.id);
+      const auto  view = division.view(cell);
+      EXPECT_EQ(birth.parent, view.parent());
+      EXPECT_EQ(birth.generation, 1u);
+      EXPECT_EQ(birth.position, cell.first);
+      EXPECT_NEAR(birth.time, growth.clock(view).event_time + 0.5, 1e-15);
+    }
+}
 
 
 // A single cell has no walls: equation (20) of the paper.

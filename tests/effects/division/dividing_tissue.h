@@ -8,17 +8,11 @@
 
 #include <deal.II/base/bounding_box.h>
 
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <vector>
+#include "common/tests.h"
+
 
 namespace Morula
 {
-  using namespace dealii;
-
   using Distances = std::array<double, 2>;
 
   constexpr double infinity = std::numeric_limits<double>::infinity();

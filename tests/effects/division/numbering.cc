@@ -2,20 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/division/numbering.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <random>
-#include <set>
-#include <vector>
-
-using namespace dealii;
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -69,43 +56,4 @@ TEST(Numbering, OneRankHasAllEvents)
   expect_numbers(own(all, [](const unsigned int) { return 1; }),
                  {{6, 100}, {5, 102}},
                  2);
-}
-
-
-TEST(Numbering, NoEvents)
-{
-  expect_numbers({}, {}, 0);
-}
-
-
-// Any distribution over ranks and any order within them gives the same ids.
-TEST(Numbering, DistributionDoesNotMatter)
-{
-  const unsigned int         n = 3000;
-  std::mt19937               generator(2); // the same on all ranks
-  std::vector<DivisionEvent> all;
-  for (unsigned int i = 0; i < n; ++i)
-    all.push_back({(generator() % 50) / 7., 11 * i % 30011});
-
-  std::set<std::pair<double, types::particle_index>> sorted;
-  for (const auto &event : all)
-    sorted.emplace(event.time, event.mother);
-  ASSERT_EQ(sorted.size(), n);
-  std::map<types::particle_index, types::particle_index> first;
-  for (const auto &event : sorted)
-    {
-      const types::particle_index id = 100 + 2 * first.size();
-      first[event.second]            = id;
-    }
-
-  for (unsigned int trial = 0; trial < 5; ++trial)
-    {
-      std::shuffle(all.begin(), all.end(), generator);
-      std::vector<unsigned int> owners(n);
-      for (unsigned int &owner : owners)
-        owner = generator();
-      expect_numbers(own(all, [&](const unsigned int i) { return owners[i]; }),
-                     first,
-                     n);
-    }
 }

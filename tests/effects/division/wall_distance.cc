@@ -4,19 +4,9 @@
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <vector>
 
 #include "effects/division/dividing_tissue.h"
 
-using namespace dealii;
 using namespace Morula;
 
 namespace
@@ -159,39 +149,6 @@ namespace
                     10. * std::pow(n, -1. / dim) * length(generator));
     return tissue;
   }
-
-  /** Clusters of very different density. */
-  template <int dim>
-  DividingTissue<dim>
-  clustered_tissue(const unsigned int seed)
-  {
-    std::mt19937                     generator(seed);
-    std::normal_distribution<double> normal;
-    std::vector<Point<dim>>          points;
-    for (const double size : {0.02, 0.1, 0.5, 2.5})
-      {
-        const Point<dim> center = random_point<dim>(generator, 5.);
-        for (unsigned int i = 0; i < 150; ++i)
-          {
-            Point<dim> p = center;
-            for (unsigned int d = 0; d < dim; ++d)
-              p[d] += size * normal(generator);
-            points.push_back(p);
-          }
-      }
-    DividingTissue<dim> tissue(points);
-    for (unsigned int i = 0; i < points.size(); ++i)
-      {
-        // Lengths well above the distances in the cell's cluster, but not so
-        // large that cells count as coinciding.
-        double nearest = infinity;
-        for (unsigned int j = 0; j < points.size(); ++j)
-          if (j != i)
-            nearest = std::min(nearest, points[i].distance(points[j]));
-        tissue.divide(i, random_axis<dim>(generator), 8. * nearest);
-      }
-    return tissue;
-  }
 } // namespace
 
 
@@ -199,54 +156,6 @@ TEST(WallDistance, RandomPoints)
 {
   expect_like_diagram(random_tissue<2>(500, 1));
   expect_like_diagram(random_tissue<3>(1500, 2));
-}
-
-
-TEST(WallDistance, ClusteredPoints)
-{
-  expect_like_diagram(clustered_tissue<2>(3));
-  expect_like_diagram(clustered_tissue<3>(4));
-}
-
-
-// Points on a sphere and its centre: every cell is at the surface, and walls
-// along tangential axes are far away.
-TEST(WallDistance, SurfaceCells)
-{
-  std::mt19937          generator(5);
-  std::vector<Point<3>> points = {Point<3>()};
-  for (unsigned int i = 0; i < 300; ++i)
-    points.emplace_back(5. * random_axis<3>(generator));
-  DividingTissue<3> tissue(points);
-  unsigned int      n_tangential = 0;
-  for (unsigned int i = 0; i < points.size(); ++i)
-    {
-      Tensor<1, 3> axis = random_axis<3>(generator);
-      if (i > 0 && i % 2 == 0)
-        {
-          axis -= (axis * points[i]) / points[i].norm_square() *
-                  Tensor<1, 3>(points[i]);
-          ++n_tangential;
-        }
-      tissue.divide(i, axis, 1.2);
-    }
-  EXPECT_GT(n_tangential, 100u);
-  expect_like_diagram(tissue);
-}
-
-
-TEST(WallDistance, Lattice)
-{
-  std::mt19937      generator(6);
-  DividingTissue<2> square(lattice<2>(12));
-  for (unsigned int i = 0; i < square.ids.size(); ++i)
-    square.divide(i, random_axis<2>(generator), 1.);
-  expect_like_diagram(square);
-
-  DividingTissue<3> cube(lattice<3>(8));
-  for (unsigned int i = 0; i < cube.ids.size(); ++i)
-    cube.divide(i, random_axis<3>(generator), 1.);
-  expect_like_diagram(cube);
 }
 
 
@@ -352,69 +261,4 @@ TEST(WallDistance, CopiesOfACellAreTheCell)
   tissue.ids.push_back(tissue.ids[0]);
   tissue.positions.emplace_back(0.1, 0.);
   EXPECT_EQ(tissue.distances()[0], (Distances{{0.25, 0.25}}));
-}
-
-
-namespace
-{
-  template <int dim>
-  void
-  permute(DividingTissue<dim> tissue)
-  {
-    std::mt19937 generator(9);
-    for (unsigned int i = 0; i < 400; ++i)
-      {
-        WallPoint<dim> point;
-        point.position = tissue.positions[i * 7 % tissue.positions.size()] +
-                         0.3 * random_axis<dim>(generator);
-        point.normal  = random_axis<dim>(generator);
-        point.spacing = 0.2 + 0.5 * (i % 3);
-        tissue.walls.push_back(point);
-      }
-    const auto reference = tissue.distances();
-
-    std::vector<unsigned int> order(tissue.positions.size());
-    std::iota(order.begin(), order.end(), 0);
-    for (unsigned int trial = 0; trial < 10; ++trial)
-      {
-        std::shuffle(order.begin(), order.end(), generator);
-        std::shuffle(tissue.walls.begin(), tissue.walls.end(), generator);
-        DividingTissue<dim> shuffled = tissue;
-        for (unsigned int i = 0; i < order.size(); ++i)
-          {
-            shuffled.positions[i] = tissue.positions[order[i]];
-            shuffled.ids[i]       = tissue.ids[order[i]];
-          }
-        EXPECT_EQ(shuffled.distances(), reference);
-
-        // Nor does the grid on which they are searched.
-        EXPECT_EQ(tissue.distances(0.3 + 0.7 * trial), reference);
-
-        // One cell alone sees the same as in company.
-        DividingTissue<dim> single = shuffled;
-        single.dividing            = {tissue.dividing[trial]};
-        EXPECT_EQ(single.distances()[0], reference[trial]);
-      }
-  }
-} // namespace
-
-TEST(WallDistance, OrderAndGridDoNotMatter)
-{
-  permute(random_tissue<2>(600, 10));
-  permute(random_tissue<3>(600, 11));
-
-  // Ties, up to rounding: a lattice along a rotated direction.
-  std::mt19937          generator(12);
-  std::vector<Point<3>> points = lattice<3>(8);
-  for (Point<3> &p : points)
-    p = Point<3>((p[0] - 2. * p[1] + 2. * p[2]) / 3.,
-                 (2. * p[0] - p[1] - 2. * p[2]) / 3.,
-                 (2. * p[0] + 2. * p[1] + p[2]) / 3.);
-  DividingTissue<3> tissue(points);
-  for (unsigned int i = 0; i < points.size(); ++i)
-    tissue.divide(i,
-                  i % 2 == 0 ? Tensor<1, 3>({1., 2., 2.}) :
-                               random_axis<3>(generator),
-                  1.);
-  permute(tissue);
 }

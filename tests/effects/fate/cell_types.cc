@@ -1,21 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/fate/random.h>
-#include <morula/scene/scene.h>
-
-#include <deal.II/lac/full_matrix.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "common/complaint.h"
-#include "effects/fate/lives.h"
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -27,19 +13,6 @@ namespace
     "Proliferation/Cell cycle/G0 exit rate=1",
     "Cell types/leaf/Proliferation/Law=none",
     "Cell types/stem/Transitions/To leaf=0.5"};
-
-  /** What reading or checking a scene with these further settings says. */
-  std::string
-  complaint(std::vector<std::string> settings)
-  {
-    settings.insert(settings.begin(), two_types.begin(), two_types.end());
-    settings.push_back("Time/Step=0.002");
-    return complaint_of([&] {
-      const Scene scene = scene_of(settings);
-      scene.check();
-    });
-  }
-
 } // namespace
 
 
@@ -60,13 +33,13 @@ TEST(CellTypes, NumbersAreThoseOfTheMatrixExponential)
       std::array<double, 2> sum = {{0., 0.}}, squares = {{0., 0.}};
       for (unsigned int seed = 1; seed <= n_seeds; ++seed)
         {
-          auto settings = two_types;
-          settings.push_back("Random seed=" + std::to_string(seed));
+          auto settings =
+            with(two_types, {"Random seed=" + std::to_string(seed)});
           if (d_1 > 0.)
-            for (const std::string setting : {"Death/Shrinking time=0",
-                                              "Death/Rate=0.3",
-                                              "Cell types/leaf/Death/Rate=1.2"})
-              settings.push_back(setting);
+            settings = with(settings,
+                            {"Death/Shrinking time=0",
+                             "Death/Rate=0.3",
+                             "Cell types/leaf/Death/Rate=1.2"});
           const Lives lives = lead(scene_of(settings), n_founders, t, 0.002);
           for (unsigned int i = 0; i < 2; ++i)
             {
@@ -88,28 +61,13 @@ TEST(CellTypes, NumbersAreThoseOfTheMatrixExponential)
 }
 
 
-TEST(CellTypes, EventsDoNotDependOnTheStep)
-{
-  auto settings = two_types;
-  settings.push_back("Proliferation/Cell cycle/Duration=0.4");
-  settings.push_back("Cell types/leaf/Transitions/To stem=2");
-  settings.push_back("Cell types/stem/Daughter types=stem, leaf");
-  const Scene scene = scene_of(settings);
-  const Lives whole = lead(scene, 30, 3.2, 0.2);
-  const Lives half  = lead(scene, 30, 3.2, 0.1);
-  ASSERT_GT(whole.events.size(), 100u);
-  ASSERT_GT(whole.births.size(), 40u);
-  expect_same(whole, half);
-}
-
-
 TEST(CellTypes, HaveValuesOfTheirOwn)
 {
-  auto settings = two_types;
-  settings.push_back("Cell types/leaf/Where=X > 50");
-  settings.push_back("Cell types/leaf/Material/Young's modulus=7");
-  settings.push_back("Material/Poisson's ratio=if(type == leaf, 0.1, 0.3)");
-  const CellDevelopment<2> development = development_of(scene_of(settings));
+  const CellDevelopment<2> development = development_of(
+    scene_of(with(two_types,
+                  {"Cell types/leaf/Where=X > 50",
+                   "Cell types/leaf/Material/Young's modulus=7",
+                   "Material/Poisson's ratio=if(type == leaf, 0.1, 0.3)"})));
   for (const double X : {0., 100.})
     {
       std::vector<double> row =
@@ -131,16 +89,14 @@ TEST(CellTypes, HaveValuesOfTheirOwn)
 // are drawn.
 TEST(CellTypes, HaveAxesOfTheirOwn)
 {
-  auto settings = two_types;
-  for (const std::string setting :
-       {"Proliferation/Cell cycle/Start=together",
-        "Proliferation/Cell cycle/Fixed axis=X; -Y; 0",
-        "Cell types/leaf/Where=X > 50",
-        "Cell types/leaf/Proliferation/Law=cell cycle",
-        "Cell types/leaf/Proliferation/Cell cycle/Division axis=fixed",
-        "Time/Step=0.002"})
-    settings.push_back(setting);
-  const Scene scene = scene_of(settings);
+  const Scene scene = scene_of(
+    with(two_types,
+         {"Proliferation/Cell cycle/Start=together",
+          "Proliferation/Cell cycle/Fixed axis=X; -Y; 0",
+          "Cell types/leaf/Where=X > 50",
+          "Cell types/leaf/Proliferation/Law=cell cycle",
+          "Cell types/leaf/Proliferation/Cell cycle/Division axis=fixed",
+          "Time/Step=0.002"}));
   EXPECT_NO_THROW(scene.check());
   const SceneEffects<2> effects = effects_of<2>(scene);
   EXPECT_EQ(effects.development.proliferation->rule(0), nullptr);
@@ -160,26 +116,6 @@ TEST(CellTypes, HaveAxesOfTheirOwn)
                                Random::founder_key(scene.random_seed, 3));
       EXPECT_LT((development.clock(cell).axis - expected).norm(), 1e-15);
     }
-}
-
-
-TEST(CellTypes, RefuseAxesThatDoNothing)
-{
-  EXPECT_NE(complaint({"Cell types/leaf/Proliferation/Cell cycle/"
-                       "Division axis=upwards"})
-              .find("Division axis = 'upwards'"),
-            std::string::npos);
-  // Keys of a rule that some type has are in use.
-  EXPECT_EQ(complaint({"Cell types/stem/Proliferation/Cell cycle/"
-                       "Division axis=fixed",
-                       "Proliferation/Cell cycle/Fixed axis=1; 0; 0",
-                       "Proliferation/Cell cycle/Axis spread=3"}),
-            "");
-  EXPECT_NE(complaint({"Proliferation/Law=none",
-                       "Cell types/leaf/Proliferation/Cell cycle/"
-                       "Division axis=fixed"})
-              .find("nothing, as no cell proliferates"),
-            std::string::npos);
 }
 
 
@@ -212,31 +148,4 @@ TEST(CellTypes, MayForgetTheirStress)
             alone.live(t, t + 0.1);
           }
       }
-}
-
-
-TEST(CellTypes, RefuseWhatCannotBe)
-{
-  EXPECT_EQ(complaint({}), "");
-  expect_parts(complaint({"Cell types/Names=stem, age"}),
-               {"Cell types/Names", "stem, age", "'age'", "variable"});
-  expect_parts(complaint({"Cell types/Names=stem, hill"}), {"'hill'"});
-  expect_parts(complaint({"Cell types/Names=stem, stem"}), {"twice"});
-  expect_parts(complaint({"Cell types/Names=stem, 2b"}), {"letter"});
-  expect_parts(complaint({"Cell types/stem/Transitions/To stem=1"}),
-               {"Cell types/stem/Transitions/To stem"});
-  expect_parts(complaint({"Cell types/stem/Transitions/To root=1"}),
-               {"Cell types/stem/Transitions/To root"});
-  expect_parts(complaint({"Cell types/stem/Transitions/To leaf=-1"}),
-               {"Cell types/stem/Transitions/To leaf", "'-1'", ">= 0"});
-  expect_parts(complaint({"Cell types/stem/Transitions/To leaf=root > 1"}),
-               {"Cell types/stem/Transitions/To leaf", "root", "leaf"});
-  expect_parts(complaint({"Cell types/stem/Daughter types=stem, root"}),
-               {"Cell types/stem/Daughter types", "no type 'root'"});
-  expect_parts(complaint({"Cell types/stem/Daughter types=stem"}),
-               {"Cell types/stem/Daughter types", "both"});
-  expect_parts(complaint({"Cell types/stem/Material/Young's modulus=0"}),
-               {"Cell types/stem/Material/Young's modulus", "'0'", "> 0"});
-  expect_parts(complaint({"Cell types/stem/Cell types/leaf/Where=1"}),
-               {"Cell types/stem/Cell types"});
 }

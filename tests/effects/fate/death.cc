@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/death.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "common/complaint.h"
-#include "effects/fate/lives.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -18,19 +9,6 @@ namespace
                                           "Material/Energy per=grown volume",
                                           "Death/Shrinking time=0.25",
                                           "Death/Final volume=0.2"};
-
-  std::vector<std::string>
-  with(std::vector<std::string> settings, const std::vector<std::string> &more)
-  {
-    settings.insert(settings.end(), more.begin(), more.end());
-    return settings;
-  }
-
-  std::string
-  complaint(const std::vector<std::string> &settings)
-  {
-    return complaint_of([&] { scene_of(settings).check(); });
-  }
 } // namespace
 
 
@@ -174,36 +152,4 @@ TEST(Death, EventsDoNotDependOnTheStep)
   EXPECT_GT(n[2], 30u);
   EXPECT_GT(whole.births.size(), 30u);
   expect_same(whole, half);
-}
-
-
-TEST(Death, CostsNothingUnlessThereIsAny)
-{
-  const SceneEffects<2> without = effects_of<2>(scene_of({"Dimension=2"}));
-  EXPECT_TRUE(without.development.fates.empty());
-  EXPECT_EQ(without.columns.n_numbers(), CellColumns<2>().n_numbers());
-  EXPECT_TRUE(scene_of({"Cell types/Names=a, b", "Cell types/b/Death/Rate=1"})
-                .keys<DeathParameters>()
-                .is_on());
-}
-
-
-TEST(Death, RefusesWhatCannotBe)
-{
-  EXPECT_EQ(complaint(with(dying, {"Death/Rate=1"})), "");
-  expect_parts(complaint(dying),
-               {"Death/Shrinking time", "Death/Rate", "Death/When"});
-  expect_parts(complaint({"Death/Rate=1"}),
-               {"Material/Energy per", "grown volume", "Shrinking time"});
-  EXPECT_EQ(complaint({"Death/Rate=1", "Death/Shrinking time=0"}), "");
-  expect_parts(complaint(with(dying, {"Death/Rate=-1"})),
-               {"Death/Rate", "'-1'", ">= 0"});
-  expect_parts(complaint(with(dying, {"Death/Rate=1", "Death/Final volume=0"})),
-               {"Death/Final volume", "'0'", "> 0"});
-  expect_parts(complaint(
-                 with(dying, {"Death/Rate=1", "Death/Final volume=1.5"})),
-               {"Death/Final volume", "'1.5'", "at most 1"});
-  expect_parts(complaint(
-                 with(dying, {"Death/Rate=1", "Death/Shrinking time=-1"})),
-               {"Death/Shrinking time", "'-1'", ">= 0"});
 }

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/expected_cells.h>
-
-#include <cmath>
-#include <map>
-
-#include "effects/fate/lives.h"
+#include "effects/room.h"
 
 // Tissue without mechanics: cells stay where they are and grow by the law, so
 // that the numbers are those of closed forms.
 
-using namespace Morula;
 
 namespace
 {
@@ -89,21 +81,6 @@ namespace
       }
     return colony;
   }
-
-  void
-  refuses_by(const SizeSettings &settings, const std::string &key)
-  {
-    try
-      {
-        scene_of(settings).check();
-        FAIL() << "accepted, and not refused because of " << key;
-      }
-    catch (const InputError &error)
-      {
-        EXPECT_NE(std::string(error.what()).find(key), std::string::npos)
-          << error.what();
-      }
-  }
 } // namespace
 
 
@@ -152,39 +129,14 @@ TEST(DivisionBySize, MayComeTwiceInAStep)
 }
 
 
-TEST(DivisionBySize, KeepsNumbersToVolumes)
-{
-  // Volumes from V*/2 to V* with the density V*/V² stay so: there are
-  // N0 exp(kt) cells, and one for each V* ln 2.
-  constexpr unsigned int N0 = 2000;
-  std::vector<double>    volumes;
-  for (unsigned int i = 0; i < N0; ++i)
-    volumes.push_back(100. / (2. - (i + 0.5) / N0));
-  for (const double end : {0.9, 2.})
-    {
-      const SizedColony colony =
-        grow_colony(growing_to("0.7", "100"), volumes, end, 4);
-      const double n   = colony.volumes.size();
-      double       all = 0.;
-      for (const double V : colony.volumes)
-        {
-          EXPECT_GE(V, 50. - 1e-4);
-          EXPECT_LE(V, 100. + 1e-4);
-          all += V;
-        }
-      EXPECT_NEAR(n / (N0 * std::exp(0.7 * end)), 1., 2e-3);
-      EXPECT_NEAR(all / n / (100. * std::log(2.)), 1., 2e-3);
-    }
-}
-
-
 TEST(DivisionBySize, HasTheNoiseThatIsAsked)
 {
-  constexpr unsigned int N0       = 4000;
-  SizeSettings           settings = growing_to("1", "100");
-  settings.push_back("Division by size/Noise = 0.1");
-  const SizedColony colony =
-    grow_colony(settings, std::vector<double>(N0, 60.), 0.9, 9);
+  constexpr unsigned int N0 = 4000;
+  const SizedColony      colony =
+    grow_colony(with(growing_to("1", "100"), {"Division by size/Noise = 0.1"}),
+                std::vector<double>(N0, 60.),
+                0.9,
+                9);
   std::map<int, double> of_founder;
   for (const auto &birth : colony.births)
     if (birth.generation == 1)
@@ -212,8 +164,9 @@ TEST(DivisionBySize, IsExpectedAsItComes)
   // is what comes, with noise and without.
   for (const double noise : {0., 0.2})
     {
-      SizeSettings settings = growing_to("1", "100");
-      settings.push_back("Division by size/Noise = " + std::to_string(noise));
+      const SizeSettings settings =
+        with(growing_to("1", "100"),
+             {"Division by size/Noise = " + std::to_string(noise)});
       const SizedColony colony =
         grow_colony(settings, std::vector<double>(1000, 60.), 1.5, 3);
       const double expected =
@@ -229,41 +182,34 @@ TEST(DivisionBySize, HasExactTimesBesideOtherFates)
 {
   // Steps of other lengths change neither the order of a death, a change of
   // type and a division in a step, nor their times.
-  SizeSettings settings = growing_to("0.9", "150");
-  for (const char *line : {"Division by size/Noise = 0.2",
-                           "Cell types/Names = first, second",
-                           "Cell types/first/Transitions/To second = 0.4",
-                           "Cell types/second/Division by size/Volume = 120",
-                           "Death/Rate = 0.3",
-                           "Death/Shrinking time = 0.2",
-                           "Material/Energy per = grown volume"})
-    settings.push_back(line);
-  const Scene scene  = scene_of(settings);
+  const Scene scene =
+    scene_of(with(growing_to("0.9", "150"),
+                  {"Division by size/Noise = 0.2",
+                   "Cell types/Names = first, second",
+                   "Cell types/first/Transitions/To second = 0.4",
+                   "Cell types/second/Division by size/Volume = 120",
+                   "Death/Rate = 0.3",
+                   "Death/Shrinking time = 0.2",
+                   "Material/Energy per = grown volume"}));
   const Lives fine   = lead(scene, 60, 2., 0.05),
               coarse = lead(scene, 60, 2., 1.);
   ASSERT_GT(fine.births.size(), 150u);
   ASSERT_GT(fine.events.size(), 80u);
   // Times of divisions are rounded to a millionth of a step.
-  ASSERT_EQ(fine.births.size(), coarse.births.size());
-  for (std::size_t i = 0; i < fine.births.size(); ++i)
-    EXPECT_NEAR(fine.births[i], coarse.births[i], 1e-5);
-  ASSERT_EQ(fine.events.size(), coarse.events.size());
-  for (std::size_t i = 0; i < fine.events.size(); ++i)
-    {
-      EXPECT_NEAR(fine.events[i].time, coarse.events[i].time, 1e-5);
-      EXPECT_EQ(fine.events[i].kind, coarse.events[i].kind);
-    }
-  EXPECT_EQ(fine.numbers, coarse.numbers);
+  expect_same(fine, coarse, 1e-5);
 }
 
 
 TEST(DivisionBySize, LeavesTypesOfZeroVolumeAlone)
 {
-  SizeSettings settings = growing_to("1", "120");
-  settings.push_back("Cell types/Names = first, second");
-  settings.push_back("Cell types/second/Where = X > 1000");
-  settings.push_back("Cell types/second/Division by size/Volume = 0");
-  const Lives lives = lead(scene_of(settings), 100, 1., 0.25);
+  const Lives lives =
+    lead(scene_of(with(growing_to("1", "120"),
+                       {"Cell types/Names = first, second",
+                        "Cell types/second/Where = X > 1000",
+                        "Cell types/second/Division by size/Volume = 0"})),
+         100,
+         1.,
+         0.25);
   EXPECT_EQ(lives.numbers[1], 49.);      // founders at 1020 ... 1980
   EXPECT_EQ(lives.numbers[0], 4. * 51.); // a volume of 272 to 326
 }
@@ -311,25 +257,27 @@ TEST(DivisionBySize, CutsTheLongAxis)
 
 TEST(DivisionBySize, RefusesWhatDoesNothing)
 {
-  SizeSettings cycle = growing_to("1", "120");
-  cycle.push_back("Proliferation/Law = cell cycle");
-  refuses_by(cycle, "Division by size/Volume");
-  refuses_by({"Dimension = 2", "Division by size/Volume = 120"},
-             "Division by size/Volume");
-  refuses_by({"Dimension = 2", "Division by size/Noise = 0.1"},
-             "Division by size/Noise");
-  refuses_by(growing_to("1", "-3"), "Division by size/Volume");
-  SizeSettings noisy = growing_to("1", "120");
-  noisy.push_back("Division by size/Noise = 0.7");
-  refuses_by(noisy, "Division by size/Noise");
-  SizeSettings clock = growing_to("1", "120");
-  clock.push_back("Proliferation/Cell cycle/Duration = 2");
-  refuses_by(clock, "Proliferation/Cell cycle/Duration");
-  SizeSettings fixed = growing_to("1", "120");
-  fixed.push_back("Proliferation/Cell cycle/Fixed axis = 1, 0, 0");
-  refuses_by(fixed, "Proliferation/Cell cycle/Fixed axis");
-  fixed.push_back("Proliferation/Cell cycle/Division axis = fixed");
-  scene_of(fixed).check();
+  const auto        growing = growing_to("1", "120");
+  const std::string cycle   = "Proliferation/Cell cycle/";
+  for (const auto &[settings, key] :
+       {std::pair<SizeSettings, std::string>(
+          with(growing, {"Proliferation/Law = cell cycle"}),
+          "Division by size/Volume"),
+        {{"Dimension = 2", "Division by size/Volume = 120"},
+         "Division by size/Volume"},
+        {{"Dimension = 2", "Division by size/Noise = 0.1"},
+         "Division by size/Noise"},
+        {growing_to("1", "-3"), "Division by size/Volume"},
+        {with(growing, {"Division by size/Noise = 0.7"}),
+         "Division by size/Noise"},
+        {with(growing, {cycle + "Duration = 2"}), cycle + "Duration"},
+        {with(growing, {cycle + "Fixed axis = 1, 0, 0"}),
+         cycle + "Fixed axis"}})
+    expect_parts(complaint_of([&] { scene_of(settings).check(); }), {key});
+  scene_of(
+    with(growing,
+         {cycle + "Fixed axis = 1, 0, 0", cycle + "Division axis = fixed"}))
+    .check();
 }
 
 
@@ -351,11 +299,9 @@ TEST(DivisionBySize, RefusesFoundersOfMoreThanTwiceTheVolume)
 TEST(DivisionBySize, FollowsTheShapeOfCells)
 {
   const auto length_over_width = [](const SizeSettings &more) {
-    SizeSettings settings = growing_to("1", "1000");
-    settings.push_back("Growth/Rate/Share along = 1");
-    settings.push_back("Growth/Rate/Direction = 1; 0");
-    settings.insert(settings.end(), more.begin(), more.end());
-    Alone        alone(settings);
+    Alone alone(
+      with(with(growing_to("1", "1000"), more),
+           {"Growth/Rate/Share along = 1", "Growth/Rate/Direction = 1; 0"}));
     Tensor<2, 2> F;
     F[0][0] = 1.;
     F[1][1] = 1.3;
@@ -380,10 +326,13 @@ TEST(DivisionBySize, FollowsTheShapeOfCells)
 // volume.
 TEST(DivisionBySize, CountsPartsOfCellsAsParts)
 {
-  SizeSettings settings = growing_to("1", "150");
-  settings.push_back("Tissue/Cell spacing = 10");
-  settings.push_back("Tissue/Surface cells = trimmed");
-  const SizedColony colony = grow_colony(settings, {100., 100. / 3.}, 0.5, 2);
+  const SizedColony colony =
+    grow_colony(with(growing_to("1", "150"),
+                     {"Tissue/Cell spacing = 10",
+                      "Tissue/Surface cells = trimmed"}),
+                {100., 100. / 3.},
+                0.5,
+                2);
   ASSERT_EQ(colony.births.size(), 4u);
   for (const auto &birth : colony.births)
     EXPECT_NEAR(birth.time, std::log(1.5), 1e-6);

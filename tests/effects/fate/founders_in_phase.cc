@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/development.h>
-#include <morula/effects/fate/cell_cycle.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <set>
-#include <tuple>
-#include <vector>
-
-using namespace dealii;
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -108,14 +97,4 @@ TEST(FoundersInPhase, BeginAtRestAndGrowOn)
                     2. / (1. + age / T),
                     1e-13);
       }
-}
-
-TEST(FoundersInPhase, G1HasTheAxisOfAPastCycle)
-{
-  const CellCycle<3> cycle(cycle_of_two_days(), seed, 1e-9);
-  const Point<3>     X;
-  const auto         G1 = cycle.founder_in_phase(7, X, 4);
-  const auto         S  = cycle.founder_in_phase(7, X, 1);
-  EXPECT_EQ(G1.key, S.key);
-  EXPECT_GT((G1.axis - S.axis).norm(), 1e-3);
 }

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include "effects/fate/lives.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 // Hazards whose rates follow the state, doc/theory.md (5.9).
 namespace
@@ -26,9 +18,8 @@ namespace
   std::vector<double>
   times_of(const std::vector<std::string> &settings, const double step)
   {
-    std::vector<std::string> all = growing;
-    all.insert(all.end(), settings.begin(), settings.end());
-    all.push_back("Time/Step=" + std::to_string(step));
+    const auto all =
+      with(with(growing, settings), {"Time/Step=" + std::to_string(step)});
     const Lives         lives = lead(scene_of(all), n_founders, 1.6, step);
     std::vector<double> times = lives.births;
     for (const CellEvent &event : lives.events)
@@ -37,27 +28,9 @@ namespace
     return times;
   }
 
-  /** H(t) = ∫ 1.5 exp(0.4 t²) dt, by Simpson's rule. */
-  double
-  integral(const double t)
-  {
-    constexpr int n   = 400;
-    double        sum = 0.;
-    for (int i = 0; i <= n; ++i)
-      {
-        const double s = t * i / n;
-        sum += (i == 0 || i == n ? 1. :
-                i % 2 == 1       ? 4. :
-                                   2.) *
-               1.5 * std::exp(0.4 * s * s);
-      }
-    return sum * t / n / 3.;
-  }
-
   /**
    * The mean error of the events' times, @p delay days after the thresholds of
-   * their hazards are reached. They are told from a run with short steps, whose
-   * own error the closed form limits.
+   * their hazards are reached. They are told from a run with short steps.
    */
   double
   mean_error(const std::vector<std::string> &settings, const double step)
@@ -101,47 +74,6 @@ TEST(LateRates, OfTheWaitAreMadeGood)
                        "Proliferation/Cell cycle/Duration=0.4",
                        "Proliferation/Cell cycle/G0 exit rate="
                        "1.5*growth*(generation < 1)"});
-}
-
-
-TEST(LateRates, EventsFollowTheClosedForm)
-{
-  // Of waits with the density r e^-H the part 1 - e^-H(t) is over at t.
-  const auto times =
-    times_of({"Cell types/stem/Transitions/To leaf=1.5*growth"}, 0.1);
-  for (const double t : {0.2, 0.5, 1.})
-    {
-      const double expected = -std::expm1(-integral(t));
-      const double part =
-        std::count_if(times.begin(),
-                      times.end(),
-                      [t](const double time) { return time <= t; }) /
-        double(n_founders);
-      EXPECT_NEAR(part,
-                  expected,
-                  3. * std::sqrt(expected * (1. - expected) / n_founders));
-    }
-}
-
-
-TEST(LateRates, KeepNothingWhereTimeOrTypeAreAll)
-{
-  const auto layout = [](const std::vector<std::string> &settings) {
-    return development_of(scene_of(settings)).columns().layout();
-  };
-  const std::string without =
-    layout({"Dimension=2",
-            "Cell types/Names=stem, leaf",
-            "Cell types/stem/Transitions/To leaf=1.5*t + (type_age > 1)",
-            "Death/Rate=0.1*age*noise"});
-  EXPECT_EQ(without.find("_rate"), std::string::npos) << without;
-  const std::string with =
-    layout({"Dimension=2",
-            "Cell types/Names=stem, leaf",
-            "Cell types/stem/Transitions/To leaf=1.5*(x > 1)",
-            "Death/Rate=0.1*volume"});
-  EXPECT_NE(with.find("transition_rate_1"), std::string::npos) << with;
-  EXPECT_NE(with.find("death_rate"), std::string::npos) << with;
 }
 
 

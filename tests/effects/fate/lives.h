@@ -4,18 +4,8 @@
 #ifndef morula_tests_effects_fate_lives_h
 #define morula_tests_effects_fate_lives_h
 
-#include <morula/effects/division/divide.h>
-#include <morula/effects/fate/removal.h>
-#include <morula/scene/scene.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <fstream>
-
-#include "common/temporary_file.h"
 #include "effects/small_tissue.h"
+
 
 namespace Morula
 {
@@ -27,11 +17,20 @@ namespace Morula
     return Scene::read(file.path, settings);
   }
 
+  /** Some settings, and more, which win. */
+  inline std::vector<std::string>
+  with(std::vector<std::string> settings, const std::vector<std::string> &more)
+  {
+    settings.insert(settings.end(), more.begin(), more.end());
+    return settings;
+  }
+
   /** All that becomes of cells in a scene. */
-  inline CellDevelopment<2>
+  template <int dim = 2>
+  CellDevelopment<dim>
   development_of(const Scene &scene)
   {
-    SceneEffects<2> effects = effects_of<2>(scene);
+    SceneEffects<dim> effects = effects_of<dim>(scene);
     return {std::move(effects.development),
             effects.columns,
             effects.state,
@@ -91,18 +90,18 @@ namespace Morula
 
   /** Whether the same has come about in steps of other lengths. */
   inline void
-  expect_same(const Lives &a, const Lives &b)
+  expect_same(const Lives &a, const Lives &b, const double tolerance = 1e-12)
   {
     ASSERT_EQ(a.events.size(), b.events.size());
     for (std::size_t i = 0; i < a.events.size(); ++i)
       {
-        EXPECT_NEAR(a.events[i].time, b.events[i].time, 1e-12);
+        EXPECT_NEAR(a.events[i].time, b.events[i].time, tolerance);
         EXPECT_EQ(a.events[i].kind, b.events[i].kind);
         EXPECT_EQ(a.events[i].to, b.events[i].to);
       }
     ASSERT_EQ(a.births.size(), b.births.size());
     for (std::size_t i = 0; i < a.births.size(); ++i)
-      EXPECT_NEAR(a.births[i], b.births[i], 1e-12);
+      EXPECT_NEAR(a.births[i], b.births[i], tolerance);
     EXPECT_EQ(a.numbers, b.numbers);
   }
 

@@ -1,42 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/random.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <vector>
-
-using namespace dealii;
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
   constexpr std::uint64_t seed      = 7;
   constexpr unsigned int  n_samples = 40000;
-
-  /**
-   * The Kolmogorov-Smirnov distance of samples from a distribution, times the
-   * root of their number: above 1.95 with probability 0.001.
-   */
-  double
-  kolmogorov_smirnov(std::vector<double>                        samples,
-                     const std::function<double(const double)> &distribution)
-  {
-    std::sort(samples.begin(), samples.end());
-    const double n        = samples.size();
-    double       distance = 0.;
-    for (unsigned int i = 0; i < samples.size(); ++i)
-      {
-        const double P = distribution(samples[i]);
-        distance       = std::max({distance, P - i / n, (i + 1) / n - P});
-      }
-    return distance * std::sqrt(n);
-  }
 
   double
   correlation(const std::vector<double> &a, const std::vector<double> &b)
@@ -78,15 +48,12 @@ TEST(Random, WaitIsExponential)
     {
       std::vector<double> waits;
       for (unsigned int id = 0; id < n_samples; ++id)
-        waits.push_back(
-          Random::exponential(seed, Random::founder_key(seed, id), rate));
+        waits.push_back(-std::expm1(
+          -rate *
+          Random::exponential(seed, Random::founder_key(seed, id), rate)));
 
       EXPECT_GE(*std::min_element(waits.begin(), waits.end()), 0.);
-      EXPECT_LT(kolmogorov_smirnov(waits,
-                                   [&](const double t) {
-                                     return -std::expm1(-rate * t);
-                                   }),
-                1.95);
+      EXPECT_LT(chi_squared(waits), largest_chi_squared);
     }
 }
 
@@ -110,15 +77,13 @@ TEST(Random, DirectionIsUniformOnTheSphere)
       const auto n = Random::direction<3>(seed, Random::founder_key(seed, id));
       EXPECT_NEAR(n.norm(), 1., 1e-15);
       for (unsigned int d = 0; d < 3; ++d)
-        components[d].push_back(n[d]);
-      components[3].push_back(n * oblique);
+        components[d].push_back(0.5 + 0.5 * n[d]);
+      components[3].push_back(0.5 + 0.5 * n * oblique);
       second_moment += outer_product(n, n) / n_samples;
     }
 
   for (const auto &samples : components)
-    EXPECT_LT(kolmogorov_smirnov(samples,
-                                 [](const double z) { return 0.5 * (1. + z); }),
-              1.95);
+    EXPECT_LT(chi_squared(samples), largest_chi_squared);
   // Variances: of n_i^2 4/45, of n_i n_j 1/15.
   for (unsigned int i = 0; i < 3; ++i)
     for (unsigned int j = 0; j < 3; ++j)
@@ -135,13 +100,9 @@ TEST(Random, DirectionIsUniformOnTheCircle)
     {
       const auto n = Random::direction<2>(seed, Random::founder_key(seed, id));
       EXPECT_NEAR(n.norm(), 1., 1e-15);
-      angles.push_back(std::atan2(n[1], n[0]));
+      angles.push_back(0.5 + 0.5 * std::atan2(n[1], n[0]) / numbers::PI);
     }
-  EXPECT_LT(kolmogorov_smirnov(angles,
-                               [](const double angle) {
-                                 return 0.5 + 0.5 * angle / numbers::PI;
-                               }),
-            1.95);
+  EXPECT_LT(chi_squared(angles), largest_chi_squared);
 }
 
 
@@ -174,49 +135,4 @@ TEST(Random, RelativesAreIndependent)
   for (const auto &other : {first, second, next_founder, other_seed, axis})
     EXPECT_NEAR(correlation(mother, other), 0., tolerance);
   EXPECT_NEAR(correlation(first, second), 0., tolerance);
-}
-
-
-TEST(Random, KeysAreDistinct)
-{
-  std::vector<std::uint64_t> generation;
-  for (unsigned int id = 0; id < 1000; ++id)
-    generation.push_back(Random::founder_key(seed, id));
-  // The number of a founder must not be mistaken for a key.
-  for (unsigned int key = 0; key < 1000; ++key)
-    generation.push_back(
-      Random::daughter_key(seed, key, Random::Draw::first_daughter));
-
-  std::set<std::uint64_t> keys(generation.begin(), generation.end());
-  std::size_t             n_keys = generation.size();
-  for (unsigned int g = 0; g < 5; ++g)
-    {
-      std::vector<std::uint64_t> next;
-      for (const auto key : generation)
-        for (const auto which :
-             {Random::Draw::first_daughter, Random::Draw::second_daughter})
-          next.push_back(Random::daughter_key(seed, key, which));
-      keys.insert(next.begin(), next.end());
-      n_keys += next.size();
-      generation = next;
-    }
-  EXPECT_EQ(keys.size(), n_keys);
-}
-
-
-TEST(Random, OrderOfEvaluationDoesNotMatter)
-{
-  std::vector<double> forwards, backwards;
-  for (unsigned int key = 0; key < 100; ++key)
-    {
-      forwards.push_back(wait(key));
-      forwards.push_back(Random::direction<2>(seed, key)[0]);
-    }
-  for (unsigned int key = 100; key-- > 0;)
-    {
-      backwards.push_back(Random::direction<2>(seed, key)[0]);
-      backwards.push_back(wait(key));
-    }
-  std::reverse(backwards.begin(), backwards.end());
-  EXPECT_EQ(forwards, backwards);
 }

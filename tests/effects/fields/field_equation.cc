@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fields/field_equation.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -87,82 +81,40 @@ namespace
       sum += matrix[a * BSpline<dim>::n + b] * field.coefficient[0][b];
     return sum;
   }
-
-  template <int dim>
-  void
-  check_symmetry()
-  {
-    constexpr unsigned int n = BSpline<dim>::n;
-    const auto             A = matrix(some_equation<dim>(0.7));
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < a; ++b)
-        EXPECT_NEAR(A[a * n + b], A[b * n + a], 1e-12);
-  }
-
-  /** Without a rate the load is that of the known field 0, less the matrix
-   *  times the known field. */
-  template <int dim>
-  void
-  check_load()
-  {
-    const FieldEquation<dim> equation = some_equation<dim>(0.);
-    const auto               A        = matrix(equation);
-    const auto               field    = some_field<dim>();
-    Local<dim>               load(Local<dim>::energy_and_residual);
-    Local<dim>               of_zero(Local<dim>::energy_and_residual);
-    equation(0, field, load);
-    LocalField<dim, 1> zero = {};
-    equation(0, zero, of_zero);
-    double largest = 0.;
-    for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-      {
-        largest = std::max(largest, std::abs(load.residual[a]));
-        EXPECT_NEAR(load.residual[a],
-                    of_zero.residual[a] - row_times(A, a, field),
-                    1e-9);
-      }
-    EXPECT_GT(largest, 1.);
-  }
-
-  /** Lumped terms stand on the diagonal and have the same row sums. */
-  template <int dim>
-  void
-  check_lumping()
-  {
-    constexpr unsigned int n          = BSpline<dim>::n;
-    FieldEquation<dim>     equation   = some_equation<dim>(0.7);
-    const auto             consistent = matrix(equation);
-    const auto             without    = matrix(some_equation<dim>(0.));
-    equation.lumped                   = {true};
-    const auto lumped                 = matrix(equation);
-    for (unsigned int a = 0; a < n; ++a)
-      {
-        double sum = 0.;
-        for (unsigned int b = 0; b < n; ++b)
-          {
-            sum += lumped[a * n + b] - consistent[a * n + b];
-            if (a != b)
-              {
-                EXPECT_NEAR(lumped[a * n + b], without[a * n + b], 1e-12);
-              }
-          }
-        EXPECT_NEAR(sum, 0., 1e-11);
-      }
-  }
 } // namespace
 
 
-TEST(FieldEquation, IsSymmetric)
+TEST_2D_3D(FieldEquation, IsSymmetric)
 {
-  check_symmetry<2>();
-  check_symmetry<3>();
+  constexpr unsigned int n = BSpline<dim>::n;
+  const auto             A = matrix(some_equation<dim>(0.7));
+  for (unsigned int a = 0; a < n; ++a)
+    for (unsigned int b = 0; b < a; ++b)
+      EXPECT_NEAR(A[a * n + b], A[b * n + a], 1e-12);
 }
 
 
-TEST(FieldEquation, TakesWhatTheKnownFieldGives)
+/** Without a rate the load is that of the known field 0, less the matrix
+ *  times the known field. */
+TEST_2D_3D(FieldEquation, TakesWhatTheKnownFieldGives)
 {
-  check_load<2>();
-  check_load<3>();
+  const FieldEquation<dim> equation = some_equation<dim>(0.);
+  const auto               A        = matrix(equation);
+  const auto               field    = some_field<dim>();
+  Local<dim>               load(Local<dim>::energy_and_residual);
+  Local<dim>               of_zero(Local<dim>::energy_and_residual);
+  equation(0, field, load);
+  LocalField<dim, 1> zero = {};
+  equation(0, zero, of_zero);
+  double largest = 0.;
+  for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+    {
+      largest = std::max(largest, std::abs(load.residual[a]));
+      EXPECT_NEAR(load.residual[a],
+                  of_zero.residual[a] - row_times(A, a, field),
+                  1e-9);
+    }
+  EXPECT_GT(largest, 1.);
 }
 
 
@@ -200,10 +152,28 @@ TEST(FieldEquation, KnowsWithinWhatAFixedValueFallsOff)
 }
 
 
-TEST(FieldEquation, LumpsWithTheSameSums)
+/** Lumped terms stand on the diagonal and have the same row sums. */
+TEST_2D_3D(FieldEquation, LumpsWithTheSameSums)
 {
-  check_lumping<2>();
-  check_lumping<3>();
+  constexpr unsigned int n          = BSpline<dim>::n;
+  FieldEquation<dim>     equation   = some_equation<dim>(0.7);
+  const auto             consistent = matrix(equation);
+  const auto             without    = matrix(some_equation<dim>(0.));
+  equation.lumped                   = {true};
+  const auto lumped                 = matrix(equation);
+  for (unsigned int a = 0; a < n; ++a)
+    {
+      double sum = 0.;
+      for (unsigned int b = 0; b < n; ++b)
+        {
+          sum += lumped[a * n + b] - consistent[a * n + b];
+          if (a != b)
+            {
+              EXPECT_NEAR(lumped[a * n + b], without[a * n + b], 1e-12);
+            }
+        }
+      EXPECT_NEAR(sum, 0., 1e-11);
+    }
 }
 
 

@@ -2,19 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fields/keep_positive.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include "common/body_on_grid.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "common/finite_differences.h"
-#include "effects/fate/lives.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {

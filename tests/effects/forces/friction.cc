@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/friction.h>
-
-#include <deal.II/base/numbers.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "common/finite_differences.h"
-#include "effects/fate/lives.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {

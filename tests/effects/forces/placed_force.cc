@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/placed_force.h>
-
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "common/finite_differences.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -68,15 +60,6 @@ namespace
     LocalField<dim>                                  field;
   };
 } // namespace
-
-
-TEST(PlacedForce, TangentIsTheDerivative)
-{
-  const Field<2> plane("-1e-3*(x - X)*y; 2e-4*sin(x/10)");
-  expect_derivatives<2>(plane.term(), plane.field);
-  const Field<3> space("-1e-3*(x - X)*z; 2e-4*sin(x/10); 1e-5*y^2");
-  expect_derivatives<3>(space.term(), space.field);
-}
 
 
 TEST(PlacedForce, IsThatOfThePlaceAtTheEnd)

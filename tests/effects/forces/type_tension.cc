@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/type_fractions.h>
-#include <morula/effects/forces/type_tension.h>
-#include <morula/effects/surface/surface_energy.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
-#include "common/complaint.h"
-#include "common/finite_differences.h"
-#include "effects/fate/lives.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -42,22 +29,6 @@ namespace
         list.push_back(y);
       }
     return list;
-  }
-
-  template <int dim>
-  void
-  check_derivatives()
-  {
-    // Areas as small as the smoothing and far larger ones.
-    std::mt19937             generator(3);
-    const GroupedPoints<dim> points = random_points_in_cell<dim>(generator, 6);
-    std::vector<typename AreaTerm<dim>::Load> loads;
-    for (unsigned int p = 0; p < 6; ++p)
-      loads.push_back(
-        {1. + p,
-         std::pow(10., 0.5 * p - 1.5) * random_tensor<1, dim>(generator)});
-    expect_derivatives(SurfaceEnergy<dim>(points, loads, 0.1),
-                       random_field<dim>(generator, 0.2));
   }
 
   /** The tension of a flat interface at this angle over γ, with h = 5 cells,
@@ -93,10 +64,6 @@ namespace
     return sum / (dim == 2 ? 2. * r : numbers::PI * r * r);
   }
 } // namespace
-
-
-TEST(TypeTension, HasExactDerivativesWithSmoothing){
-  MORULA_BOTH_DIMENSIONS(check_derivatives)}
 
 
 TEST(TypeFractions, AddUpToOneAlsoBesideTheSurface)
@@ -169,42 +136,18 @@ TEST(TypeFractions, FillGridCellsThatHaveNeighboursAllAround)
 }
 
 
-TEST(TypeTension, MixturesHaveSmallGradients)
-{
-  // With h = 5 cells, far below the 0.75 / h of an interface.
-  std::mt19937     generator(2);
-  TypeFractions<2> field(unit_box<2>(5.), 2);
-  const auto       cells = turned_lattice<2>(40., 0.3);
-  for (const Point<2> &x : cells)
-    field.add(x, 1., generator() % 2);
-  double sum = 0.;
-  for (const Point<2> &x : cells)
-    sum += 5. * field.at(x).gradient[0].norm();
-  EXPECT_LT(sum / cells.size(), 0.1);
-}
-
-
 TEST(TypeTension, StandsInOneOfTwoSections)
 {
-  const std::vector<std::string> settings = {
-    "Dimension=2",
-    "Cell types/Names=a, b, c",
-    "Cell types/b/Tension/With a=0.5",
-    "Cell types/a/Tension/With c=2",
-    "Cell types/c/Tension/With surface=3"};
-  const TypeTensions tensions = scene_of(settings).catalogue.tensions();
+  const TypeTensions tensions =
+    scene_of({"Dimension=2",
+              "Cell types/Names=a, b, c",
+              "Cell types/b/Tension/With a=0.5",
+              "Cell types/a/Tension/With c=2",
+              "Cell types/c/Tension/With surface=3"})
+      .catalogue.tensions();
   const std::vector<std::vector<double>> expected = {{0., 0.5, 2.},
                                                      {0.5, 0., 0.},
                                                      {2., 0., 0.}};
   EXPECT_EQ(tensions.between, expected);
   EXPECT_EQ(tensions.with_surface, std::vector<double>({0., 0., 3.}));
-  const SceneEffects<2> effects = effects_of<2>(scene_of(settings));
-  EXPECT_EQ(effects.forces.size(), 1u);
-  EXPECT_EQ(effects.conditions.size(), 1u);
-
-  // Switched off, there is neither force nor condition.
-  auto off = settings;
-  off.push_back("Tension/Force=false");
-  EXPECT_TRUE(effects_of<2>(scene_of(off)).forces.empty());
-  EXPECT_TRUE(effects_of<2>(scene_of(off)).conditions.empty());
 }

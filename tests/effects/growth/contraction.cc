@@ -1,49 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/growth/contraction.h>
+#include "effects/room.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
-#include "common/body_on_grid.h"
-
-using namespace Morula;
-
-namespace
+TEST_2D_3D(Contraction, ShortensAlongItsDirection)
 {
-  template <int dim>
-  void
-  check_strain()
-  {
-    std::mt19937 generator(1);
-    for (unsigned int trial = 0; trial < 20; ++trial)
-      {
-        Tensor<1, dim> a = random_tensor<1, dim>(generator);
-        a /= a.norm();
-        Tensor<1, dim> b = random_tensor<1, dim>(generator);
-        b -= (a * b) * a;
-        const double gamma = 0.5 + 0.05 * trial;
-        const auto   kept  = active_strain(a, gamma, true);
-        EXPECT_LE((kept * a - gamma * a).norm(), 1e-15);
-        EXPECT_NEAR(determinant(kept), 1., 1e-14);
-        EXPECT_LE(
-          (kept * b - std::pow(gamma, dim == 2 ? -1. : -0.5) * b).norm(),
-          1e-15);
-        const auto free = active_strain(a, gamma, false);
-        EXPECT_LE((free * a - gamma * a).norm(), 1e-15);
-        EXPECT_LE((free * b - b).norm(), 1e-15);
-        EXPECT_LE((active_strain(a, 1., true) - unit_tensor<dim>()).norm(),
-                  1e-15);
-      }
-  }
-} // namespace
-
-
-TEST(Contraction,
-     ShortensAlongItsDirection){MORULA_BOTH_DIMENSIONS(check_strain)}
+  std::mt19937 generator(1);
+  for (unsigned int trial = 0; trial < 20; ++trial)
+    {
+      Tensor<1, dim> a = random_tensor<1, dim>(generator);
+      a /= a.norm();
+      Tensor<1, dim> b = random_tensor<1, dim>(generator);
+      b -= (a * b) * a;
+      const double gamma = 0.5 + 0.05 * trial;
+      const auto   kept  = active_strain(a, gamma, true);
+      EXPECT_LE((kept * a - gamma * a).norm(), 1e-15);
+      EXPECT_NEAR(determinant(kept), 1., 1e-14);
+      EXPECT_LE((kept * b - std::pow(gamma, dim == 2 ? -1. : -0.5) * b).norm(),
+                1e-15);
+      const auto free = active_strain(a, gamma, false);
+      EXPECT_LE((free * a - gamma * a).norm(), 1e-15);
+      EXPECT_LE((free * b - b).norm(), 1e-15);
+      EXPECT_LE((active_strain(a, 1., true) - unit_tensor<dim>()).norm(),
+                1e-15);
+    }
+}
 
 
 TEST(Contraction, IsThereIfSomeCellContracts)
@@ -61,26 +42,4 @@ TEST(Contraction, IsThereIfSomeCellContracts)
   of_a_type.stretch.set_types({{"rest", 0.}, {"muscle", 1.}});
   of_a_type.stretch.set_for_type(1, "Cell types/muscle/Stretch", "0.8");
   EXPECT_TRUE(of_a_type.is_on());
-}
-
-
-TEST(Contraction, RefusesDirectionsAndStretchesThatAreNone)
-{
-  ContractionParameters parameters;
-  for (const std::string text : {"radial", "surface normal", "1; 0; 0", "0; Y"})
-    {
-      parameters.direction = text;
-      EXPECT_EQ(parameters.direction.text(), text);
-      EXPECT_NO_THROW(parameters.direction.check(2)) << text;
-    }
-  for (const std::string text : {"0; 0; 0", "outwards", "1", "radial; 1", ""})
-    {
-      parameters.direction = text;
-      EXPECT_THROW(parameters.direction.check(2), InputError) << text;
-    }
-  for (const std::string text : {"0", "-1"})
-    {
-      parameters.stretch = text;
-      EXPECT_THROW(parameters.stretch.check(2), InputError) << text;
-    }
 }

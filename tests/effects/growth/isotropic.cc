@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/growth/isotropic.h>
-
-#include <gtest/gtest.h>
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -27,52 +22,6 @@ TEST(IsotropicGrowth, FollowsTheExpressionInSpaceAndTime)
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(10., 0., 0.), 0.), 1.);
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(10., 0., 0.), 1.), 1.4);
   EXPECT_DOUBLE_EQ(law.stretch(Point<3>(0., 6., 8.), 0.5), 1.2);
-}
-
-
-TEST(IsotropicGrowth, HasNoZInThePlane)
-{
-  EXPECT_DOUBLE_EQ(growth<2>("1 + Y + X").stretch(Point<2>(2., 3.), 1.), 6.);
-  EXPECT_THROW(growth<2>("1 + Z + X").stretch(Point<2>(2., 3.), 1.),
-               InputError);
-}
-
-
-TEST(IsotropicGrowth, DoesNotGrowByDefault)
-{
-  const IsotropicGrowth<3> law{IsotropicGrowthParameters()};
-  EXPECT_EQ(law.stretch(Point<3>(1., 2., 3.), 7.), 1.);
-}
-
-
-TEST(IsotropicGrowth, RefusesStretchesThatAreNotPositive)
-{
-  const IsotropicGrowth<3> law = growth("1 - 2*t");
-  EXPECT_NO_THROW(law.stretch(Point<3>(), 0.25));
-  for (const double t : {0.5, 1.})
-    try
-      {
-        law.stretch(Point<3>(1., 2., 3.), t);
-        ADD_FAILURE() << "accepted at t = " << t;
-      }
-    catch (const InputError &error)
-      {
-        const std::string message = error.what();
-        for (const char *part : {"Growth/Isotropic/Stretch",
-                                 "1 - 2*t",
-                                 "> 0",
-                                 "1 2 3",
-                                 "End time"})
-          EXPECT_NE(message.find(part), std::string::npos) << message;
-      }
-}
-
-
-TEST(IsotropicGrowth, RefusesWhatCannotBeParsed)
-{
-  EXPECT_THROW(growth("1 +"), InputError);
-  EXPECT_THROW(growth(""), InputError);
-  EXPECT_THROW(growth("1; 1; 1"), InputError);
 }
 
 

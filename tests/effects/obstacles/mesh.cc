@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/obstacles/body.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <random>
-#include <string>
-
-#include "common/complaint.h"
-#include "common/polygons.h"
-#include "common/temporary_file.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -86,70 +74,4 @@ TEST(MeshBody, ItsSurfaceHasANormal)
       EXPECT_LT((at.gradient - Tensor<1, 3>({1., 0., 0.})).norm(), 1e-12);
       EXPECT_EQ(at.curvature.norm(), 0.);
     }
-}
-
-
-TEST(MeshBody, ManyTrianglesAreASphere)
-{
-  const double        R        = 40.;
-  const Polygons      polygons = sphere(R, 5);
-  const TemporaryFile file(".off", polygons.off());
-  double              sagitta = 0., longest = 0.;
-  for (const auto &face : polygons.faces)
-    {
-      Tensor<1, 3> sum;
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const Point<3> &p = polygons.points[face[k]];
-          sum += p;
-          longest =
-            std::max(longest, p.distance(polygons.points[face[(k + 1) % 3]]));
-        }
-      sagitta = std::max(sagitta, R - sum.norm() / 3.);
-    }
-  ASSERT_LT(longest, 0.1 * R);
-  ObstacleKeys ball("ball");
-  ball.shape         = "sphere";
-  ball.radius        = R;
-  const auto   exact = make_body<3>(ball);
-  const auto   mesh  = make_body<3>(mesh_at(file.path, {0., 0., 0.}));
-  std::mt19937 generator(2);
-  for (unsigned int i = 0; i < 1000; ++i)
-    {
-      const Point<3>    x        = random_place(generator, 60.);
-      const Distance<3> expected = exact->distance(x);
-      if (expected.value < -10.)
-        continue;
-      const Distance<3> found = mesh->distance(x);
-      EXPECT_NEAR(found.value, expected.value, sagitta);
-      EXPECT_LT((found.gradient - expected.gradient).norm(), longest / R);
-    }
-}
-
-
-TEST(MeshBody, IsRefusedWhereItHasNoInside)
-{
-  const auto complaint = [](const std::string &text) {
-    const TemporaryFile file(".off", text);
-    return complaint_of(
-      [&] { make_body<3>(mesh_at(file.path, {0., 0., 0.})); });
-  };
-  Polygons open = brick();
-  open.faces.pop_back();
-  expect_parts(complaint(open.off()),
-               {"Obstacles/wall/Surface mesh", "The surface is open"});
-  Polygons two   = brick();
-  Polygons other = brick();
-  for (Point<3> &p : other.points)
-    p += Tensor<1, 3>({5., 6., 7.});
-  two.append(other);
-  expect_parts(complaint(two.off()), {"intersects or touches itself"});
-  expect_parts(complaint_of([] {
-                 make_body<3>(mesh_at("no/such/file.stl", {0., 0., 0.}));
-               }),
-               {"check that it exists"});
-  expect_parts(complaint_of([] { make_body<3>(mesh_at("", {0., 0., 0.})); }),
-               {"a file, as Shape = mesh"});
-  expect_parts(complaint_of([] { make_body<2>(mesh_at("a.off", {0., 0.})); }),
-               {"box in 2-D"});
 }

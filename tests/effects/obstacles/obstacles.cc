@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/obstacles/obstacles.h>
-#include <morula/mechanics/equilibrium.h>
-
-#include <gtest/gtest.h>
-
-#include <map>
-#include <random>
-#include <string>
-
-#include "common/complaint.h"
-#include "common/finite_differences.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -55,69 +43,6 @@ namespace
     return list;
   }
 
-  /** Gradient and curvature are the derivatives of the distance. */
-  template <int dim>
-  void
-  check_distances()
-  {
-    std::mt19937 generator(1);
-    const double eps = 1e-5;
-    for (const Values &values : shapes<dim>())
-      for (unsigned int i = 0; i < 50; ++i)
-        {
-          SCOPED_TRACE(values.at("Shape"));
-          const auto at = body<dim>(values);
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = std::uniform_real_distribution<double>(0., 50.)(generator);
-          const Distance<dim> here = at->distance(x);
-          EXPECT_NEAR(here.gradient.norm(), 1., 1e-12);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              Point<dim> left = x, right = x;
-              left[d] -= eps;
-              right[d] += eps;
-              const auto l = at->distance(left), r = at->distance(right);
-              EXPECT_NEAR((r.value - l.value) / (2. * eps),
-                          here.gradient[d],
-                          1e-6);
-              const Tensor<1, dim> change =
-                (r.gradient - l.gradient) / (2. * eps);
-              for (unsigned int e = 0; e < dim; ++e)
-                EXPECT_NEAR(change[e], here.curvature[e][d], 1e-5);
-            }
-        }
-  }
-
-  /** A term at random places of the grid cell that lie in the obstacle. */
-  template <int dim>
-  void
-  check_contact()
-  {
-    std::mt19937 generator(2);
-    for (const Values &values : shapes<dim>())
-      for (const bool is_mould : {false, true})
-        {
-          SCOPED_TRACE(values.at("Shape") + (is_mould ? ", a mould" : ""));
-          const auto     at = body<dim>(values);
-          Tensor<1, dim> way;
-          way[0]      = 3.;
-          auto points = random_points_in_cell<dim>(generator, 40);
-          std::vector<typename ObstacleContact<dim>::BoundaryPoint>
-            boundary_points;
-          for (const Point<dim> &xi : points.xi)
-            boundary_points.push_back({50. * xi, 10. * (1. + xi[0])});
-          const ObstacleContact<dim> term(points,
-                                          boundary_points,
-                                          {{at.get(), is_mould, way, 0.7}});
-          EXPECT_TRUE(term.is_conservative());
-          const auto               field = random_field<dim>(generator, 0.05);
-          const TermOnOneCell<dim> one(term, GrowthAt::current);
-          ASSERT_GT(one.energy(field), 0.);
-          expect_derivatives(term, field);
-        }
-  }
-
   /** Depth by the term's energy of one point of area 1 on a plane that goes to
    *  +x with this velocity, κ = 100 E/h, E = 2, h = 50. */
   double
@@ -140,12 +65,37 @@ namespace
 } // namespace
 
 
-TEST(Body, GradientAndCurvatureAreDerivatives){
-  MORULA_BOTH_DIMENSIONS(check_distances)}
-
-
-TEST(Contact, ResidualAndTangentAreTheEnergysDerivatives){
-  MORULA_BOTH_DIMENSIONS(check_contact)}
+/** Gradient and curvature are the derivatives of the distance. */
+TEST_2D_3D(Body, GradientAndCurvatureAreDerivatives)
+{
+  std::mt19937 generator(1);
+  const double eps = 1e-5;
+  for (const Values &values : shapes<dim>())
+    for (unsigned int i = 0; i < 50; ++i)
+      {
+        SCOPED_TRACE(values.at("Shape"));
+        const auto at = body<dim>(values);
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = std::uniform_real_distribution<double>(0., 50.)(generator);
+        const Distance<dim> here = at->distance(x);
+        EXPECT_NEAR(here.gradient.norm(), 1., 1e-12);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Point<dim> left = x, right = x;
+            left[d] -= eps;
+            right[d] += eps;
+            const auto l = at->distance(left), r = at->distance(right);
+            EXPECT_NEAR((r.value - l.value) / (2. * eps),
+                        here.gradient[d],
+                        1e-6);
+            const Tensor<1, dim> change =
+              (r.gradient - l.gradient) / (2. * eps);
+            for (unsigned int e = 0; e < dim; ++e)
+              EXPECT_NEAR(change[e], here.curvature[e][d], 1e-5);
+          }
+      }
+}
 
 
 TEST(Obstacles, MoveByTheIntegralOfTheirVelocity)
@@ -177,30 +127,4 @@ TEST(Obstacles, SayWhereAStepIsTooLong)
   expect_parts(complaint("0; 0", -51.),
                {"(-51 25) um is 51 um deep in the obstacle 'wall'"});
   EXPECT_EQ(complaint("0; 0", -49.), "");
-}
-
-
-TEST(Obstacles, RefuseWhatIsNoBody)
-{
-  const auto complaint = [](const Values &values) {
-    return complaint_of([&] { Obstacles<3>{one_obstacle(values)}; });
-  };
-  const std::string section = "Obstacles/wall/";
-  expect_parts(complaint({}), {section + "Shape", "plane, sphere"});
-  expect_parts(complaint({{"Shape", "sphere"}}),
-               {section + "Radius", "> 0", "Shape = sphere"});
-  expect_parts(complaint({{"Shape", "plane"}}),
-               {section + "Normal", "a direction"});
-  expect_parts(complaint({{"Shape", "cylinder"}, {"Radius", "3"}}),
-               {section + "Axis", "a direction"});
-  expect_parts(complaint({{"Shape", "box"}}), {section + "Size", "3 numbers"});
-  expect_parts(complaint({{"Shape", "box"}, {"Size", "3, 0, 3"}}),
-               {section + "Size", "> 0"});
-  expect_parts(complaint({{"Shape", "plane"},
-                          {"Normal", "0, 0, 1"},
-                          {"Velocity", "X; 0; 0"}}),
-               {section + "Velocity", "functions of t"});
-  expect_parts(complaint_of(
-                 [] { body<2>({{"Shape", "cylinder"}, {"Radius", "3"}}); }),
-               {section + "Shape", "in 2-D", "disc"});
 }

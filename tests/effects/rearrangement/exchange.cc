@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/rearrangement/exchange.h>
-#include <morula/effects/rearrangement/rearrangement.h>
-
-#include <gtest/gtest.h>
-
-#include <bitset>
-#include <cmath>
-#include <map>
-#include <random>
-#include <set>
-
-#include "common/body_on_grid.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -108,47 +95,6 @@ namespace
   two_types(const double gamma)
   {
     return {{{0., gamma}, {gamma, 0.}}, {0., 0.}};
-  }
-
-  /** Lets any two cells exchange their types, with the probability of a heat
-   *  bath, so many times a cell. γ S = 1 */
-  void
-  mix(const Places              &places,
-      std::vector<unsigned int> &types,
-      const double               T,
-      const unsigned int         n_times,
-      std::mt19937              &generator)
-  {
-    const auto n_unlike = [&](const unsigned int p) {
-      double n = 0.;
-      for (unsigned int e = places.offsets[p]; e < places.offsets[p + 1]; ++e)
-        n += types[places.edges[e].other] != types[p];
-      return n;
-    };
-    std::uniform_real_distribution<double> uniform(0., 1.);
-    for (std::size_t n = 0; n < std::size_t(n_times) * places.size(); ++n)
-      {
-        const unsigned int p = generator() % places.size();
-        const unsigned int q = generator() % places.size();
-        if (types[p] == types[q])
-          continue;
-        const double before = n_unlike(p) + n_unlike(q);
-        std::swap(types[p], types[q]);
-        // A contact of the two with each other counts twice, before and after.
-        const double after = n_unlike(p) + n_unlike(q);
-        if (uniform(generator) * (1. + std::exp((after - before) / T)) > 1.)
-          std::swap(types[p], types[q]);
-      }
-  }
-
-  double
-  unlike_share(const Places &places, const std::vector<Occupant> &occupants)
-  {
-    double unlike = 0.;
-    for (unsigned int p = 0; p < places.size(); ++p)
-      for (unsigned int e = places.offsets[p]; e < places.offsets[p + 1]; ++e)
-        unlike += occupants[p].type != occupants[places.edges[e].other].type;
-    return unlike / places.edges.size();
   }
 } // namespace
 
@@ -267,38 +213,6 @@ TEST(Exchange, HasTheProbabilitiesOfItsMasterEquation)
 }
 
 
-TEST(Exchange, HasOnsagersEnergyInEquilibrium)
-{
-  // The share of unlike contacts, T in γ S. The larger domains are, the slower
-  // they settle by exchanges of neighbours: at T = 1.5 the longest waves take a
-  // thousand times a²/D. So cells are mixed first by exchanges of any two,
-  // which know nothing of neighbours' clocks, and the exchanges must leave it
-  // at that.
-  Places places = torus(64);
-  for (const auto &[T, exact] :
-       {std::pair(2., 0.36068), std::pair(1.5, 0.29567)})
-    {
-      const AdhesionEnergy      energy(two_types(1.), T);
-      std::mt19937              generator(1);
-      std::vector<unsigned int> types(64 * 64);
-      for (unsigned int p = 0; p < types.size(); ++p)
-        types[p] = p % 2;
-      std::shuffle(types.begin(), types.end(), generator);
-      mix(places, types, T, 1000, generator);
-      auto         occupants = occupants_of(places, types);
-      double       sum       = 0.;
-      unsigned int n_samples = 200;
-      for (unsigned int sample = 0; sample < n_samples; ++sample)
-        {
-          begin_step(places, occupants);
-          occupants = run_one(places, occupants, energy, 77 + sample, 4.);
-          sum += unlike_share(places, occupants) / n_samples;
-        }
-      EXPECT_NEAR(sum, exact, 0.004) << T;
-    }
-}
-
-
 TEST(Exchange, DriftsByTheHyperbolicTangent)
 {
   Places places = torus(64);
@@ -341,27 +255,6 @@ TEST(Exchange, DriftsByTheHyperbolicTangent)
 }
 
 
-TEST(Exchange, KeepsCellsWithoutDiffusion)
-{
-  const Places places = torus(6);
-  auto occupants      = occupants_of(places, std::vector<unsigned int>(36, 0));
-  for (unsigned int p = 0; p < 36; p += 5)
-    occupants[p].diffusion = 0.;
-  const auto end =
-    run_one(places, occupants, AdhesionEnergy(TypeTensions(), 1.), 3, 5.);
-  unsigned int n_moved = 0;
-  for (unsigned int p = 0; p < 36; ++p)
-    {
-      if (p % 5 == 0)
-        {
-          EXPECT_EQ(end[p].key, occupants[p].key);
-        }
-      n_moved += end[p].key != occupants[p].key;
-    }
-  EXPECT_GT(n_moved, 15u);
-}
-
-
 TEST(Exchange, NeverRaisesTheEnergyWithoutFluctuations)
 {
   const AdhesionEnergy energy(two_types(1.), 0.);
@@ -372,49 +265,38 @@ TEST(Exchange, NeverRaisesTheEnergyWithoutFluctuations)
 }
 
 
-namespace
+TEST_2D_3D(Exchange, LeavesSpaceAndShearWithThePlace)
 {
-  template <int dim>
-  void
-  check_state()
-  {
-    std::mt19937         generator(2);
-    const Tensor<2, dim> F_e =
-      unit_tensor<dim>() + 0.3 * random_tensor<2, dim>(generator);
-    const Tensor<2, dim> F_g =
-      1.1 * unit_tensor<dim>() + 0.1 * random_tensor<2, dim>(generator);
-    // The place keeps its space whatever comes.
-    const Tensor<2, dim> F = deformation_at(F_e, 17., F_g, 9.);
-    EXPECT_NEAR(9. * determinant(F), 17., 1e-12);
-    const Tensor<2, dim> found = F * invert(F_g);
-    EXPECT_LT((found / std::pow(determinant(found), 1. / dim) -
-               F_e / std::pow(determinant(F_e), 1. / dim))
-                .norm(),
-              1e-13);
-    // With its own cell nothing changes.
-    EXPECT_LT(
-      (deformation_at(F_e, 5. * determinant(F_e) * determinant(F_g), F_g, 5.) -
-       F_e * F_g)
-        .norm(),
-      1e-14);
-    // Shear is released, not the volume and not the rotation.
-    const Tensor<2, dim> half  = with_less_shear(F_e, 0.5);
-    const Tensor<2, dim> twice = with_less_shear(half, 0.5);
-    EXPECT_NEAR(determinant(half), determinant(F_e), 1e-13);
-    EXPECT_LT((twice - with_less_shear(F_e, 0.25)).norm(), 1e-12);
-    EXPECT_LT((with_less_shear(F_e, 1.) - F_e).norm(), 1e-12);
-    const Tensor<2, dim> none = with_less_shear(F_e, 0.);
-    EXPECT_LT((none * transpose(none) -
-               std::pow(determinant(F_e), 2. / dim) * unit_tensor<dim>())
-                .norm(),
-              1e-12);
-    const Tensor<2, dim> stretch = F_e * invert(none);
-    EXPECT_LT((stretch - transpose(stretch)).norm(), 1e-12);
-  }
-} // namespace
-
-
-TEST(Exchange, LeavesSpaceAndShearWithThePlace)
-{
-  MORULA_BOTH_DIMENSIONS(check_state)
+  std::mt19937         generator(2);
+  const Tensor<2, dim> F_e =
+    unit_tensor<dim>() + 0.3 * random_tensor<2, dim>(generator);
+  const Tensor<2, dim> F_g =
+    1.1 * unit_tensor<dim>() + 0.1 * random_tensor<2, dim>(generator);
+  // The place keeps its space whatever comes.
+  const Tensor<2, dim> F = deformation_at(F_e, 17., F_g, 9.);
+  EXPECT_NEAR(9. * determinant(F), 17., 1e-12);
+  const Tensor<2, dim> found = F * invert(F_g);
+  EXPECT_LT((found / std::pow(determinant(found), 1. / dim) -
+             F_e / std::pow(determinant(F_e), 1. / dim))
+              .norm(),
+            1e-13);
+  // With its own cell nothing changes.
+  EXPECT_LT(
+    (deformation_at(F_e, 5. * determinant(F_e) * determinant(F_g), F_g, 5.) -
+     F_e * F_g)
+      .norm(),
+    1e-14);
+  // Shear is released, not the volume and not the rotation.
+  const Tensor<2, dim> half  = with_less_shear(F_e, 0.5);
+  const Tensor<2, dim> twice = with_less_shear(half, 0.5);
+  EXPECT_NEAR(determinant(half), determinant(F_e), 1e-13);
+  EXPECT_LT((twice - with_less_shear(F_e, 0.25)).norm(), 1e-12);
+  EXPECT_LT((with_less_shear(F_e, 1.) - F_e).norm(), 1e-12);
+  const Tensor<2, dim> none = with_less_shear(F_e, 0.);
+  EXPECT_LT((none * transpose(none) -
+             std::pow(determinant(F_e), 2. / dim) * unit_tensor<dim>())
+              .norm(),
+            1e-12);
+  const Tensor<2, dim> stretch = F_e * invert(none);
+  EXPECT_LT((stretch - transpose(stretch)).norm(), 1e-12);
 }

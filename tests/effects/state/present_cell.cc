@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
-#include <morula/effects/development.h>
-#include <morula/effects/fate/random.h>
-#include <morula/effects/state/surface_distance.h>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -153,52 +144,12 @@ TEST(PresentCell, KnowsWhatItWouldFeelIfItHadGrown)
 }
 
 
-TEST(PresentCell, TakesNoStorageForVariablesThatNobodyUses)
+TEST(PresentCell, NormalMakesANormalDistributionOfNoise)
 {
-  StateColumns<3> state;
-  CellColumns<3>  columns;
-  const auto      n = columns.n_numbers();
-  state.use(key("X + t + x + volume + pressure + noise"));
-  state.declare(columns);
-  EXPECT_EQ(columns.n_numbers(), n);
-  state.use(key("age + depth"));
-  state.declare(columns);
-  EXPECT_EQ(columns.n_numbers(), n + 2);
-}
-
-
-TEST(PresentCell, NoiseIsUniformAndTheCellsOwn)
-{
-  constexpr unsigned int n   = 10000;
-  double                 sum = 0., squares = 0.;
-  for (unsigned int id = 0; id < n; ++id)
-    {
-      const double noise = Random::noise(3, Random::founder_key(3, id));
-      EXPECT_GT(noise, 0.);
-      EXPECT_LT(noise, 1.);
-      sum += noise;
-      squares += noise * noise;
-    }
-  EXPECT_NEAR(sum / n, 0.5, 3. / std::sqrt(12. * n));
-  EXPECT_NEAR(squares / n - std::pow(sum / n, 2), 1. / 12., 0.005);
-  // normal() makes a normal distribution of it
   SomeCell cell;
   EXPECT_NEAR(cell.value("normal(10, 2)"),
               10. + 2. * cell.value("normal(0, 1)"),
               1e-12);
-}
-
-
-TEST(PresentCell, KeysKnowOnlyTheirVariables)
-{
-  EXPECT_NO_THROW(key("pressure").check(3));
-  EXPECT_NO_THROW(key("pressure", Evaluated::event).check(3));
-  EXPECT_NO_THROW(key("generation + depth", Evaluated::property).check(3));
-  EXPECT_THROW(key("pressure", Evaluated::property).check(3), InputError);
-  EXPECT_THROW(key("pressure", Evaluated::place).check(3), InputError);
-  EXPECT_THROW(key("age", Evaluated::founder).check(3), InputError);
-  EXPECT_THROW(key("z").check(2), InputError);
-  EXPECT_NO_THROW(key("z").check(3));
 }
 
 

@@ -2,16 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/carriers.h>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "common/body_on_grid.h"
-#include "effects/small_tissue.h"
-
-using namespace Morula;
+#include "effects/room.h"
 
 namespace
 {
@@ -85,63 +76,48 @@ namespace
                                           at(x)));
     }
   };
-
-  /** Another cell comes nearer: the point stays with its own, and without the
-   *  column it does not. */
-  template <int dim>
-  void
-  check_stays()
-  {
-    for (const bool carries : {true, false})
-      {
-        Problem<dim> problem(carries);
-        renew_carriers(problem.tissue);
-        EXPECT_EQ(problem.value(), 0.);
-        problem.move_point(11.);
-        renew_carriers(problem.tissue);
-        EXPECT_EQ(problem.value(), carries ? 0. : 1.);
-      }
-  }
-
-  /** The cell is gone: the point takes the nearest one. */
-  template <int dim>
-  void
-  check_lost()
-  {
-    Problem<dim> problem(true);
-    renew_carriers(problem.tissue);
-    std::vector<unsigned int> first;
-    for (unsigned int p = 0; p < problem.tissue.cells().size(); ++p)
-      if (problem.tissue.cells().id(p) == 0)
-        first.push_back(p);
-    problem.tissue.remove(first, {});
-    renew_carriers(problem.tissue);
-    EXPECT_EQ(problem.value(), 1.);
-  }
-
-  /** Between two cells the mean counts, in any frame, until one is nearer. */
-  template <int dim>
-  void
-  check_tie()
-  {
-    Problem<dim> problem(true);
-    problem.move_point(10.);
-    renew_carriers(problem.tissue);
-    EXPECT_EQ(problem.value(), 0.5);
-    problem.move_point(10.5);
-    renew_carriers(problem.tissue);
-    EXPECT_EQ(problem.value(), 1.);
-  }
 } // namespace
 
 
-TEST(Carriers, PointStaysWithItsCell){MORULA_BOTH_DIMENSIONS(check_stays)}
-
-
-TEST(Carriers, LostCellIsReplaced){MORULA_BOTH_DIMENSIONS(check_lost)}
-
-
-TEST(Carriers, EquallyNearCellsCountAlike)
+/** Another cell comes nearer: the point stays with its own, and without the
+ *  column it does not. */
+TEST_2D_3D(Carriers, PointStaysWithItsCell)
 {
-  MORULA_BOTH_DIMENSIONS(check_tie)
+  for (const bool carries : {true, false})
+    {
+      Problem<dim> problem(carries);
+      renew_carriers(problem.tissue);
+      EXPECT_EQ(problem.value(), 0.);
+      problem.move_point(11.);
+      renew_carriers(problem.tissue);
+      EXPECT_EQ(problem.value(), carries ? 0. : 1.);
+    }
+}
+
+
+/** The cell is gone: the point takes the nearest one. */
+TEST_2D_3D(Carriers, LostCellIsReplaced)
+{
+  Problem<dim> problem(true);
+  renew_carriers(problem.tissue);
+  std::vector<unsigned int> first;
+  for (unsigned int p = 0; p < problem.tissue.cells().size(); ++p)
+    if (problem.tissue.cells().id(p) == 0)
+      first.push_back(p);
+  problem.tissue.remove(first, {});
+  renew_carriers(problem.tissue);
+  EXPECT_EQ(problem.value(), 1.);
+}
+
+
+/** Between two cells the mean counts, in any frame, until one is nearer. */
+TEST_2D_3D(Carriers, EquallyNearCellsCountAlike)
+{
+  Problem<dim> problem(true);
+  problem.move_point(10.);
+  renew_carriers(problem.tissue);
+  EXPECT_EQ(problem.value(), 0.5);
+  problem.move_point(10.5);
+  renew_carriers(problem.tissue);
+  EXPECT_EQ(problem.value(), 1.);
 }

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 by the Morula authors
+
+#ifndef morula_tests_effects_room_h
+#define morula_tests_effects_room_h
+
+#include <morula/effects/contact/contact_forces.h>
+#include <morula/effects/contact/contact_pairs.h>
+#include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/directions.h>
+#include <morula/effects/division/divide.h>
+#include <morula/effects/division/numbering.h>
+#include <morula/effects/elastic_volumes.h>
+#include <morula/effects/fate/death.h>
+#include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/expected_cells.h>
+#include <morula/effects/fate/removal.h>
+#include <morula/effects/fields/field_equation.h>
+#include <morula/effects/fields/keep_positive.h>
+#include <morula/effects/forces/friction.h>
+#include <morula/effects/forces/placed_force.h>
+#include <morula/effects/forces/type_fractions.h>
+#include <morula/effects/forces/type_tension.h>
+#include <morula/effects/growth/contraction.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/growth/relaxation.h>
+#include <morula/effects/obstacles/obstacles.h>
+#include <morula/effects/rearrangement/places_of_tissue.h>
+#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/state/surface_distance.h>
+#include <morula/effects/step_points.h>
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/following_pressure.h>
+#include <morula/effects/surface/nitsche_bounded.h>
+#include <morula/effects/surface/slip.h>
+#include <morula/effects/surface/surface_energy.h>
+#include <morula/effects/surface/traction.h>
+#include <morula/particles/detached_points.h>
+#include <morula/scene/scene.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/physics/transformations.h>
+
+#include <bitset>
+
+#include "common/diagonal.h"
+#include "common/finite_differences.h"
+#include "common/materials.h"
+#include "common/own_law.h"
+#include "common/polygons.h"
+#include "common/temporary_file.h"
+#include "common/tests.h"
+
+using namespace Morula;
+
+#include "effects/division/dividing_tissue.h"
+#include "effects/fate/lives.h"
+#include "effects/lone_cell.h"
+#include "effects/samples.h"
+#include "effects/small_tissue.h"
+
+#endif

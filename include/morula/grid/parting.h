@@ -8,7 +8,7 @@
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
-#include <deal.II/base/types.h>
+#include <deal.II/particles/property_pool.h>
 
 #include <memory>
 #include <unordered_map>

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/mesh_file_fault.h>
 #include <morula/base/surface_mesh_soup.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -227,6 +226,21 @@ namespace Morula::MeshFile
              CGAL::IO::read_OFF(stream, soup.points, soup.polygons);
     }
 
+    /** Refuses a polygon with a vertex that the file does not have: CGAL reads
+     *  it in silence. */
+    void
+    check_indices(const Soup &soup, const NamedFile &file)
+    {
+      for (std::size_t i = 0; i < soup.polygons.size(); ++i)
+        for (const std::size_t vertex : soup.polygons[i])
+          if (vertex >= soup.points.size())
+            refuse(file,
+                   "Polygon " + std::to_string(i) +
+                     " (counted from 0) names a vertex that is none of the " +
+                     std::to_string(soup.points.size()) +
+                     " there: copy or export the file again.");
+    }
+
     /** Refuses coordinates that are no numbers, or so large that areas and
      *  volumes would overflow. */
     void
@@ -371,28 +385,12 @@ namespace Morula::MeshFile
       refuse(file,
              "The file cannot be read: its numbers have commas. Write decimal "
              "points, and blanks between numbers.");
-    const bool names_no_vertex =
-      std::any_of(soup.polygons.begin(),
-                  soup.polygons.end(),
-                  [&](const std::vector<std::size_t> &polygon) {
-                    return std::any_of(polygon.begin(),
-                                       polygon.end(),
-                                       [&](const std::size_t vertex) {
-                                         return vertex >= soup.points.size();
-                                       });
-                  });
-    if (!good || names_no_vertex)
-      {
-        const std::string fault =
-          content.empty() ? "" : fault_in(content, ending);
-        refuse(file,
-               "The file cannot be read: " +
-                 (fault.empty() ?
-                    "check that it exists, that its name ends with .stl, .off, "
-                    ".ply or .obj, that it is whole, and that it holds numbers "
-                    "only." :
-                    fault));
-      }
+    if (!good)
+      refuse(file,
+             "The file cannot be read: check that it exists, that its name ends "
+             "with .stl, .off, .ply or .obj, that it is whole, and that it holds "
+             "numbers only.");
+    check_indices(soup, file);
     check_finite(soup, file);
     repair(soup);
     if (soup.polygons.empty())

@@ -5,7 +5,6 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/simulation/former_columns.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
@@ -114,16 +113,6 @@ namespace Morula
     const std::string path = model.scene.output_directory + "/snapshot.h5";
     check_resumable(model.scene, read_snapshot_parameters(path, comm));
     resumed_from = read_snapshot<dim>(path, comm);
-    const std::string added =
-      add_former_columns(tissue.boundary_points().columns(),
-                         comm,
-                         *resumed_from);
-    if (!added.empty())
-      warnings.push_back("Warning: the snapshot of an older version lacks the "
-                         "columns " +
-                         added +
-                         " of boundary points: they are 0 until the end of "
-                         "the next step.");
     check_columns(*resumed_from,
                   tissue.cells().columns(),
                   tissue.boundary_points().columns(),

@@ -155,8 +155,7 @@ namespace Morula
     tissue.pieces   = held_pieces(scene, tissue.founders, tissue.surface, comm);
     tissue.warnings = scene_warnings(
       scene, tissue.founders, tissue.surface, tissue.counts, comm);
-    review_applied(
-      scene, tissue.applied, tissue.founders.positions, comm, tissue.warnings);
+    review_applied(scene, tissue.applied, tissue.warnings);
     review_held(scene, tissue.pieces, tissue.warnings);
     if (interaction != nullptr)
       interaction->review_bodies(tissue.measures, tissue.warnings);

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/usual_numbers.h>
 #include <morula/scene/estimates.h>
 #include <morula/scene/reviews.h>
 #include <morula/scene/warnings.h>
@@ -108,9 +107,6 @@ namespace Morula
                             *std::max_element(founders.volumes.begin(),
                                               founders.volumes.end()),
                           comm);
-    if (const auto range =
-          range_of(scene.material.youngs_modulus, founders.positions, comm))
-      at.stiffness = range->second;
     for (const Effect<dim> *const effect : effects.all())
       effect->review(at, review);
     review_rates(scene, founders, surface, comm, review);
@@ -118,7 +114,6 @@ namespace Morula
       keys->review(rest, review);
     for (const auto &[name, equation] : effects.equations)
       equation->review(at, review);
-    review_unused(scene.tissue, review);
     review_idle_effects(scene, review);
     review_idle_keys(scene, founders, comm, review);
     review_types(scene.cell_types, at, !founders.types.empty(), review);

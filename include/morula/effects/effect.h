@@ -312,8 +312,6 @@ namespace Morula
     bool is_loaded = false;
     /** Initial volumes of the founders of all ranks, µm^dim. */
     double mean_volume = 0., largest_volume = 0.;
-    /** E of the stiffest cell, kPa, if it is known before the run. */
-    std::optional<double> stiffness = {};
     /** Initial volumes of this rank's founders, µm^dim. */
     std::vector<double> volumes = {};
     /** Their types by number; empty without types. */

@@ -74,15 +74,10 @@ namespace Morula
   applied_texts(const Scene                         &scene,
                 const std::vector<AppliedCondition> &applied);
 
-  /** Adds warnings of conditions on few points or none and without a load, and
-   *  of numbers that look like another unit's. Collective.
-   *  @param founders initial positions of this rank's, µm */
-  template <int dim>
+  /** Adds warnings of conditions on few points or none and without a load. */
   void
   review_applied(const Scene                         &scene,
                  const std::vector<AppliedCondition> &applied,
-                 const std::vector<Point<dim>>       &founders,
-                 const MPI_Comm                       comm,
                  std::vector<std::string>            &warnings);
 } // namespace Morula
 

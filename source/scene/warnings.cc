@@ -115,7 +115,6 @@ namespace Morula
     for (const auto &[name, equation] : effects.equations)
       equation->review(at, review);
     review_idle_effects(scene, review);
-    review_idle_keys(scene, founders, comm, review);
     review_types(scene.cell_types, at, !founders.types.empty(), review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);

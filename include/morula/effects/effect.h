@@ -31,14 +31,6 @@ namespace Morula
   class ExpressionKey;
   struct RestOfScene;
 
-  /** A key that nothing reads in a scene, and what to do. */
-  struct IdleKey
-  {
-    const AnyKey &key;
-    std::string   why; // half a sentence
-    std::string   remedy;
-  };
-
   /** A part of an effect that --explain names by itself. */
   struct PartOfEffect
   {
@@ -131,26 +123,10 @@ namespace Morula
 
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
-    virtual std::string
+    std::string
     how_to_switch_on() const
     {
       return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
-    }
-
-    /** Keys that nothing reads, as the values of others tell: said of those
-     *  that the scene sets. See AnyKey::needs(), too. */
-    virtual std::vector<IdleKey>
-    idle_keys(const RestOfScene &) const
-    {
-      return {};
-    }
-
-    /** Keys that nothing reads where a file of points says for each cell what
-     *  stands in @p column. */
-    virtual std::vector<const AnyKey *>
-    said_by_column(const std::string & /*column*/) const
-    {
-      return {};
     }
 
     /** Keys that choose boundary points on which the effect acts, besides those

@@ -73,25 +73,10 @@ namespace Morula
   }
 
 
-  std::vector<const AnyKey *>
-  CellCycleParameters::said_by_column(const std::string &column) const
-  {
-    return column == "phase" ? std::vector<const AnyKey *>{&start} :
-                               std::vector<const AnyKey *>();
-  }
-
-
   bool
   CellCycleParameters::is_on() const
   {
     return law != "none" || is_law_of_types;
-  }
-
-
-  std::string
-  CellCycleParameters::how_to_switch_on() const
-  {
-    return "Set " + law.path() + " = cell cycle";
   }
 
 

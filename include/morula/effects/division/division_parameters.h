@@ -24,8 +24,6 @@ namespace Morula
     Key<bool>        axis_follows_rotation;
     Key<bool>        stay_inside;
 
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

@@ -25,8 +25,6 @@ namespace Morula
     ExpressionKey    homeostasis;        // 1/(day kPa)
     ExpressionKey    homeostatic_stress; // kPa
 
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

@@ -31,8 +31,6 @@ namespace Morula
 
     bool
     is_on() const override;
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
     std::string
     details() const override;
     using Keys::list;

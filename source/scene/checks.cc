@@ -175,18 +175,13 @@ namespace Morula
   {
     // The checks at founders come first, as only they tell which expression has
     // no value. Then numbers over all ranks are compared, which is collective.
-    // The memory comes last: its estimate evaluates expressions that have been
-    // checked by then.
     const std::vector<Point<dim>>     no_points;
     const std::vector<Tensor<1, dim>> no_normals;
     const Preview<dim>                at =
       preview<dim>(scene, founders, no_points, no_normals, comm);
     everywhere(comm, [&] { check_founders(scene, at); });
     scene.cell_types.check_founders(founders_of_types(scene, founders, comm));
-    const types::particle_index n_dividing =
-      count_dividing(scene, founders, comm);
-    check_memory(scene, expected_size(scene, founders, comm), comm);
-    return n_dividing;
+    return count_dividing(scene, founders, comm);
   }
 
 

@@ -125,9 +125,6 @@ namespace Morula
                            counts.points > 0 && counts.fixed == counts.points,
                            review);
     review_method(scene, review);
-    scene.output.review(scene.time.step,
-                        estimated_size(scene, founders, comm).seconds,
-                        review);
     return review.warnings;
   }
 

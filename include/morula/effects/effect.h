@@ -31,14 +31,6 @@ namespace Morula
   class ExpressionKey;
   struct RestOfScene;
 
-  /** A part of an effect that --explain names by itself. */
-  struct PartOfEffect
-  {
-    std::string name;
-    bool        on;
-    std::string details;
-  };
-
   /** A field whose value at a cell expressions may read. */
   struct NamedField
   {
@@ -166,14 +158,6 @@ namespace Morula
     take_laws_of_types(const std::vector<const Key<std::string> *> & /*laws*/)
     {}
 
-    /** What the number of cells is that --explain expects at the end, "about "
-     *  or "at least "; empty: the effect does not make cells. */
-    virtual std::string
-    counts_cells(const RestOfScene &) const
-    {
-      return "";
-    }
-
     /** Refuses what the keys contradict in the rest of the scene. Also called
      *  while the effect is off. @throws InputError */
     virtual void
@@ -197,33 +181,10 @@ namespace Morula
     virtual std::string
     details() const;
 
-    /** Its parts that --explain names by themselves. */
-    virtual std::vector<PartOfEffect>
-    parts() const
-    {
-      return {};
-    }
-
     /** Lines of --explain that follow from the keys and the rest of the scene,
      *  each with its end, if the effect is on. */
     virtual std::string
     further_lines(const RestOfScene &) const
-    {
-      return "";
-    }
-
-    /** By what tissue that grows may buckle where the effect is on: what
-     *  follows "tissue grows " in --explain; empty: not by it. */
-    virtual std::string
-    lets_buckle() const
-    {
-      return "";
-    }
-
-    /** How the effect resists motion, which decides the fold that is found, if
-     *  it is on; empty: it does not. */
-    virtual std::string
-    resistance(const RestOfScene &) const
     {
       return "";
     }

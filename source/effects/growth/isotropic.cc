@@ -82,17 +82,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
-                                              const double      t) const
-  {
-    // A volume has dim lengths that grow alike. A stretch that is not known
-    // before the run counts as no growth, a lower bound as a rule.
-    return is_known_before() ? std::pow(stretch(X, t), dim) : 1.;
-  }
-
-
-  template <int dim>
   void
   IsotropicGrowth<dim>::review(const Preview<dim> &scene, Review &review) const
   {

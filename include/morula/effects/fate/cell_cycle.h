@@ -79,10 +79,6 @@ namespace Morula
 
     std::string
     details() const override;
-    std::vector<PartOfEffect>
-    parts() const override;
-    std::string
-    counts_cells(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

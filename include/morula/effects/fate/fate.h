@@ -174,23 +174,6 @@ namespace Morula
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const;
 
-    /** What founders become until @p t, day, as far as place alone tells. For
-     *  estimates before there are cells. */
-    virtual ExpectedCells<dim>
-    expected_cells(const double /*t*/) const
-    {
-      return {};
-    }
-
-    /** The same of a founder in its state at t = 0, whose volume grows by the
-     *  factor `ratio`. */
-    virtual double
-    expected_cells(const PresentCell<dim> & /*founder*/,
-                   const double /*ratio*/) const
-    {
-      return 1.;
-    }
-
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */
     virtual bool

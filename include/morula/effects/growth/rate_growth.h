@@ -51,12 +51,9 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
+    /** Whether place and time alone tell growth. */
     bool
-    is_known_before() const override;
-
-    /** 1 where the rate depends on the state of cells: nobody knows it yet. */
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override;
+    is_known_before() const;
 
     void
     remember(const GrowingCell<dim>      &cell,

@@ -79,8 +79,6 @@ namespace Morula
     void
     rearrange(Tissue<dim>            &tissue,
               const MomentOfRun<dim> &moment) const override;
-    double
-    seconds_per_cell() const override;
 
   private:
     /** The cells of this rank as occupants of places. @throws InputError */

@@ -68,12 +68,6 @@ namespace Morula
     void
     after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
 
-    double
-    seconds_per_cell() const override
-    {
-      return search.seconds_per_cell(dim);
-    }
-
   private:
     const NeighbourSearch                search;
     const std::vector<NeighbourVariable> variables;

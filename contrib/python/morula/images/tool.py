@@ -122,7 +122,7 @@ def scene_keys(dimension, length, surface, types):
             "Tissue/Cell spacing": f"{length:.4g}",
             "Tissue/Boundary points": 0, "Tissue/Refine surface": "true",
             "Grid/Spacing": f"{2.02 * length:.4g}", "Grid/Points per cell": 2,
-            # for cells that grow unequally (--explain, Folds)
+            # for cells that grow unequally (doc/modelling.md, Folds)
             "Material/Energy per": "grown volume",
             "Material/Volumetric strain": "pooled",
             "Proliferation/Law": "cell cycle",

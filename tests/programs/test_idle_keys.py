@@ -20,21 +20,6 @@ FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100, "Fields/u/Consum
 
 POINTS = {**{key: value for key, value in BOX.items() if key not
              in ("Tissue/Size", "Tissue/Cell spacing")}, "Tissue/Shape": "points"}
-POINTS_CYCLE = {**POINTS, **{key: CYCLE[key] for key in CYCLE if key.startswith("Proliferation")}}
-POINTS_TYPES = {**POINTS, "Cell types/Names": "a, b"}
-
-# Key, value, the other keys, and the columns of a points file.
-OF_POINTS = (("Tissue/Cell spacing", 12, POINTS, {"volume": 100}),
-             ("Tissue/Closed gap", 5, POINTS, {}), ("Tissue/Boundary points", 50, POINTS, {}),
-             ("Tissue/Refine surface", "true", POINTS, {}),
-             ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {"phase": 1}),
-             ("Cell types/b/Where", "X > 0", POINTS_TYPES, {"type": "a"}))
-OF_POINTS_READ = (("Tissue/Cell spacing", 12, POINTS, {}),
-                  ("Tissue/Closed gap", 5, {**POINTS, "Tissue/Points surface": "always"}, {}),
-                  ("Tissue/Refine surface", "true", {**POINTS,
-                                                     "Boundary conditions/Fixed where": "X < -45"},
-                   {}), ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {}),
-                  ("Cell types/b/Where", "X > 0", POINTS_TYPES, {}))
 
 # Effects that are asked for and happen to nobody: what is said, and a scene of
 # the same kind in which something happens.
@@ -125,23 +110,9 @@ def points(runs, columns):
     return {"Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n")}
 
 
-@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS)
-def test_of_points(runs, key, value, keys, columns):
-    said = runs.explain({**keys, **points(runs, columns), key: value})
-    assert f"Warning: {key} = '{value}': it does nothing here: " in said
-
-
-@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS_READ)
-def test_of_points_that_are_read(runs, key, value, keys, columns):
-    assert "it does nothing" not in runs.explain({**keys, **points(runs, columns), key: value})
-
-
 def test_columns_that_nothing_reads(runs):
-    file = points(runs, {"phase": 1, "id": 7})
-    said = runs.explain(POINTS, file)
+    said = runs.explain(POINTS, points(runs, {"phase": 1, "id": 7}))
     assert "its columns 'id' say nothing about cells here and are skipped." in said
-    assert "nothing reads its column 'phase'" in said
-    assert "nothing reads its column" not in runs.explain(POINTS_CYCLE, file)
 
 
 @pytest.mark.parametrize("keys, idle, acts, word", NOBODY)

@@ -51,12 +51,6 @@ namespace
       return factor * cell.growth;
     }
 
-    double
-    expected_volume_ratio(const Point<dim> &, const double) const override
-    {
-      return factor;
-    }
-
   private:
     const double factor;
   };
@@ -92,13 +86,14 @@ namespace
     return Scene::read(empty.path, overrides, catalogue());
   }
 
-  /** What the scene's growth law expects at t = 1 day. */
+  /** The stretch that the scene's growth law gives to a cell in the first day.
+   */
   template <int dim>
   double
-  expected_volume_ratio(const Scene &scene)
+  stretch(const Scene &scene)
   {
-    return effects_of<dim>(scene).development.law->expected_volume_ratio(
-      Point<dim>(), 1.);
+    return effects_of<dim>(scene).development.law->growth(
+      {{}, Tensor<2, dim>(unit_symmetric_tensor<dim>()), {}}, 0., 1.)[0][0];
   }
 } // namespace
 
@@ -111,8 +106,8 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
           "Proliferation/Law=cell cycle",
           "Proliferation/Cell cycle/Division axis=some axis"});
   EXPECT_NO_THROW(scene.check());
-  EXPECT_EQ(expected_volume_ratio<2>(scene), 3.);
-  EXPECT_EQ(expected_volume_ratio<3>(scene), 3.);
+  EXPECT_EQ(stretch<2>(scene), 3.);
+  EXPECT_EQ(stretch<3>(scene), 3.);
   EXPECT_NE(effects_of<3>(scene).development.proliferation->rule(0), nullptr);
 
   // Values belong to one scene.
@@ -146,7 +141,7 @@ TEST(Catalogue, LeavesTheLibrarysOwnEffectsAlone)
                             "Growth/Isotropic/Stretch=1.1",
                             "Proliferation/Law=cell cycle"});
   EXPECT_NO_THROW(scene.check());
-  EXPECT_NEAR(expected_volume_ratio<2>(scene), 1.21, 1e-12);
+  EXPECT_NEAR(stretch<2>(scene), 1.1, 1e-12);
   EXPECT_EQ(effects_of<2>(scene).development.proliferation->rule(0), nullptr);
   EXPECT_EQ(effects_of<2>(read({})).development.law, nullptr);
 }

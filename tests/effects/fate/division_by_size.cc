@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/expected_cells.h>
 
 #include <cmath>
 #include <map>
@@ -203,25 +202,6 @@ TEST(DivisionBySize, HasTheNoiseThatIsAsked)
   EXPECT_NEAR(logs / N0,
               std::log(100.) - 0.5 * std::log1p(0.01),
               3. * 0.1 / std::sqrt(N0));
-}
-
-
-TEST(DivisionBySize, IsExpectedAsItComes)
-{
-  // Founders of one volume divide at once; what is expected of their numbers
-  // is what comes, with noise and without.
-  for (const double noise : {0., 0.2})
-    {
-      SizeSettings settings = growing_to("1", "100");
-      settings.push_back("Division by size/Noise = " + std::to_string(noise));
-      const SizedColony colony =
-        grow_colony(settings, std::vector<double>(1000, 60.), 1.5, 3);
-      const double expected =
-        1000. * expected_cells_by_size(0.6 * std::exp(1.5), noise);
-      EXPECT_NEAR(colony.volumes.size() / expected,
-                  1.,
-                  noise == 0. ? 1e-12 : 0.03);
-    }
 }
 
 

@@ -325,18 +325,6 @@ TEST(RateGrowth, KeepsNothingWhereOnlyTimeMatters)
 }
 
 
-TEST(RateGrowth, ExpectsVolumesThatItKnows)
-{
-  LoneCell<2>         scene;
-  const RateGrowth<2> known(keys("0.2*X*t"), scene.setting());
-  EXPECT_NEAR(known.expected_volume_ratio(Point<2>(3., 0.), 2.),
-              std::exp(0.6 * 2.),
-              1e-12);
-  const RateGrowth<2> unknown(keys("0.2*J_e"), scene.setting());
-  EXPECT_EQ(unknown.expected_volume_ratio(Point<2>(3., 0.), 2.), 1.);
-}
-
-
 TEST(RateGrowth, RefusesAShareWithoutDirection)
 {
   EXPECT_NO_THROW(Growing<3>(keys("1", "1/3")));

@@ -324,12 +324,6 @@ namespace
       F_g[dim - 1][dim - 1] += 0.2 * t1;
       return F_g;
     }
-
-    double
-    expected_volume_ratio(const Point<dim> &, const double) const override
-    {
-      return 1.3;
-    }
   };
 
   /** F_e = F F_g^-1, not that of the transpose. */

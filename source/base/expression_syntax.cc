@@ -109,7 +109,6 @@ namespace Morula::ExpressionSyntax
                match.position(0) + match.length(1) :
                std::string::npos;
     }
-
   } // namespace
 
 

@@ -386,10 +386,11 @@ namespace Morula::MeshFile
              "The file cannot be read: its numbers have commas. Write decimal "
              "points, and blanks between numbers.");
     if (!good)
-      refuse(file,
-             "The file cannot be read: check that it exists, that its name ends "
-             "with .stl, .off, .ply or .obj, that it is whole, and that it holds "
-             "numbers only.");
+      refuse(
+        file,
+        "The file cannot be read: check that it exists, that its name ends "
+        "with .stl, .off, .ply or .obj, that it is whole, and that it holds "
+        "numbers only.");
     check_indices(soup, file);
     check_finite(soup, file);
     repair(soup);

@@ -5,7 +5,6 @@
 #include <morula/output/output_parameters.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace Morula

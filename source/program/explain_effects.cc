@@ -4,7 +4,6 @@
 #include <morula/program/explain_parts.h>
 
 #include <iomanip>
-#include <sstream>
 
 // The effects of a scene, a line each.
 

@@ -3,7 +3,6 @@
 
 #include <morula/scene/reviews.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>

@@ -11,11 +11,8 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 namespace Morula
 {

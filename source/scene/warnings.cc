@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/scene/estimates.h>
 #include <morula/scene/reviews.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/near_bodies.h>

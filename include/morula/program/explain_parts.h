@@ -9,7 +9,6 @@
 
 #include <deal.II/particles/property_pool.h>
 
-#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <cmath>
 #include <sstream>
 #include <utility>
 #include <vector>

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <cmath>
 #include <sstream>
 
 namespace Morula

@@ -8,7 +8,6 @@
 #include <morula/effects/effect.h>
 
 #include <string>
-#include <vector>
 
 namespace Morula
 {

@@ -8,9 +8,6 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/cell_event.h>
 
-#include <deal.II/base/point.h>
-
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -26,12 +23,6 @@ namespace Morula
 
   template <int dim>
   class DivisionAxes;
-
-  /** How many cells a founder at X (µm) becomes on average, if growth takes the
-   *  volume of all of them to V, µm^dim. Empty: one. */
-  template <int dim>
-  using ExpectedCells =
-    std::function<double(const Point<dim> & /*X*/, const double /*V*/)>;
 
   /** What an event leaves of a cell's life in the step. */
   enum class LifeAfter

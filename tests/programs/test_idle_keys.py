@@ -14,7 +14,6 @@ CYCLE = {**TYPES, "Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/D
 GROWS = {**TYPES, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.1*t"}
 RATE = {**TYPES, "Growth/Law": "rate", "Growth/Rate/Rate": 0.1}
 MOVES = {**TYPES, "Rearrangement/Diffusion": 10}
-DIES = {**BOX, "Death/When": "X > 40", "Death/Shrinking time": 0}
 FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100, "Fields/u/Consumption": 1,
          "Fields/u/Production": 1}
 
@@ -51,40 +50,24 @@ NOBODY = (
     (CYCLE, {CYCLE_WAIT: "0*X"}, {CYCLE_WAIT: "X > 0"}, "no cell divides."))
 
 IDLE = (
-    ("Neighbours/Reach", 1.3, TYPES), ("Neighbours/Found by", "radius", TYPES),
-    ("Neighbours/Reach", 1.3, MOVES), ("Tension/Force", "false", TYPES),
+    ("Tension/Force", "false", TYPES),
     ("Tension/Force", "false", {**TYPES, "Cell types/a/Tension/With b": 1}),
-    ("Rearrangement/Fluctuation energy", 3, MOVES),
-    ("Material/On transition", "forget stress", TYPES),
-    ("Death/Final volume", 0.2, DIES),
-    ("Growth/Rate/Predictor", "false", RATE),
-    ("Solver/Largest gap", 0.1, BOX), ("Output/Snapshot interval", 5, BOX),
+    ("Solver/Largest gap", 0.1, BOX),
     ("Fields/u/Dilution", "false", FIELD),
     ("Growth/Rate/Rate", 0.3, GROWS),
     ("Cell types/b/Growth/Rate/Rate", 0.3, GROWS),
     ("Cell types/b/Material/Yield stress", 0.3, TYPES),
     ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE),
-    ("Cell types/b/Proliferation/Cell cycle/Axis spread", 3, CYCLE),
-    ("Cell types/b/Proliferation/Cell cycle/Least anisotropy", 1.1, CYCLE),
     ("Proliferation/Cell cycle/Duration", 0.5,
      {**BOX, "Proliferation/Law": "none"}),
     ("Death/Final volume", 0.2, {**BOX, "Death/Rate": 0}))
 
 READ = (
-    ("Neighbours/Reach", 1.3, {**BOX, "Growth/Law": "rate",
-                               "Growth/Rate/Rate": "0.01*neighbours"}),
-    ("Rearrangement/Fluctuation energy", 3,
-     {**MOVES, "Cell types/a/Tension/With b": 1}),
     ("Tension/Force", "false", {**MOVES, "Cell types/a/Tension/With b": 1,
                                 "Rearrangement/Fluctuation energy": 1}),
-    ("Material/On transition", "forget stress",
-     {**TYPES, "Cell types/a/Transitions/To b": 1}),
-    ("Growth/Rate/Predictor", "false",
-     {**RATE, "Growth/Rate/Rate": "0.1*max(0, 1 - pressure)"}),
     ("Solver/Largest gap", 0.1,
      {**BOX, "Boundary conditions/Fixed where": "X < -49"}),
-    ("Cell types/b/Proliferation/Cell cycle/Axis spread", 3,
-     {**CYCLE, "Proliferation/Cell cycle/Division axis": "stretch"}),
+    ("Cell types/b/Growth/Rate/Rate", 0.3, RATE),
     ("Fields/u/Value", 3, {**FIELD, "Fields/u/Fixed where": "X > 49"}))
 
 

@@ -41,7 +41,7 @@ namespace Morula
     }
 
     /** Lengths of cells, µm: those of bacteria and egg cells lie between. */
-    constexpr double shortest_cell = 0.5, longest_cell = 500.;
+    constexpr double shortest_usual = 0.5, longest_usual = 500.;
   } // namespace
 
 
@@ -63,7 +63,7 @@ namespace Morula
       volume += V;
     const double length =
       std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global, 1. / dim);
-    if (length < shortest_cell || length > longest_cell)
+    if (length < shortest_usual || length > longest_usual)
       review.warn(tissue.cell_spacing.path(),
                   tissue.cell_spacing.text(),
                   "cells are " + as_text(length) +

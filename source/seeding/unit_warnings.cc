@@ -3,10 +3,11 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/seeding/points_file.h>
 #include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 #include <cmath>
 
@@ -56,8 +57,15 @@ namespace Morula
     // The units of a file are not known, but a length that cells do not have
     // shows; so does a volume within the surface that is not that of the cells.
     // Both are found over all ranks.
-    if (tissue.is_points())
-      review_points_file<dim>(tissue.points_file, review);
+    // A column that is not known may be a misspelt one.
+    if (!founders.skipped_columns.empty())
+      review.warn(TissueKeys::points_file,
+                  tissue.points_file,
+                  "its columns '" +
+                    boost::join(founders.skipped_columns, "', '") +
+                    "' say nothing about cells here and are skipped.",
+                  "Columns that count are x, y, z, volume, generation, phase "
+                  "and type: correct the name of one that is misspelt.");
     double volume = 0.;
     for (const double V : founders.volumes)
       volume += V;

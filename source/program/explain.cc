@@ -84,13 +84,14 @@ namespace Morula
     template <int dim>
     void
     add_bodies(EffectRows              &rows,
-               const Scene             &scene,
+               const TissueModel<dim>  &model,
                const SeededTissue<dim> &tissue,
                const MPI_Comm           comm)
     {
-      if (const auto interaction = interaction_of<dim>(scene))
+      const Scene &scene = model.scene;
+      if (model.interaction)
         add_interaction(rows,
-                        *interaction,
+                        *model.interaction,
                         scene.grid.spacing,
                         tissue.measures);
       else
@@ -113,14 +114,15 @@ namespace Morula
       // call is collective, so all ranks make an explanation and only rank 0
       // prints it.
       check_memory(scene, initial_size(scene), comm);
-      Explanation<dim> result;
-      result.tissue                   = seed_tissue<dim>(scene, comm);
+      Explanation<dim>       result;
+      const TissueModel<dim> model(scene);
+      result.tissue                   = seed_tissue(model, comm);
       const SeededTissue<dim> &tissue = result.tissue;
       // Counted by the splines of the first step.
       result.n_unknowns = Simulation<dim>(scene, comm, tissue).n_unknowns();
-      result.n_numbers  = effects_of<dim>(scene).columns.n_numbers();
+      result.n_numbers  = model.development.columns().n_numbers();
       result.memory     = physical_memory(comm);
-      result.n_of_types = founders_of_types(scene,
+      result.n_of_types = founders_of_types(model,
                                             tissue.founders.positions,
                                             comm,
                                             tissue.founders.types);
@@ -129,7 +131,7 @@ namespace Morula
                                    tissue.applied,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
-      add_bodies(result.effects, scene, tissue, comm);
+      add_bodies(result.effects, model, tissue, comm);
       std::string pieces;
       for (const std::string &text : texts_of(scene, tissue.pieces))
         pieces += "    " + text + '\n';

@@ -55,7 +55,7 @@ namespace Morula
     if (resume)
       restore();
     else
-      seed(seed_tissue<dim>(scene, comm));
+      seed(seed_tissue(model, comm));
   }
 
   template <int dim>
@@ -190,7 +190,7 @@ namespace Morula
     // it, so they are found again on new splines. The splines are kept for the
     // first step, which begins in the same configuration. A resumed run has its
     // rows already.
-    files.emplace(model.scene, model.tables, resumed_from, clock, comm);
+    files.emplace(model, resumed_from, clock, comm);
     if (!resumed_from)
       {
         for (const std::string &warning : warnings)

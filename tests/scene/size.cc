@@ -64,7 +64,7 @@ TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
   const std::vector<Point<3>> founders(1, Point<3>(this_rank(), 0., 0.));
   const auto                  check = [&](const Scene &scene) {
     return complaint_of(
-      [&] { check_at_cells(scene, founders, MPI_COMM_WORLD); });
+      [&] { check_at_cells(TissueModel<3>(scene), founders, MPI_COMM_WORLD); });
   };
 
   Scene scene;
@@ -98,7 +98,7 @@ TEST(SceneChecks, CountTheBoundaryConditions)
   auto      &slip     = scene.keys<SlipParameters>();
   auto      &pressure = scene.keys<PressureParameters>();
   const auto check    = [&] {
-    return check_at_surface(scene, two_faces(), MPI_COMM_WORLD);
+    return check_at_surface(TissueModel<3>(scene), two_faces(), MPI_COMM_WORLD);
   };
 
   fixed.where            = "Z < 0";

@@ -28,10 +28,11 @@ warnings_of(const Scene &scene)
   scene.check();
   const SurfacePatches<dim> surface =
     seed_surface<dim>(scene.tissue, MPI_COMM_WORLD);
-  return scene_warnings(scene,
+  const TissueModel<dim> model(scene);
+  return scene_warnings(model,
                         seed_founders<dim>(scene.tissue, MPI_COMM_WORLD),
                         surface,
-                        check_at_surface(scene, surface, MPI_COMM_WORLD),
+                        check_at_surface(model, surface, MPI_COMM_WORLD),
                         MPI_COMM_WORLD);
 }
 

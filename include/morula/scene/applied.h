@@ -4,7 +4,7 @@
 #ifndef morula_scene_applied_h
 #define morula_scene_applied_h
 
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/point.h>
@@ -50,7 +50,7 @@ namespace Morula
    */
   template <int dim>
   std::vector<AppliedCondition>
-  applied_conditions(const Scene               &scene,
+  applied_conditions(const TissueModel<dim>    &model,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm);
 

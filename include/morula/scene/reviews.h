@@ -5,7 +5,7 @@
 #define morula_scene_reviews_h
 
 #include <morula/base/review.h>
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -28,7 +28,7 @@ namespace Morula
    */
   template <int dim>
   void
-  review_rates(const Scene               &scene,
+  review_rates(const TissueModel<dim>    &model,
                const Founders<dim>       &founders,
                const SurfacePatches<dim> &surface,
                const MPI_Comm             comm,

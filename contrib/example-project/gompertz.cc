@@ -58,7 +58,6 @@ namespace MyMorula
     }
   };
 
-
   // The law has a type Parameters, is made of one, and does the two things that
   // Morula::GrowthLaw asks for, in 2-D and 3-D alike. It is made when the scene
   // is checked, before any work.
@@ -85,13 +84,6 @@ namespace MyMorula
              cell.growth;
     }
 
-    // The volume to expect, for the memory that the scene will need.
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override
-    {
-      return std::exp(dim * rate.value(X, 0.) * effective_time(t));
-    }
-
   private:
     // (1 - exp(-a t))/a: the time that growth at the rate k would have needed.
     double
@@ -104,7 +96,6 @@ namespace MyMorula
     const double     decay;
   };
 } // namespace MyMorula
-
 
 // The name that `Growth/Law` knows the law by; its keys stand in the section
 // `Growth/Gompertz`.

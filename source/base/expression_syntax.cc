@@ -5,10 +5,8 @@
 
 #include <boost/algorithm/string.hpp>
 
-#include <algorithm>
 #include <cctype>
 #include <regex>
-#include <utility>
 #include <vector>
 
 namespace Morula::ExpressionSyntax
@@ -86,57 +84,6 @@ namespace Morula::ExpressionSyntax
       return std::string::npos;
     }
 
-    /** A character that text processors make of one that expressions have. */
-    struct Lookalike
-    {
-      std::string bytes; // in UTF-8
-      std::string meant; // what to write
-    };
-
-    const std::vector<Lookalike> lookalikes = {
-      {"\u2212", "-"},      {"\u2013", "-"},  {"\u2014", "-"},
-      {"\u2010", "-"},      {"\u2264", "<="}, {"\u2265", ">="},
-      {"\u2260", "!="},     {"\u00D7", "*"},  {"\u00B7", "*"},
-      {"\u22C5", "*"},      {"\u00F7", "/"},  {"\u00B2", "^2"},
-      {"\u00B3", "^3"},     {"\u03C0", "pi"}, {"\u00A0", " "},
-      {"\u221A", "sqrt()"}, {"\u2227", "&&"}, {"\u2228", "||"},
-      {"\u00AC", "== 0"},   {"\uFF1B", ";"},  {"\uFF0C", ","},
-      {"\uFF08", "("},      {"\uFF09", ")"}};
-
-    /** What is said of the first character that is no ASCII; empty if there is
-     *  none. */
-    std::string
-    foreign_character(const std::string &s)
-    {
-      const auto found = std::find_if(s.begin(), s.end(), [](const char c) {
-        return static_cast<unsigned char>(c) >= 0x80;
-      });
-      if (found == s.end())
-        return "";
-      const std::size_t i = found - s.begin();
-      for (const Lookalike &one : lookalikes)
-        if (s.compare(i, one.bytes.size(), one.bytes) == 0)
-          return at(i) + "'" + one.bytes + "' is no ASCII. Write '" +
-                 one.meant + "'.";
-      return at(i) +
-             "this letter or sign is no ASCII. Write it with those of a "
-             "plain keyboard.";
-    }
-
-    /** Position of a word, in letters of either case; npos if there is none. */
-    std::size_t
-    find_word(const std::string &s, const std::string &word)
-    {
-      const std::string lower = boost::to_lower_copy(s);
-      for (auto i = lower.find(word); i != std::string::npos;
-           i      = lower.find(word, i + 1))
-        if ((i == 0 || !is_of_name(lower[i - 1])) &&
-            (i + word.size() == s.size() ||
-             !is_of_name(lower[i + word.size()])))
-          return i;
-      return std::string::npos;
-    }
-
     std::size_t
     find_outer_comma(const std::string &s)
     {
@@ -161,33 +108,6 @@ namespace Morula::ExpressionSyntax
       return std::regex_search(s, match, assignment) ?
                match.position(0) + match.length(1) :
                std::string::npos;
-    }
-
-    /** What is said of a sign that other languages have, and muParser has not;
-     *  empty if there is none. */
-    std::string
-    foreign_sign(const std::string &s)
-    {
-      // The first group is what stands before the sign.
-      static const std::vector<std::pair<std::regex, std::string>> signs = {
-        {std::regex("()<>"), "'<>'. Write '!='."},
-        {std::regex("()(!(?!=)|~)"),
-         "no sign for 'not'. Write == 0, as in (X > 0) == 0."},
-        {std::regex("()%"),
-         "'%'. Write X - 2*floor(X/2) for a remainder, 0.5 for 50 %."},
-        {std::regex("()[\\[\\]{}]"),
-         "a bracket that is no parenthesis. Write ( and ), and X, Y, Z for "
-         "components of a place."},
-        {std::regex("()[\"'`]"), "a quotation mark. Remove it."},
-        {std::regex("((?:^|[-+*/^(,<>=&?:])\\s*)\\|[^|]"),
-         "'|' where a value begins. Write abs(X) for an absolute value."},
-        {std::regex("((?:^|[^A-Za-z0-9_.])(?:[0-9]+\\.?[0-9]*|\\.[0-9]+)"
-                    "(?:[eE][-+]?[0-9]+)?)(?![eE][-+]?[0-9])\\s*[A-Za-z_(]"),
-         "an operator is missing behind a number. Write *, as in 2*X."}};
-      for (const auto &[sign, text] : signs)
-        if (std::smatch match; std::regex_search(s, match, sign))
-          return at(match.position(0) + match.length(1)) + text;
-      return "";
     }
   } // namespace
 
@@ -266,29 +186,14 @@ namespace Morula::ExpressionSyntax
   std::string
   misreading(const std::string &component)
   {
-    // Each is a text that muParser accepts with another meaning, or refuses
-    // with words that do not help.
-    if (const std::string text = foreign_character(component); !text.empty())
-      return text;
-    for (const auto &[word, meant] :
-         std::vector<std::pair<std::string, std::string>>{
-           {"and", "&&, as in X > 0 && Y > 0"},
-           {"or", "||, as in X > 0 || Y > 0"},
-           {"not", "== 0, as in (X > 0) == 0"}})
-      if (const auto i = find_word(component, word); i != std::string::npos)
-        return at(i) + "the word '" + component.substr(i, word.size()) +
-               "'. Write " + meant + ".";
+    // Each is a text that muParser accepts with another meaning.
     if (const auto i = find_outer_comma(component); i != std::string::npos)
       return at(i) + "a comma outside parentheses. Write decimals with a "
                      "point and separate components by ';'.";
     if (const auto i = find_assignment(component); i != std::string::npos)
       return at(i) + "a single '='. Compare with '==', '<=' or '>='.";
-    if (const std::string text = foreign_sign(component); !text.empty())
-      return text;
     if (const auto i = find_chain(component); i != std::string::npos)
       return at(i) + "a chain of comparisons. Join them: 0 < X && X < 5.";
-    if (const auto i = component.find("**"); i != std::string::npos)
-      return at(i) + "'**'. Write '^' for powers.";
     if (uses(component, "rand") || uses(component, "rand_seed"))
       return "Random numbers would change with every evaluation. Use a function "
              "of X, Y, Z, t; 'Random seed' governs what is random.";

@@ -6,6 +6,7 @@
 #include <boost/algorithm/string.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 namespace Morula
@@ -20,17 +21,6 @@ namespace Morula
     last_name(const std::string &path)
     {
       return path.substr(path.rfind('/') + 1);
-    }
-
-    /** "subsection Grid", or the words for the place outside all subsections.
-     */
-    std::string
-    place_of(const std::string &path)
-    {
-      const auto slash = path.rfind('/');
-      return slash == std::string::npos ?
-               "outside all subsections" :
-               "in subsection " + path.substr(0, slash);
     }
   } // namespace
 
@@ -91,36 +81,23 @@ namespace Morula
   {
     // First comes a path that is spelt nearly so and ends with the same name.
     // Then the same name in any other section, of which there may be several.
-    // Then a path that is spelt nearly so at all, and at last a name that is.
-    if (const std::string best = most_similar(wanted, candidates);
-        !best.empty() && boost::iequals(last_name(best), last_name(wanted)))
-      return "Did you mean '" + best + "'?";
-
-    std::vector<std::string> places;
-    std::string              elsewhere;
-    for (const std::string &candidate : candidates)
-      if (boost::iequals(last_name(candidate), last_name(wanted)))
-        {
-          places.push_back(place_of(candidate));
-          elsewhere += (elsewhere.empty() ? "'" : " or '") + candidate + "'";
-        }
-    if (!places.empty())
-      return "Did you mean " + elsewhere + "? That name stands " +
-             boost::join(places, ", and ") + ".";
-
-    if (const std::string best = most_similar(wanted, candidates);
-        !best.empty())
-      return "Did you mean '" + best + "'?";
-
-    std::vector<std::string> names;
-    for (const std::string &candidate : candidates)
-      names.push_back(last_name(candidate));
-    const std::string name = most_similar(last_name(wanted), names);
-    const auto        found =
-      std::find(names.begin(), names.end(), name) - names.begin();
-    return name.empty() ?
+    // Then a path that is spelt nearly so at all.
+    const std::string        best = most_similar(wanted, candidates);
+    std::vector<std::string> found;
+    if (boost::iequals(last_name(best), last_name(wanted)))
+      found = {best};
+    else
+      std::copy_if(candidates.begin(),
+                   candidates.end(),
+                   std::back_inserter(found),
+                   [&](const std::string &candidate) {
+                     return boost::iequals(last_name(candidate),
+                                           last_name(wanted));
+                   });
+    if (found.empty() && !best.empty())
+      found = {best};
+    return found.empty() ?
              "" :
-             "Did you mean '" + candidates[found] + "'? That name stands " +
-               place_of(candidates[found]) + ".";
+             "Did you mean '" + boost::join(found, "' or '") + "'?";
   }
 } // namespace Morula

@@ -366,28 +366,14 @@ namespace Morula
   {
     // The file is read once more for this, as the mesh keeps none of the
     // numbers.
-    const Soup        soup     = read_soup({key, name});
-    const std::size_t n_merged = soup.n_merged;
-    if (n_merged > 0)
+    const Soup soup = read_soup({key, name});
+    if (soup.n_merged > 0)
       review.warn(key,
                   name,
-                  std::to_string(n_merged) +
+                  std::to_string(soup.n_merged) +
                     " of its vertices differ from others by rounding only, and "
                     "were merged with them: without that the surface is open.",
                   "Merge them in a mesh editor if they were meant to differ.");
-    if (soup.n_doubled > 0)
-      review.warn(key,
-                  name,
-                  std::to_string(soup.n_doubled) +
-                    " of its faces are there twice, and were dropped.",
-                  "If two walls were meant, put a gap between them.");
-    if (soup.n_flat > 0)
-      review.warn(key,
-                  name,
-                  std::to_string(soup.n_flat) +
-                    " of its faces have no three corners that differ, and were "
-                    "dropped.",
-                  "If the surface is right without them, all is well.");
     const std::size_t n_turned = count_turned(soup);
     if (n_turned > 0)
       review.warn(key,

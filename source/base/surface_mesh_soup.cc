@@ -2,14 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/mesh_file_fault.h>
+#include <morula/base/near_tree.h>
 #include <morula/base/surface_mesh_soup.h>
-
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/base/point.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
@@ -26,8 +20,6 @@
 #include <iterator>
 #include <limits>
 #include <locale>
-#include <regex>
-#include <set>
 
 namespace Morula::MeshFile
 {
@@ -132,27 +124,6 @@ namespace Morula::MeshFile
                std::min(begin + last.size() + line_end, content.size()));
     }
 
-    /** Refuses what is no mesh at all, by what stands at its beginning. */
-    void
-    check_kind(const std::string &content, const NamedFile &file)
-    {
-      const auto begins = [&](const std::string &bytes) {
-        return boost::algorithm::starts_with(content, bytes);
-      };
-      // These files are common, and CGAL would only say that it cannot read
-      // them.
-      if (content.find_first_not_of(" \t\r\n") == std::string::npos)
-        refuse(file, "The file is empty: copy or export it again.");
-      if (begins("\xFF\xFE") || begins("\xFE\xFF"))
-        refuse(file, "The file is written in UTF-16: save it in UTF-8.");
-      if (begins("\x1F\x8B") || begins("PK\x03\x04"))
-        refuse(file, "The file is compressed: unpack it first.");
-      if (begins("version https://git-lfs"))
-        refuse(file,
-               "The file only says where Git LFS keeps the mesh: fetch it with "
-               "'git lfs pull'.");
-    }
-
     /** Refuses an STL file that ends before its last triangle. */
     void
     check_complete(const std::string &text, const NamedFile &file)
@@ -162,13 +133,6 @@ namespace Morula::MeshFile
       // binary files may begin with the word 'solid'.
       if (text.find('\0') == std::string::npos)
         {
-          if (text.find("facet") == std::string::npos)
-            refuse(file,
-                   "The file is a text without the word 'facet', and begins "
-                   "with '" +
-                     text.substr(0,
-                                 std::min<std::size_t>(text.find('\n'), 40)) +
-                     "': it is no STL file.");
           if (text.find("endsolid") == std::string::npos)
             refuse(file,
                    "The file is cut off: it has no 'endsolid'. Copy or export "
@@ -191,21 +155,6 @@ namespace Morula::MeshFile
                  ". Copy or export it again.");
     }
 
-    /** How many triangles a complete STL file has more than @p n_read. */
-    std::size_t
-    dropped_of_stl(const std::string &text, const std::size_t n_read)
-    {
-      const std::string word = "endfacet";
-      std::uint32_t     n    = 0;
-      if (text.find('\0') == std::string::npos)
-        for (auto at = text.find(word); at != std::string::npos;
-             at      = text.find(word, at + word.size()))
-          ++n;
-      else
-        std::memcpy(&n, text.data() + 80, sizeof(n));
-      return n > n_read ? n - n_read : 0;
-    }
-
     /** Lets CGAL's reader of the format @p ending append to @p soup.
      *  @returns whether it could */
     bool
@@ -225,6 +174,21 @@ namespace Morula::MeshFile
         return CGAL::IO::read_OBJ(stream, soup.points, soup.polygons);
       return ending == ".off" &&
              CGAL::IO::read_OFF(stream, soup.points, soup.polygons);
+    }
+
+    /** Refuses a polygon with a vertex that the file does not have: CGAL reads
+     *  it in silence. */
+    void
+    check_indices(const Soup &soup, const NamedFile &file)
+    {
+      for (std::size_t i = 0; i < soup.polygons.size(); ++i)
+        for (const std::size_t vertex : soup.polygons[i])
+          if (vertex >= soup.points.size())
+            refuse(file,
+                   "Polygon " + std::to_string(i) +
+                     " (counted from 0) names a vertex that is none of the " +
+                     std::to_string(soup.points.size()) +
+                     " there: copy or export the file again.");
     }
 
     /** Refuses coordinates that are no numbers, or so large that areas and
@@ -268,18 +232,14 @@ namespace Morula::MeshFile
       // that is what rounding is relative to.
       const double near = 4. * std::numeric_limits<float>::epsilon() * largest;
 
-      const auto               tree = pack_rtree_of_indices(points);
+      const NearTree<3>        tree(points);
       std::vector<std::size_t> first(points.size());
       std::size_t              n_merged = 0;
       for (std::size_t i = 0; i < points.size(); ++i)
         {
-          BoundingBox<3> around({points[i], points[i]});
-          around.extend(near);
           first[i] = i;
-          for (const auto k :
-               tree | boost::geometry::index::adaptors::queried(
-                        boost::geometry::index::intersects(around)))
-            // Only a vertex that stays itself can be gone to.
+          // Only a vertex that stays itself can be gone to.
+          for (const unsigned int k : tree.within(points[i], near))
             if (k < first[i] && first[k] == k)
               first[i] = k;
           n_merged += first[i] != i;
@@ -288,28 +248,6 @@ namespace Morula::MeshFile
         for (std::size_t &vertex : polygon)
           vertex = first[vertex];
       return n_merged;
-    }
-
-    /** Drops what is there twice, or not at all: vertices, polygons, and
-     *  polygons without three corners. Counts the polygons. */
-    void
-    repair(Soup &soup)
-    {
-      // Polygons can be compared once equal vertices have one number. Those
-      // without three corners go first, so that each counts as one thing.
-      Processing::merge_duplicate_points_in_polygon_soup(soup.points,
-                                                         soup.polygons);
-      const auto is_flat = [](const std::vector<std::size_t> &polygon) {
-        return std::set<std::size_t>(polygon.begin(), polygon.end()).size() < 3;
-      };
-      const auto flat =
-        std::remove_if(soup.polygons.begin(), soup.polygons.end(), is_flat);
-      soup.n_flat += static_cast<std::size_t>(soup.polygons.end() - flat);
-      soup.polygons.erase(flat, soup.polygons.end());
-      soup.n_doubled +=
-        Processing::merge_duplicate_polygons_in_polygon_soup(soup.points,
-                                                             soup.polygons);
-      Processing::repair_polygon_soup(soup.points, soup.polygons);
     }
   } // namespace
 
@@ -336,76 +274,47 @@ namespace Morula::MeshFile
   Soup
   read_soup(const NamedFile &file)
   {
-    // A file is examined before CGAL sees it, since its readers say little
-    // about what is wrong. Then come the polygons, with all that would make the
-    // next step undefined: numbers of vertices that do not exist, coordinates
-    // that are no numbers. Repairing the soup removes duplicates and what is
-    // unused. Only a surface with open edges has its vertices merged: one that
-    // is closed stays as it is.
+    // CGAL reads the file and repairs the polygons, which drops what is there
+    // twice or has no three corners. In between is refused what would make the
+    // repair undefined: numbers of vertices that do not exist, coordinates that
+    // are no numbers. Only a surface with open edges has its vertices merged:
+    // one that is closed stays as it is.
     const std::string ending = ending_of(file), content = content_of(file);
-    if (std::ifstream(file.name))
-      check_kind(content, file);
-    Soup soup;
-    bool good = false;
-    if (!content.empty())
+    Soup              soup;
+    bool              good = false;
+    if (std::ifstream(file.name) &&
+        content.find_first_not_of(" \t\r\n") == std::string::npos)
+      refuse(file, "The file is empty: copy or export it again.");
+    const std::string text = readable(content, ending);
+    if (ending == ".stl" && !content.empty())
+      check_complete(text, file);
+    try
       {
-        const std::string text = readable(content, ending);
-        if (ending == ".stl")
-          check_complete(text, file);
-        try
-          {
-            good = read_polygons(text, ending, soup);
-            // CGAL drops triangles of STL files that have no three corners.
-            if (good && ending == ".stl")
-              soup.n_flat = dropped_of_stl(text, soup.polygons.size());
-          }
-        catch (const std::exception &)
-          {
-            // A file that could not be parsed is reported below.
-          }
+        good = read_polygons(text, ending, soup);
       }
-    // Some programs write the decimal comma of their country.
-    static const std::regex decimal_comma("[0-9],[0-9]");
-    if (!good && content.find('\0') == std::string::npos &&
-        std::regex_search(content, decimal_comma))
-      refuse(file,
-             "The file cannot be read: its numbers have commas. Write decimal "
-             "points, and blanks between numbers.");
-    const bool names_no_vertex =
-      std::any_of(soup.polygons.begin(),
-                  soup.polygons.end(),
-                  [&](const std::vector<std::size_t> &polygon) {
-                    return std::any_of(polygon.begin(),
-                                       polygon.end(),
-                                       [&](const std::size_t vertex) {
-                                         return vertex >= soup.points.size();
-                                       });
-                  });
-    if (!good || names_no_vertex)
+    catch (const std::exception &)
       {
-        const std::string fault =
-          content.empty() ? "" : fault_in(content, ending);
-        refuse(file,
-               "The file cannot be read: " +
-                 (fault.empty() ?
-                    "check that it exists, that its name ends with .stl, .off, "
-                    ".ply or .obj, that it is whole, and that it holds numbers "
-                    "only." :
-                    fault));
+        // A file that could not be parsed is reported below.
       }
+    if (!good)
+      refuse(
+        file,
+        "The file cannot be read: check that it exists, that its name ends "
+        "with .stl, .off, .ply or .obj, that it is whole, and that it holds "
+        "numbers only, with decimal points.");
+    check_indices(soup, file);
     check_finite(soup, file);
-    repair(soup);
+    Processing::repair_polygon_soup(soup.points, soup.polygons);
     if (soup.polygons.empty())
       refuse(file, "The file has no polygons: export the surface again.");
     const Edges edges = edges_of(soup);
-    // A closed surface stays as it is.
     if (std::any_of(edges.begin(), edges.end(), [](const auto &edge) {
           return edge.second < 2;
         }))
       {
         soup.n_merged = merge_vertices(soup);
         if (soup.n_merged > 0)
-          repair(soup);
+          Processing::repair_polygon_soup(soup.points, soup.polygons);
       }
     return soup;
   }

@@ -163,49 +163,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  CellDevelopment<dim>::free_growth(std::vector<double>         row,
-                                    const types::particle_index id,
-                                    const double                end,
-                                    const unsigned int          n_steps) const
-  {
-    // The cell is thought of as free of stress, so F is F_g. The law takes it
-    // through equal steps and remembers what it would in a run; the factors
-    // behind the law stay as they are at t = 0, as the size by the law alone is
-    // asked for.
-    double ratio = 1.;
-    for (unsigned int n = 0; n < n_steps; ++n)
-      {
-        const double t0 = n * end / n_steps, t1 = (n + 1) * end / n_steps;
-        // Two rows are needed: the law reads the state of t0 while it writes
-        // that of t1.
-        std::vector<double>         next = row;
-        const CellView<dim, double> cell(make_array_view(row), columns_);
-        const CellView<dim, double> after(make_array_view(next), columns_);
-        const CellReader<dim>       reader =
-          this->reader(t0, {t0 - (n > 0 ? end / n_steps : 0.), t0});
-        const PresentCell<dim> before(cell,
-                                      id,
-                                      cell.founder_position(),
-                                      reader);
-        const GrowingCell<dim> growing = this->growing(before, t0);
-        const Tensor<2, dim>   of_law  = grows_by_law(before) ?
-                                           effects.law->growth(growing, t0, t1) :
-                                           growing.growth;
-        effects.law->remember(growing, t0, t1, after);
-        if (effects.law_growth.exists())
-          after.set(effects.law_growth, of_law);
-        const Tensor<2, dim> F_g = of_law * growth_behind_law(cell, t1);
-        after.set(columns_.growth, F_g);
-        after.set(columns_.deformation, F_g);
-        row   = next;
-        ratio = determinant(of_law);
-      }
-    return ratio;
-  }
-
-
-  template <int dim>
   void
   CellDevelopment<dim>::remember_motion(const CellView<dim, double> &cell,
                                         const Tensor<2, dim>        &f) const

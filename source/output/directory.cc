@@ -105,20 +105,6 @@ namespace Morula
                              "Choose another directory.");
     }
 
-    /** Whether the directory holds a run of an old Morula, which wrote no
-     *  record, and not just files with such names. */
-    bool
-    holds_older_run(const std::string &directory)
-    {
-      std::error_code ignored;
-      std::ifstream   in(fs::path(directory) / "statistics.csv");
-      std::string     line;
-      std::getline(in, line);
-      // The first columns of statistics.csv have always been these.
-      return line.rfind("step,time,dt,cells,", 0) == 0 &&
-             fs::exists(parameters_file(directory), ignored);
-    }
-
     /** @param why a clause after "there is one" that says why the old run must
      *    not be lost */
     [[noreturn]] void
@@ -215,7 +201,7 @@ namespace Morula
     if (files.empty())
       return;
     const auto record = RunRecord::read(directory);
-    if (!record && !holds_older_run(directory))
+    if (!record)
       throw InputError(key,
                        directory,
                        "a directory without files of the names that Morula "
@@ -228,10 +214,6 @@ namespace Morula
 
     const std::string delete_it =
       "--replace deletes it, or choose another directory.";
-    if (!record)
-      refuse_to_replace(directory,
-                        "that does not say of which scene it is",
-                        "An older Morula wrote it. " + delete_it);
     if (record->scene != recorded_name(directory, scene_file))
       refuse_to_replace(directory,
                         "of another scene, '" + record->scene + "'",

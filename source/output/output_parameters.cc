@@ -5,7 +5,6 @@
 #include <morula/output/output_parameters.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace Morula
@@ -76,55 +75,5 @@ namespace Morula
             &snapshot_minutes,
             &condition_estimate,
             &newton_trace};
-  }
-
-
-  void
-  OutputParameters::review(const double step,
-                           const double seconds,
-                           Review      &review) const
-  {
-    constexpr double hour = 3600.;
-    // A run of some hours without snapshots, outputs between the ends of steps,
-    // and outputs that come at other times than the user may think: each gets a
-    // warning, with the numbers of this scene.
-    if (snapshot_interval == 0. && snapshot_minutes == 0. && seconds > hour)
-      review.warn(snapshot_interval.path(),
-                  "0 day",
-                  "the run may take some " +
-                    as_text(std::round(10. * seconds / hour) / 10.) +
-                    " hours of one core (doc/performance.md, what --explain "
-                    "expects), and without snapshots all is lost if it is "
-                    "interrupted.",
-                  "Choose an interval of some steps, or some " +
-                    snapshot_minutes.path() + ".");
-    for (const Key<double> *given : {&interval, &snapshot_interval})
-      if (*given > 0. && *given < (1. - 1e-9) * step)
-        review.warn(given->path(),
-                    as_text(*given) + " day",
-                    std::string("it is shorter than ") +
-                      TimeParameters::step_path + " = " + as_text(step) +
-                      " day, and nothing is written between the ends of "
-                      "steps.",
-                    "Raise it to the step, or shorten the step.");
-    const double steps = interval / step;
-    // The default is no choice of the user's, so it gives no warning.
-    if ((review.has_set(interval) || !interval.is_default()) && steps > 1. &&
-        std::abs(steps - std::round(steps)) > 1e-9 * steps)
-      {
-        std::string times;
-        for (unsigned int n = 1; n <= 3; ++n)
-          // The end of the step in which the n-th output is due.
-          times += (n == 1 ? "" : ", ") +
-                   as_text(std::ceil(n * steps * (1. - 1e-9)) * step);
-        review.warn(interval.path(),
-                    as_text(interval) + " day",
-                    std::string("it is no multiple of ") +
-                      TimeParameters::step_path + " = " + as_text(step) +
-                      " day, and outputs come at the ends of steps: the first "
-                      "ones at t = " +
-                      times + " day, if no step is halved.",
-                    "Choose a multiple of the step.");
-      }
   }
 } // namespace Morula

@@ -50,15 +50,6 @@ namespace Morula
   } // namespace
 
 
-  double
-  NeighbourSearch::seconds_per_cell(const unsigned int dim) const
-  {
-    if (by_facets)
-      return dim == 2 ? 1.5e-6 : 7e-6;
-    return dim == 2 ? 0.5e-6 : 1e-6;
-  }
-
-
   template <int dim>
   double
   mean_cell_volume(const Tissue<dim> &tissue)

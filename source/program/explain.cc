@@ -5,19 +5,12 @@
 #include <morula/particles/cell_state.h>
 #include <morula/program/explain.h>
 #include <morula/program/explain_parts.h>
-#include <morula/scene/estimates.h>
-#include <morula/scene/free_growth.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <iomanip>
-#include <limits>
 #include <ostream>
 #include <sstream>
 
@@ -39,82 +32,17 @@ namespace Morula
               << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
     }
 
-    template <int dim>
+    /** The size at t = 0. */
     void
-    print_columns(std::ostream &out, const CellColumns<dim> &columns)
+    print_size(std::ostream      &out,
+               const unsigned int n_unknowns,
+               const unsigned int n_numbers,
+               const double       memory)
     {
-      out << "Slots of a cell: " << columns.n_numbers() << '\n';
-      for (const Columns::Entry &column : columns.entries())
-        {
-          std::string name = column.name;
-          std::replace(name.begin(), name.end(), '_', ' ');
-          out << "  " << std::left << std::setw(24) << name << std::setw(5)
-              << column.n << column.meaning
-              << (column.unit.empty() ? "" : ", " + column.unit) << '\n';
-        }
-    }
-
-    std::string
-    duration_text(const double seconds)
-    {
-      std::ostringstream text;
-      text.precision(2);
-      if (seconds < 120.)
-        text << seconds << " seconds";
-      else if (seconds < 7200.)
-        text << seconds / 60. << " minutes";
-      else
-        text << seconds / 3600. << " hours";
-      return text.str();
-    }
-
-    /** What the number of cells at the end is. */
-    std::string
-    bound_of_cells(const Scene &scene)
-    {
-      const RestOfScene rest = scene.rest_of_scene();
-      for (const EffectKeys *const keys : scene.keys_in_use())
-        if (const std::string bound = keys->counts_cells(rest); !bound.empty())
-          return bound;
-      return "";
-    }
-
-    /** What the size takes for growth that depends on the cells' state. */
-    std::string
-    growth_text(const double free_growth)
-    {
-      std::ostringstream text;
-      text.precision(3);
-      text << "; growth taken for " << free_growth
-           << ", that of cells which nothing presses and which keep their type";
-      return text.str();
-    }
-
-    void
-    print_size(std::ostream                &out,
-               const Scene                 &scene,
-               const SizeEstimate          &size,
-               const std::optional<double> &growth,
-               const double                 available,
-               const double                 seeding)
-    {
-      out << "Size\n  cells at the end: " << bound_of_cells(scene)
-          << std::round(size.cells)
-          << "\n  unknowns: " << size.unknowns_at_start
-          << " in the first step, about " << std::round(size.unknowns)
-          << " in the last" << (growth ? growth_text(*growth) : "") << "\n"
-          << "  memory: about " << std::setprecision(3) << size.memory / 1e9
-          << " GB of " << available / 1e9 << " GB\n  time: about "
-          << duration_text(seeding + size.seconds) << ": "
-          << duration_text(seeding) << " (" << seeding << " s) to place cells "
-          << "and surface, as it has taken here, and "
-          << duration_text(size.seconds) << " (" << size.seconds << " s) of "
-          << "one core for " << size.steps << " steps, without output; a "
-          << "rough estimate, from runs on an AMD EPYC with AVX-512 "
-          << "(doc/performance.md)\n";
-      for (const auto &[name, seconds] : size.of_effects)
-        out << "    of it " << name << ": " << duration_text(seconds) << ", "
-            << std::round(100. * seconds / size.seconds) << " % of the steps\n";
+      out << "Size\n  unknowns: " << n_unknowns
+          << " in the first step\n  numbers stored per cell: " << n_numbers
+          << " (" << 8 * n_numbers << " bytes)\n  memory: " << memory / 1e9
+          << " GB here\n";
     }
 
     /** Everything that is known of a scene before it runs, on rank 0. */
@@ -122,11 +50,9 @@ namespace Morula
     struct Explanation
     {
       SeededTissue<dim>                  tissue;
-      std::optional<FreeGrowth>          free;
-      std::optional<double>              growth; // see estimated_size()
-      SizeEstimate                       size;
-      double                             memory;  // bytes of the machine
-      double                             seeding; // seconds that it took here
+      unsigned int                       n_unknowns; // of the first step
+      unsigned int                       n_numbers;  // of a cell
+      double                             memory;     // bytes of the machine
       std::vector<types::particle_index> n_of_types;
       EffectRows                         effects;
     };
@@ -148,10 +74,9 @@ namespace Morula
         text << "; body " << b << ": " << bodies[b].cells << " cells, "
              << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
              << ", surface " << bodies[b].area << (dim == 3 ? " um^2" : " um");
-      add_effect(rows, "bodies", true, text.str());
+      add_effect(rows, "bodies", text.str());
       add_effect(rows,
                  interaction.name,
-                 true,
                  interaction.effect->details_of_bodies(bodies, h));
     }
 
@@ -159,25 +84,25 @@ namespace Morula
     template <int dim>
     void
     add_bodies(EffectRows              &rows,
-               const Scene             &scene,
+               const TissueModel<dim>  &model,
                const SeededTissue<dim> &tissue,
                const MPI_Comm           comm)
     {
-      if (const auto interaction = interaction_of<dim>(scene))
+      const Scene &scene = model.scene;
+      if (model.interaction)
         add_interaction(rows,
-                        *interaction,
+                        *model.interaction,
                         scene.grid.spacing,
                         tissue.measures);
       else
         add_effect(rows,
                    "bodies",
-                   true,
                    tissue.bodies.empty() ? bodies_text(scene, tissue, comm) :
                                            tissue.bodies);
       if (!tissue.mesh.empty())
-        add_effect(rows, "surface mesh", true, tissue.mesh);
+        add_effect(rows, "surface mesh", tissue.mesh);
       if (!tissue.cuts.empty())
-        add_effect(rows, "cuts", true, tissue.cuts);
+        add_effect(rows, "cuts", tissue.cuts);
     }
 
     template <int dim>
@@ -189,30 +114,15 @@ namespace Morula
       // call is collective, so all ranks make an explanation and only rank 0
       // prints it.
       check_memory(scene, initial_size(scene), comm);
-      Explanation<dim> result;
-      const auto       begin = std::chrono::steady_clock::now();
-      result.tissue          = seed_tissue<dim>(scene, comm);
-      result.seeding =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-          .count();
+      Explanation<dim>       result;
+      const TissueModel<dim> model(scene);
+      result.tissue                   = seed_tissue(model, comm);
       const SeededTissue<dim> &tissue = result.tissue;
       // Counted by the splines of the first step.
-      const unsigned int n_unknowns =
-        Simulation<dim>(scene, comm, tissue).n_unknowns();
-      result.free = free_growth(scene, tissue.founders, tissue.surface, comm);
-      // Growth that place and time alone tell is in the estimate of the size
-      // already. What depends on the cells' state is not, so the mean over
-      // founders stands for it, and is printed with the size.
-      if (result.free && !result.free->known_before)
-        result.growth = result.free->mean;
-      result.size       = estimated_size(scene,
-                                   tissue.founders,
-                                   comm,
-                                   n_unknowns,
-                                   result.growth,
-                                   result.free ? result.free->cells : 0.);
+      result.n_unknowns = Simulation<dim>(scene, comm, tissue).n_unknowns();
+      result.n_numbers  = model.development.columns().n_numbers();
       result.memory     = physical_memory(comm);
-      result.n_of_types = founders_of_types(scene,
+      result.n_of_types = founders_of_types(model,
                                             tissue.founders.positions,
                                             comm,
                                             tissue.founders.types);
@@ -221,13 +131,12 @@ namespace Morula
                                    tissue.applied,
                                    tissue.founders.n_global,
                                    tissue.n_proliferating);
-      add_bodies(result.effects, scene, tissue, comm);
+      add_bodies(result.effects, model, tissue, comm);
       std::string pieces;
       for (const std::string &text : texts_of(scene, tissue.pieces))
         pieces += "    " + text + '\n';
       add_effect(result.effects,
                  "pieces",
-                 true,
                  std::to_string(tissue.pieces.size()),
                  pieces);
       return result;
@@ -253,10 +162,7 @@ namespace Morula
         print(text, row);
       print_types(text, scene, found.n_of_types);
       print_cell_expressions(text, scene);
-      print_folds(text, scene, found.free);
-      print_columns(text, effects_of<dim>(scene).columns);
-      print_size(
-        text, scene, found.size, found.growth, found.memory, found.seeding);
+      print_size(text, found.n_unknowns, found.n_numbers, found.memory);
       for (const std::string &warning : found.tissue.warnings)
         text << warning << '\n';
     }
@@ -269,22 +175,15 @@ namespace Morula
                const Explanation<dim> &found)
     {
       // The lists are made first, each entry an object of its own, and put into
-      // one object at the end. Effects and folds have the texts of
-      // print_text(), so that both forms say the same.
-      std::vector<std::string> effects, columns, types;
+      // one object at the end. Effects have the texts of print_text(), so that
+      // both forms say the same.
+      std::vector<std::string> effects, types;
       for (const EffectRow &row : found.effects)
         effects.push_back(Json::object(
           {{"name", Json::text(row.name)},
-           {"on", Json::truth(row.on)},
            {"description",
             Json::text(row.description + (row.further.empty() ? "" : "\n") +
                        row.further)}}));
-      const CellColumns<dim> used = effects_of<dim>(scene).columns;
-      for (const Columns::Entry &column : used.entries())
-        columns.push_back(Json::object({{"name", Json::text(column.name)},
-                                        {"numbers", Json::number(column.n)},
-                                        {"meaning", Json::text(column.meaning)},
-                                        {"unit", Json::text(column.unit)}}));
       for (std::size_t i = 0; i < found.n_of_types.size(); ++i)
         types.push_back(Json::object(
           {{"name", Json::text(scene.type_names()[i])},
@@ -292,12 +191,6 @@ namespace Morula
       std::vector<std::pair<std::string, std::string>> keys;
       for (const AnyKey *key : scene.list())
         keys.emplace_back(key->path(), Json::text(key->text()));
-      std::ostringstream folds;
-      print_folds(folds, scene, found.free);
-      const SizeEstimate                              &size = found.size;
-      std::vector<std::pair<std::string, std::string>> of_effects;
-      for (const auto &[name, seconds] : size.of_effects)
-        of_effects.emplace_back(name, Json::number(seconds));
       out << Json::object(
                {{"dimension", Json::number(dim)},
                 {"shape", Json::text(scene.tissue.shape)},
@@ -308,19 +201,10 @@ namespace Morula
                  Json::number(double(found.tissue.n_proliferating))},
                 {"effects", Json::list(effects)},
                 {"types", Json::list(types)},
-                {"columns", Json::list(columns)},
-                {"folds", Json::text(folds.str())},
                 {"size",
                  Json::object(
-                   {{"cells at the end", Json::number(std::round(size.cells))},
-                    {"unknowns at start", Json::number(size.unknowns_at_start)},
-                    {"unknowns at the end",
-                     Json::number(std::round(size.unknowns))},
-                    {"steps", Json::number(size.steps)},
-                    {"seconds", Json::number(size.seconds)},
-                    {"seconds of effects", Json::object(of_effects)},
-                    {"seconds of seeding", Json::number(found.seeding)},
-                    {"bytes", Json::number(size.memory)},
+                   {{"unknowns", Json::number(found.n_unknowns)},
+                    {"numbers per cell", Json::number(found.n_numbers)},
                     {"bytes of the machine", Json::number(found.memory)}})},
                 {"warnings", Json::texts(found.tissue.warnings)},
                 {"keys", Json::object(keys)}})

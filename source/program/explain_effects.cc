@@ -4,7 +4,6 @@
 #include <morula/program/explain_parts.h>
 
 #include <iomanip>
-#include <sstream>
 
 // The effects of a scene, a line each.
 
@@ -58,7 +57,7 @@ namespace Morula
       return topic.empty() ? choice.name() : topic;
     }
 
-    /** Rows for an effect that its keys switch on, and for its parts.
+    /** The row of an effect, if its keys switch it on.
      *  @param more behind its details */
     template <template <int> class Interface>
     void
@@ -69,15 +68,11 @@ namespace Morula
     {
       // What has no keys is a part of others.
       const EffectKeys &keys = choice.keys();
-      if (keys.list().empty())
-        return;
-      add_effect(rows,
-                 topic_of(choice),
-                 keys.is_on(),
-                 keys.details() + more,
-                 keys.is_on() ? keys.further_lines(scene) : "");
-      for (const PartOfEffect &part : keys.parts())
-        add_effect(rows, part.name, keys.is_on() && part.on, part.details);
+      if (!keys.list().empty() && keys.is_on())
+        add_effect(rows,
+                   topic_of(choice),
+                   keys.details() + more,
+                   keys.further_lines(scene));
     }
 
     /** Rows for all effects of a kind. */
@@ -96,19 +91,18 @@ namespace Morula
   void
   add_effect(EffectRows        &rows,
              const std::string &name,
-             const bool         on,
              const std::string &description,
              const std::string &further)
   {
-    rows.push_back({name, on, on ? description : "", further});
+    rows.push_back({name, description, further});
   }
 
 
   void
   print(std::ostream &out, const EffectRow &row)
   {
-    out << "  " << std::left << std::setw(24) << row.name
-        << (row.on ? "on   " + row.description : "off") << '\n'
+    out << "  " << std::left << std::setw(24) << row.name << row.description
+        << '\n'
         << row.further;
   }
 
@@ -125,18 +119,14 @@ namespace Morula
     const RestOfScene         rest      = scene.rest_of_scene();
 
     // The rows come in a fixed order: first what the library does to cells,
-    // then the effects of the catalogue in its order, then
-    // properties of the material and of the numerical method. An effect that
-    // is off has a row, too: a reader sees so what he has not asked for.
-    std::ostringstream half_a_grid_cell;
-    half_a_grid_cell << 0.5 * scene.grid.spacing;
-
+    // then the effects of the catalogue in its order, then properties of the
+    // material and of the surface. An effect that is off has no row.
     EffectRows out;
-    add_effect(out,
-               "growth",
-               scene.has_growth(),
-               scene.law_of_growth() +
-                 details_of(catalogue.growth_laws, scene.law_of_growth()));
+    if (scene.has_growth())
+      add_effect(out,
+                 "growth",
+                 scene.law_of_growth() +
+                   details_of(catalogue.growth_laws, scene.law_of_growth()));
     const auto add_fates = [&](const bool that_grow) {
       for (const auto &choice : catalogue.fates)
         if (choice.keys().grows_cells() == that_grow)
@@ -146,53 +136,44 @@ namespace Morula
                      of_founders(n_proliferating, n_founders, choice.keys()));
     };
     add_fates(true);
-    add_effect(out,
-               "division (Voronoi)",
-               scene.cells_divide(),
-               "axis = " + scene.division_axis() +
-                 details_of(catalogue.division_rules, scene.division_axis()) +
-                 (division.axis_follows_rotation ? ", follows rotation" : "") +
-                 (division.stay_inside ? ", inside the surface" : ""));
+    if (scene.cells_divide())
+      add_effect(out,
+                 "division (Voronoi)",
+                 "axis = " + scene.division_axis() +
+                   details_of(catalogue.division_rules, scene.division_axis()) +
+                   (division.axis_follows_rotation ? ", follows rotation" :
+                                                     "") +
+                   (division.stay_inside ? ", inside the surface" : ""));
     add_effects(out, catalogue.growth_factors, rest);
     add_fates(false);
     add_effects(out, catalogue.equations, rest);
     add_effects(out, catalogue.traits, rest);
     add_effects(out, catalogue.step_effects, rest);
     for (const auto &choice : catalogue.boundary_conditions)
-      {
-        // A condition is on if it acts somewhere: its expression may be true
-        // at no boundary point.
-        const types::particle_index n     = counts.acting.at(choice.name());
-        const AnyKey *const         where = choice.keys().switch_key();
-        add_effect(out,
-                   topic_of(choice),
-                   n > 0,
-                   "at " + std::to_string(n) + " boundary points" +
-                     (where == nullptr ? "" : ", where " + where->text()) +
-                     choice.keys().details(),
-                   applied_lines(scene, applied, choice.name()));
-      }
+      // A condition is on if it acts somewhere: its expression may be true at
+      // no boundary point.
+      if (const types::particle_index n = counts.acting.at(choice.name()))
+        {
+          const AnyKey *const where = choice.keys().switch_key();
+          add_effect(out,
+                     topic_of(choice),
+                     "at " + std::to_string(n) + " boundary points" +
+                       (where == nullptr ? "" : ", where " + where->text()) +
+                       choice.keys().details(),
+                     applied_lines(scene, applied, choice.name()));
+        }
     add_effects(out, catalogue.forces, rest);
-    add_effect(out, "material", true, material_text(scene));
-    add_effect(
-      out,
-      "heterogeneous stiffness",
-      !scene.material.youngs_modulus.expression(scene.dimension).is_constant(),
-      "E = " + scene.material.youngs_modulus.text() + " kPa");
+    add_effect(out, "material", material_text(scene));
     add_effects(out, catalogue.flows, rest);
-    add_effect(out,
-               "surface refinement",
-               scene.tissue.refine_surface,
-               "patches longer than " + half_a_grid_cell.str() +
-                 " um are split");
-    add_effect(out,
-               "projected volume",
-               scene.material.volumetric_form() == VolumetricStrain::projected,
-               "one mean of ln J_e a grid cell");
-    add_effect(out,
-               "pooled volume",
-               scene.material.volumetric_form() == VolumetricStrain::pooled,
-               "one sum of volumes a grid cell");
+    if (scene.tissue.refine_surface)
+      add_effect(out,
+                 "surface refinement",
+                 "patches longer than " + as_text(0.5 * scene.grid.spacing) +
+                   " um are split");
+    if (scene.material.volumetric_form() != VolumetricStrain::pointwise)
+      add_effect(out,
+                 "volumetric strain",
+                 scene.material.volumetric_strain.text() + " in a grid cell");
     return out;
   }
 } // namespace Morula

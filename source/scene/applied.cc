@@ -108,7 +108,7 @@ namespace Morula
 
   template <int dim>
   std::vector<AppliedCondition>
-  applied_conditions(const Scene               &scene,
+  applied_conditions(const TissueModel<dim>    &model,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm)
   {
@@ -118,11 +118,11 @@ namespace Morula
     // the end of the run. Each condition is summed over the points of this
     // rank, then over all ranks, which is collective: all ranks go through the
     // same list.
-    const BoundaryConditions<dim> conditions =
-      boundary_conditions_of<dim>(scene);
-    const LoadsAtStart<dim>       loads(scene, conditions, surface);
-    const auto                   &loaded = loads.points().points;
-    std::vector<AppliedCondition> list;
+    const Scene                   &scene      = model.scene;
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    const LoadsAtStart<dim>        loads(scene, conditions, surface);
+    const auto                    &loaded = loads.points().points;
+    std::vector<AppliedCondition>  list;
     for (unsigned int k = 0; k < conditions.list().size(); ++k)
       {
         const auto &[name, condition] = conditions.list()[k];

@@ -16,16 +16,14 @@ namespace Morula
   {
     template <int dim>
     void
-    check_founders(const Scene &scene, const Preview<dim> &at)
+    check_founders(const TissueModel<dim> &model, const Preview<dim> &at)
     {
       // Every effect checks what it can say at the founders of this rank before
-      // there are cells. Effects are made anew for it, as they are for every
-      // use of a scene. An exception may come on one rank only; the caller
+      // there are cells. An exception may come on one rank only; the caller
       // takes care of that.
       for (const Point<dim> &X : at.founders)
-        require_elastic(scene.material, X);
-      const SceneEffects<dim> effects = effects_of<dim>(scene);
-      for (const Effect<dim> *const effect : effects.all())
+        require_elastic(model.scene.material, X);
+      for (const Effect<dim> *const effect : model.all_effects)
         effect->check(at);
     }
 
@@ -115,7 +113,7 @@ namespace Morula
 
   template <int dim>
   Preview<dim>
-  preview(const Scene                       &scene,
+  preview(const TissueModel<dim>            &model,
           const std::vector<Point<dim>>     &founders,
           const std::vector<Point<dim>>     &boundary_points,
           const std::vector<Tensor<1, dim>> &normals,
@@ -125,42 +123,41 @@ namespace Morula
             Utilities::MPI::sum<types::particle_index>(founders.size(), comm),
             boundary_points,
             normals,
-            boundary_conditions_of<dim>(scene).has(SurfaceCondition::fixed),
-            scene.time.end_time,
-            scene.time.step,
-            scene.grid.spacing,
+            model.boundary_conditions.has(SurfaceCondition::fixed),
+            model.scene.time.end_time,
+            model.scene.time.step,
+            model.scene.grid.spacing,
             comm};
   }
 
 
   template <int dim>
   std::vector<unsigned int>
-  types_of(const Scene                     &scene,
+  types_of(const TissueModel<dim>          &model,
            const std::vector<Point<dim>>   &founders,
            const std::vector<unsigned int> &given)
   {
-    if (scene.type_names().empty() || !given.empty())
+    if (model.types == nullptr || !given.empty())
       return given;
-    const SceneEffects<dim>   effects = effects_of<dim>(scene);
     std::vector<unsigned int> list;
     for (const Point<dim> &X : founders)
-      list.push_back(effects.development.types->founder_type(X));
+      list.push_back(model.types->founder_type(X));
     return list;
   }
 
 
   template <int dim>
   std::vector<types::particle_index>
-  founders_of_types(const Scene                     &scene,
+  founders_of_types(const TissueModel<dim>          &model,
                     const std::vector<Point<dim>>   &founders,
                     const MPI_Comm                   comm,
                     const std::vector<unsigned int> &given)
   {
     // The sum is over all ranks.
-    std::vector<types::particle_index> n(scene.type_names().size(), 0);
+    std::vector<types::particle_index> n(model.scene.type_names().size(), 0);
     if (n.empty())
       return n;
-    for (const unsigned int type : types_of(scene, founders, given))
+    for (const unsigned int type : types_of(model, founders, given))
       ++n[type];
     Utilities::MPI::sum(n, comm, n);
     return n;
@@ -169,30 +166,26 @@ namespace Morula
 
   template <int dim>
   types::particle_index
-  check_at_cells(const Scene                   &scene,
+  check_at_cells(const TissueModel<dim>        &model,
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm)
   {
     // The checks at founders come first, as only they tell which expression has
     // no value. Then numbers over all ranks are compared, which is collective.
-    // The memory comes last: its estimate evaluates expressions that have been
-    // checked by then.
     const std::vector<Point<dim>>     no_points;
     const std::vector<Tensor<1, dim>> no_normals;
     const Preview<dim>                at =
-      preview<dim>(scene, founders, no_points, no_normals, comm);
-    everywhere(comm, [&] { check_founders(scene, at); });
-    scene.cell_types.check_founders(founders_of_types(scene, founders, comm));
-    const types::particle_index n_dividing =
-      count_dividing(scene, founders, comm);
-    check_memory(scene, expected_size(scene, founders, comm), comm);
-    return n_dividing;
+      preview<dim>(model, founders, no_points, no_normals, comm);
+    everywhere(comm, [&] { check_founders(model, at); });
+    model.scene.cell_types.check_founders(
+      founders_of_types(model, founders, comm));
+    return count_dividing(model.scene, founders, comm);
   }
 
 
   template <int dim>
   ConditionCounts
-  check_at_surface(const Scene               &scene,
+  check_at_surface(const TissueModel<dim>    &model,
                    const SurfacePatches<dim> &surface,
                    const MPI_Comm             comm)
   {
@@ -200,20 +193,19 @@ namespace Morula
     // the surface as a whole, for which the patches of all ranks are needed,
     // and equations at the surface. Then the counts are added up over the
     // ranks, and a condition that holds nowhere is refused.
-    const BoundaryConditions<dim> conditions =
-      boundary_conditions_of<dim>(scene);
-    const std::vector<Point<dim>> no_founders;
-    const Preview<dim>            at = preview<dim>(
-      scene, no_founders, surface.positions, surface.normals, comm);
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    const std::vector<Point<dim>>  no_founders;
+    const Preview<dim>             at = preview<dim>(
+      model, no_founders, surface.positions, surface.normals, comm);
     Acting<dim> acting;
-    everywhere(comm,
-               [&] { acting = check_points(conditions, scene.material, at); });
+    everywhere(comm, [&] {
+      acting = check_points(conditions, model.scene.material, at);
+    });
 
     for (const auto &[name, condition] : conditions.list())
       condition->check_surface(at, surface.areas);
 
-    const SceneEffects<dim> effects = effects_of<dim>(scene);
-    for (const auto &[name, equation] : effects.equations)
+    for (const auto &[name, equation] : model.equations)
       equation->check_surface(surface.positions, comm);
 
     ConditionCounts counts;
@@ -222,7 +214,7 @@ namespace Morula
                                                  comm);
     counts.fixed = Utilities::MPI::sum(acting.fixed, comm);
     // All ranks go through the same list, so that the sums in it match.
-    for (const auto &choice : scene.catalogue.boundary_conditions)
+    for (const auto &choice : model.scene.catalogue.boundary_conditions)
       {
         types::particle_index &n = counts.acting[choice.name()];
         for (std::size_t c = 0; c < conditions.list().size(); ++c)

@@ -4,8 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/scene/first_cells.h>
 
-#include <utility>
-
 namespace Morula
 {
   namespace
@@ -83,19 +81,15 @@ namespace Morula
 
 
   template <int dim>
-  FirstCells<dim>::FirstCells(const Scene               &scene,
+  FirstCells<dim>::FirstCells(const TissueModel<dim>    &model,
                               const Founders<dim>       &founders,
                               const SurfacePatches<dim> &patches,
                               const MPI_Comm             comm)
-    : founders(founders)
-    , effects(effects_of<dim>(scene))
-    , development_(std::move(effects.development),
-                   effects.columns,
-                   effects.state,
-                   TissueMaterial(scene.material),
-                   scene.random_seed)
-    , surface(near_surface_of(development_.state(), founders, patches, comm))
-    , reader(development_.reader(0.))
+    : model(model)
+    , founders(founders)
+    , surface(
+        near_surface_of(model.development.state(), founders, patches, comm))
+    , reader(model.development.reader(0.))
   {}
 
 
@@ -105,7 +99,7 @@ namespace Morula
   {
     // The step is 0, so that nothing is checked: that is done elsewhere.
     return founder_row(
-      development_, effects.equations, founders, surface, i, 0.);
+      model.development, model.equations, founders, surface, i, 0.);
   }
 
 
@@ -114,7 +108,7 @@ namespace Morula
   FirstCells<dim>::cell(std::vector<double> &row, const std::size_t i) const
   {
     return PresentCell<dim>(CellView<dim, double>(make_array_view(row),
-                                                  development_.columns()),
+                                                  model.development.columns()),
                             founders.first_id + i,
                             founders.positions[i],
                             reader);

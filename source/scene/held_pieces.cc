@@ -219,7 +219,7 @@ namespace Morula
     /** Adds what fixed and slip points hold, and what conditions load. */
     template <int dim>
     void
-    add_surface(const Scene                     &scene,
+    add_surface(const TissueModel<dim>          &model,
                 const SurfacePatches<dim>       &surface,
                 const std::vector<unsigned int> &piece,
                 Pieces<dim>                     &pieces)
@@ -229,9 +229,8 @@ namespace Morula
       // pieces of their points: those at the end of the run on the surface of t
       // = 0. A point without a force brings no area, which is the measure of
       // what rounding leaves.
-      const BoundaryConditions<dim> conditions =
-        boundary_conditions_of<dim>(scene);
-      const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
+      const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+      const Tensor<2, dim>           all(unit_symmetric_tensor<dim>());
       for (std::size_t i = 0; i < surface.positions.size(); ++i)
         {
           const Point<dim>      &X    = surface.positions[i];
@@ -247,10 +246,10 @@ namespace Morula
                              surface.areas[i]);
           pieces.count_support(piece[i], false);
         }
-      const LoadsAtStart<dim> loads(scene, conditions, surface);
+      const LoadsAtStart<dim> loads(model.scene, conditions, surface);
       for (const auto &named : conditions.list())
         if (const auto forces =
-              loads.forces(*named.condition, scene.time.end_time))
+              loads.forces(*named.condition, model.scene.time.end_time))
           for (std::size_t l = 0; l < forces->size(); ++l)
             {
               const std::size_t i = loads.patch(l);
@@ -265,7 +264,7 @@ namespace Morula
     /** Adds body forces and friction, with the founders' state at t = 0. */
     template <int dim>
     void
-    add_body(const Scene                     &scene,
+    add_body(const TissueModel<dim>          &model,
              const Founders<dim>             &founders,
              const FirstCells<dim>           &cells,
              const std::vector<unsigned int> &piece,
@@ -274,14 +273,15 @@ namespace Morula
       // A force that depends on the present place is no support in a step
       // either: its value at t = 0 counts. Friction counts where it does in a
       // step, doc/theory.md, section 4.4.
-      const double         h = scene.grid.spacing;
+      const Scene         &scene = model.scene;
+      const double         h     = scene.grid.spacing;
       const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {
           std::vector<double>    row  = cells.row(i);
           const PresentCell<dim> cell = cells.cell(row, i);
           const double           V    = founders.volumes[i];
-          for (const auto &[name, force] : cells.forces())
+          for (const auto &[name, force] : model.forces)
             {
               if (const auto load = force->load_of(cell, scene.time.end_time))
                 pieces.add_load(
@@ -330,7 +330,7 @@ namespace Morula
 
   template <int dim>
   std::vector<HeldPiece>
-  held_pieces(const Scene               &scene,
+  held_pieces(const TissueModel<dim>    &model,
               const Founders<dim>       &founders,
               const SurfacePatches<dim> &surface,
               const MPI_Comm             comm)
@@ -339,20 +339,20 @@ namespace Morula
     // each rank has of supports and loads; then the sums over all ranks. An
     // expression may have no value on one rank only.
     const PiecesAtStart at =
-      pieces_at_start(scene.grid, founders, surface, comm);
-    Pieces<dim> pieces(at.n, scene.grid.spacing, comm);
+      pieces_at_start(model.scene.grid, founders, surface, comm);
+    Pieces<dim> pieces(at.n, model.scene.grid.spacing, comm);
     for (std::size_t i = 0; i < founders.positions.size(); ++i)
       pieces.add_cell(at.of_founders[i],
                       founders.positions[i],
                       founders.volumes[i]);
     pieces.find_centers();
     everywhere(comm,
-               [&]() { add_surface(scene, surface, at.of_patches, pieces); });
-    if (Scene::has_any(scene.catalogue.forces))
+               [&]() { add_surface(model, surface, at.of_patches, pieces); });
+    if (!model.forces.empty())
       {
-        const FirstCells<dim> cells(scene, founders, surface, comm);
+        const FirstCells<dim> cells(model, founders, surface, comm);
         everywhere(comm, [&]() {
-          add_body(scene, founders, cells, at.of_founders, pieces);
+          add_body(model, founders, cells, at.of_founders, pieces);
         });
       }
     return pieces.result();

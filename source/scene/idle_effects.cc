@@ -3,7 +3,6 @@
 
 #include <morula/scene/reviews.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -69,15 +68,13 @@ namespace Morula
           review_switched_off(scene, choice.keys(), switch_key, review);
     }
 
-    /** Warns of keys that need another one, which has its default.
-     *  @return those that it has warned of */
-    std::set<const AnyKey *>
+    /** Warns of keys that need another one, which has its default. */
+    void
     review_needs(const Scene &scene, Review &review)
     {
       std::map<std::string, const AnyKey *> keys;
       for (const AnyKey *const key : scene.list())
         keys[key->path()] = key;
-      std::set<const AnyKey *> said;
       for (const AnyKey *const key : scene.list())
         for (const std::vector<std::string> &paths : key->needed())
           {
@@ -91,14 +88,14 @@ namespace Morula
                 missing += (missing.empty() ? "" : " and ") + path;
               }
             const auto values = given(scene, *key, review);
-            if (is_met || values.empty() || !said.insert(key).second)
+            if (is_met || values.empty())
               continue;
             review.warn(values.front()->path(),
                         values.front()->text(),
                         "it does nothing without " + missing + '.',
                         "Set this key as well, or remove the other.");
+            break;
           }
-      return said;
     }
   } // namespace
 
@@ -121,24 +118,10 @@ namespace Morula
                        review);
     else if (const EffectKeys *const way = scene.first_way_to_divide())
       review_switched_off(scene, scene.division, *way->switch_key(), review);
-    std::vector<IdleKey> idle;
-    if (scene.output.snapshot_interval > scene.time.end_time)
-      idle.push_back({scene.output.snapshot_interval,
-                      "the run ends before",
-                      "Lower it, or remove it."});
-    const RestOfScene rest = scene.rest_of_scene();
     for (const EffectKeys *const keys : scene.effect_keys())
-      {
-        if (const AnyKey *const key = keys->switch_key();
-            key != nullptr && !keys->is_on())
-          review_switched_off(scene, *keys, *key, review);
-        for (const IdleKey &one : keys->idle_keys(rest))
-          idle.push_back(one);
-      }
-    const std::set<const AnyKey *> said = review_needs(scene, review);
-    for (const IdleKey &one : idle)
-      if (said.count(&one.key) == 0)
-        for (const AnyKey *const key : given(scene, one.key, review))
-          review.warn_of_idle(*key, one.why, one.remedy);
+      if (const AnyKey *const key = keys->switch_key();
+          key != nullptr && !keys->is_on())
+        review_switched_off(scene, *keys, *key, review);
+    review_needs(scene, review);
   }
 } // namespace Morula

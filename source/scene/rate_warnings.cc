@@ -62,13 +62,13 @@ namespace Morula
 
     template <int dim>
     std::vector<CoupledRate>
-    coupled_rates(const DevelopmentEffects<dim> &effects,
-                  const StateColumns<dim>       &columns)
+    coupled_rates(const TissueModel<dim> &model)
     {
       // Types have rates of their own, so they are asked type by type; other
       // fates have one list for all cells.
       const auto seen = [&](const Variable variable) {
-        return effects.neighbours && is_type_around(variable, columns);
+        return model.sees_neighbours &&
+               is_type_around(variable, model.development.state());
       };
       std::vector<CoupledRate> list;
       const auto               add = [&](const Expression                 &rate,
@@ -76,12 +76,12 @@ namespace Morula
         if (feels_others(rate, seen))
           list.push_back({rate, type});
       };
-      if (effects.types != nullptr)
-        for (unsigned int type = 0; type < effects.types->size(); ++type)
-          for (const Expression *rate : effects.types->rates(type))
+      if (model.types != nullptr)
+        for (unsigned int type = 0; type < model.types->size(); ++type)
+          for (const Expression *rate : model.types->rates(type))
             add(*rate, type);
-      for (const auto &fate : effects.fates)
-        if (fate.get() != effects.types)
+      for (const auto &fate : model.development.fates())
+        if (fate.get() != model.types)
           for (const Expression *rate : fate->rates(0))
             add(*rate, {});
       return list;
@@ -107,7 +107,7 @@ namespace Morula
 
   template <int dim>
   void
-  review_rates(const Scene               &scene,
+  review_rates(const TissueModel<dim>    &model,
                const Founders<dim>       &founders,
                const SurfacePatches<dim> &surface,
                const MPI_Comm             comm,
@@ -116,12 +116,11 @@ namespace Morula
     // The rates are evaluated at all founders of this rank in their state at t
     // = 0; then the largest over all ranks is compared with the step. A rate
     // far above it is a switch, whose delay of a step is meant.
-    const SceneEffects<dim>  effects = effects_of<dim>(scene);
-    std::vector<CoupledRate> rates =
-      coupled_rates(effects.development, effects.state);
+    const double             step  = model.scene.time.step;
+    std::vector<CoupledRate> rates = coupled_rates(model);
     if (rates.empty())
       return;
-    const FirstCells<dim> cells(scene, founders, surface, comm);
+    const FirstCells<dim> cells(model, founders, surface, comm);
     // An expression may have no value at some founder; then all ranks throw.
     everywhere(comm, [&]() {
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
@@ -137,9 +136,9 @@ namespace Morula
     for (const CoupledRate &coupled : rates)
       {
         const double largest = Utilities::MPI::max(coupled.largest, comm);
-        const double part    = largest * scene.time.step;
+        const double part    = largest * step;
         if (part > largest_part && part < switch_part)
-          warn_of(coupled.rate, largest, scene.time.step, review);
+          warn_of(coupled.rate, largest, step, review);
       }
   }
 

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-// This file makes all effects of a scene. Each use makes them anew, before the
-// run and in it: effects of equal scenes are equal, and have equal columns.
+// This file makes all effects of a scene. Effects of equal scenes are equal,
+// and have equal columns.
 
 namespace Morula
 {
@@ -295,29 +295,9 @@ namespace Morula
   }
 
 
-  template <int dim>
-  std::optional<NamedEffect<Interaction<dim>>>
-  interaction_of(const Scene &scene)
-  {
-    CellColumns<dim>  columns;
-    StateColumns<dim> state = state_columns_of<dim>(scene);
-    return make_interaction(scene, effect_setting(scene, columns, state));
-  }
-
-
-  template <int dim>
-  BoundaryConditions<dim>
-  boundary_conditions_of(const Scene &scene)
-  {
-    return {effects_of<dim>(scene).conditions, scene.nitsche};
-  }
-
-
   MORULA_INSTANTIATE(state_columns_of);
   MORULA_INSTANTIATE(effect_setting);
   MORULA_INSTANTIATE(effects_of);
-  MORULA_INSTANTIATE(interaction_of);
-  MORULA_INSTANTIATE(boundary_conditions_of);
   template struct SceneEffects<2>;
   template struct SceneEffects<3>;
 } // namespace Morula

@@ -19,11 +19,12 @@ namespace Morula
 {
   template <int dim>
   bool
-  has_surface(const Scene &scene)
+  has_surface(const TissueModel<dim> &model)
   {
     // Only cells from a file of points may lack a surface. Then one is made if
     // something acts on it or reads the distance to it; else it would be work
     // for nothing.
+    const Scene &scene = model.scene;
     if (!scene.tissue.is_points())
       return true;
     const std::vector<const EffectKeys *> keys = scene.keys_in_use();
@@ -33,8 +34,8 @@ namespace Morula
       return true;
     if (scene.tissue.points_surface != "automatic")
       return !scene.tissue.has_no_surface();
-    return effects_of<dim>(scene).state.needs_surface() ||
-           Scene::has_any(scene.catalogue.boundary_conditions);
+    return model.development.state().needs_surface() ||
+           !model.boundary_conditions.list().empty();
   }
 
 
@@ -43,16 +44,15 @@ namespace Morula
     /** The bodies of founders. Collective. @throws InputError */
     template <int dim>
     std::vector<unsigned int>
-    bodies(const Scene            &scene,
-           const Interaction<dim> &interaction,
+    bodies(const TissueModel<dim> &model,
            const Founders<dim>    &founders,
            const MPI_Comm          comm)
     {
-      if (!interaction.takes_types_as_bodies())
+      if (!model.interaction->effect->takes_types_as_bodies())
         return bodies_apart(founders, comm);
       std::vector<unsigned int> list;
       everywhere(comm, [&]() {
-        list = types_of(scene, founders.positions, founders.types);
+        list = types_of(model, founders.positions, founders.types);
       });
       return list;
     }
@@ -85,16 +85,19 @@ namespace Morula
 
     template <int dim>
     SurfacePatches<dim>
-    surface(const Scene            &scene,
-            const Interaction<dim> *interaction,
+    surface(const TissueModel<dim> &model,
             const Founders<dim>    &founders,
             const MPI_Comm          comm)
     {
-      if (interaction != nullptr)
-        return surface_of_bodies(scene, *interaction, founders, comm);
+      const Scene &scene = model.scene;
+      if (model.interaction)
+        return surface_of_bodies(scene,
+                                 *model.interaction->effect,
+                                 founders,
+                                 comm);
       if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
-      return has_surface<dim>(scene) ?
+      return has_surface(model) ?
                seed_points_surface(scene.tissue, founders, comm) :
                SurfacePatches<dim>();
     }
@@ -118,21 +121,20 @@ namespace Morula
 
   template <int dim>
   SeededTissue<dim>
-  seed_tissue(const Scene &scene, const MPI_Comm comm)
+  seed_tissue(const TissueModel<dim> &model, const MPI_Comm comm)
   {
     // Founders come first, since a surface around points is made from them.
     // Both are checked before anything is applied or warned of: warnings
     // evaluate expressions that must have a value. All of it is collective.
+    const Scene      &scene = model.scene;
     SeededTissue<dim> tissue;
     tissue.founders =
       seed_founders(scene.tissue, comm, seeding_limits<dim>(scene, comm));
-    const auto                    named = interaction_of<dim>(scene);
     const Interaction<dim> *const interaction =
-      named ? named->effect.get() : nullptr;
+      model.interaction ? model.interaction->effect.get() : nullptr;
     if (interaction != nullptr)
-      tissue.founders.bodies =
-        bodies(scene, *interaction, tissue.founders, comm);
-    tissue.surface = surface(scene, interaction, tissue.founders, comm);
+      tissue.founders.bodies = bodies(model, tissue.founders, comm);
+    tissue.surface = surface(model, tissue.founders, comm);
     if (interaction != nullptr)
       {
         tissue.measures =
@@ -143,20 +145,19 @@ namespace Morula
       tissue.cuts =
         add_cuts(scene.tissue.cuts, tissue.founders, comm, tissue.surface);
     tissue.n_proliferating =
-      check_at_cells(scene, tissue.founders.positions, comm);
-    tissue.counts  = check_at_surface(scene, tissue.surface, comm);
-    tissue.applied = applied_conditions(scene, tissue.surface, comm);
+      check_at_cells(model, tissue.founders.positions, comm);
+    tissue.counts  = check_at_surface(model, tissue.surface, comm);
+    tissue.applied = applied_conditions(model, tissue.surface, comm);
     if (scene.tissue.is_from_file() && interaction == nullptr)
       tissue.bodies = bodies_text(scene, tissue, comm);
     if (scene.tissue.is_mesh())
       tissue.mesh = surfaces_text(volumes_of_surfaces(
         SurfaceMesh(scene.tissue.surface_mesh.path(), scene.tissue.surface_mesh)
           .triangles()));
-    tissue.pieces   = held_pieces(scene, tissue.founders, tissue.surface, comm);
+    tissue.pieces   = held_pieces(model, tissue.founders, tissue.surface, comm);
     tissue.warnings = scene_warnings(
-      scene, tissue.founders, tissue.surface, tissue.counts, comm);
-    review_applied(
-      scene, tissue.applied, tissue.founders.positions, comm, tissue.warnings);
+      model, tissue.founders, tissue.surface, tissue.counts, comm);
+    review_applied(scene, tissue.applied, tissue.warnings);
     review_held(scene, tissue.pieces, tissue.warnings);
     if (interaction != nullptr)
       interaction->review_bodies(tissue.measures, tissue.warnings);

@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/scene/estimates.h>
 #include <morula/scene/size.h>
 #include <morula/seeding/limits.h>
 #include <morula/seeding/shape.h>
@@ -12,11 +11,8 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <utility>
-#include <vector>
 
 namespace Morula
 {
@@ -29,6 +25,31 @@ namespace Morula
       out.precision(3);
       out << bytes / 1e9 << " GB";
       return out.str();
+    }
+
+    /** Bytes of a run of this size at t = 0, on all ranks together: measured,
+     *  right within a factor of about two. */
+    double
+    memory_of(const Scene &scene, const SceneSize &size)
+    {
+      // A compact tissue is a cube that is covered by splines: its edge in grid
+      // spacings plus two, as quadratic B-splines reach out by one on either
+      // side. A row couples with 5^dim splines, at 12 bytes an entry, for the
+      // matrix, the preconditioner and the places of entries; a direct solver
+      // has its factors, by nested dissection. A cell has about 70 numbers.
+      const double dim = scene.dimension;
+      const double equations =
+        dim *
+        std::pow(std::pow(size.volume, 1. / dim) / scene.grid.spacing + 2.,
+                 dim);
+      const double row = 2.6 * 12. * dim * std::pow(5., dim);
+      const double factors =
+        scene.solver.linear_solver != "direct" ? 0. :
+        dim == 2. ? 370. * equations * std::log(equations) :
+                    1000. * std::pow(equations, 4. / 3.);
+      constexpr double program = 180e6, cell = 1800.;
+      return program + (size.cells + scene.tissue.boundary_points) * cell +
+             equations * row + factors;
     }
   } // namespace
 
@@ -46,60 +67,6 @@ namespace Morula
     return {volume / std::pow(scene.tissue.cell_spacing.value(),
                               scene.dimension.value()),
             volume};
-  }
-
-
-  template <int dim>
-  SceneSize
-  expected_size(const Scene                   &scene,
-                const std::vector<Point<dim>> &founders,
-                const MPI_Comm                 comm)
-  {
-    // The loop is over the founders of this rank. Each stands for its
-    // descendants at the end, if no death is in the scene, and for the growth
-    // of its law. Sums are those of all ranks.
-    const double t = scene.time.end_time;
-    const double V = std::pow(scene.tissue.cell_spacing.value(), dim);
-    const SceneEffects<dim>     effects = effects_of<dim>(scene);
-    const GrowthLaw<dim> *const law     = effects.development.law.get();
-    // Cells that divide when they have grown share the volume that the law
-    // gives them. Others have as much as a founder each; the number of cells
-    // that die is known only in the run, and then these divisions are not
-    // counted either.
-    const auto &fates = effects.development.fates;
-    const bool  mortal =
-      std::any_of(fates.begin(), fates.end(), [](const auto &fate) {
-        return fate->is_deadly();
-      });
-    std::vector<ExpectedCells<dim>> in_volume, of_own_volume;
-    for (const auto &fate : fates)
-      if (auto expected = fate->expected_cells(t);
-          expected && (fate->follows_growth() || !mortal))
-        (fate->follows_growth() ? in_volume : of_own_volume)
-          .push_back(std::move(expected));
-    SceneSize size;
-    for (const Point<dim> &X : founders)
-      {
-        const double ratio = law ? law->expected_volume_ratio(X, t) : 1.;
-        double       n = 1., n_of_volume = 1.;
-        for (const auto &expected : of_own_volume)
-          n *= expected(X, V * ratio);
-        for (const auto &expected : in_volume)
-          n_of_volume *= expected(X, V * ratio);
-        size.cells += n * n_of_volume;
-        size.volume += n * V * ratio;
-      }
-    size.cells  = Utilities::MPI::sum(size.cells, comm);
-    size.volume = Utilities::MPI::sum(size.volume, comm);
-
-    // A run stops when it has the wished number of cells, after a step that may
-    // at most double it.
-    const double limit =
-      std::max(2. * scene.time.stop_at_cells,
-               Utilities::MPI::sum(1. * founders.size(), comm));
-    if (scene.time.stop_at_cells > 0 && size.cells > limit)
-      size = {limit, size.volume * limit / size.cells};
-    return size;
   }
 
 
@@ -126,8 +93,7 @@ namespace Morula
     const double grid_cell =
       (scene.dimension == 2 ? 330. : 600.) +
       (Utilities::MPI::n_mpi_processes(comm) > 1 ? 200. : 100.);
-    const double needed =
-      estimated_memory(scene, size) + grid_cell * size.grid_cells;
+    const double needed = memory_of(scene, size) + grid_cell * size.grid_cells;
     const double available = physical_memory(comm);
     if (!(needed <= available))
       {
@@ -141,8 +107,7 @@ namespace Morula
                          "at most the " + gigabytes(available) +
                            " of memory here",
                          "Raise Tissue/Cell spacing or Grid/Spacing, lower "
-                         "Tissue/Boundary points, shorten Time/End time, set "
-                         "Time/Stop at cells, or use more machines. Check "
+                         "Tissue/Boundary points, or use more machines. Check "
                          "that files are in um.");
       }
   }
@@ -167,7 +132,6 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(expected_size);
   template SeedingLimits<2>
   seeding_limits(const Scene &, const MPI_Comm);
   template SeedingLimits<3>

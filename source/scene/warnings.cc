@@ -2,8 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/usual_numbers.h>
-#include <morula/scene/estimates.h>
 #include <morula/scene/reviews.h>
 #include <morula/scene/warnings.h>
 #include <morula/seeding/near_bodies.h>
@@ -13,7 +11,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 namespace Morula
 {
@@ -68,7 +65,7 @@ namespace Morula
 
   template <int dim>
   std::vector<std::string>
-  scene_warnings(const Scene               &scene,
+  scene_warnings(const TissueModel<dim>    &model,
                  const Founders<dim>       &founders,
                  const SurfacePatches<dim> &surface,
                  const ConditionCounts     &counts,
@@ -78,27 +75,26 @@ namespace Morula
     // effects in the order in which they act, then the surface, and at last the
     // outputs. Many reviews are collective, so all ranks pass through all of
     // them, with the same list of effects.
+    const Scene                   &scene      = model.scene;
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     for (const std::string &text : scene.renamed)
       review.warnings.push_back("Warning: " + text + '.');
     review_units(scene.tissue, founders, surface, comm, review);
-    SceneEffects<dim>             effects = effects_of<dim>(scene);
-    const BoundaryConditions<dim> conditions(std::move(effects.conditions),
-                                             scene.nitsche);
-    const bool                    slips =
+    const bool slips =
       conditions.has(SurfaceCondition::slip) && scene.has_active_tissue();
     review_grid(
       scene.grid, scene.tissue, founders, surface, slips, comm, review);
-    if (!effects.interaction)
+    if (!model.interaction)
       review_bodies(scene.grid, scene.tissue, founders, surface, comm, review);
 
     Preview<dim> at = preview<dim>(
-      scene, founders.positions, surface.positions, surface.normals, comm);
+      model, founders.positions, surface.positions, surface.normals, comm);
     const RestOfScene rest = scene.rest_of_scene();
     at.scene               = &rest;
-    at.is_loaded = has_loads(conditions, counts) || !effects.forces.empty();
+    at.is_loaded = has_loads(conditions, counts) || !model.forces.empty();
     at.volumes   = founders.volumes;
-    at.types     = types_of<dim>(scene, founders.positions, founders.types);
+    at.types     = types_of<dim>(model, founders.positions, founders.types);
     const double V =
       std::accumulate(founders.volumes.begin(), founders.volumes.end(), 0.);
     at.mean_volume = Utilities::MPI::sum(V, comm) / founders.n_global;
@@ -108,19 +104,14 @@ namespace Morula
                             *std::max_element(founders.volumes.begin(),
                                               founders.volumes.end()),
                           comm);
-    if (const auto range =
-          range_of(scene.material.youngs_modulus, founders.positions, comm))
-      at.stiffness = range->second;
-    for (const Effect<dim> *const effect : effects.all())
+    for (const Effect<dim> *const effect : model.all_effects)
       effect->review(at, review);
-    review_rates(scene, founders, surface, comm, review);
+    review_rates(model, founders, surface, comm, review);
     for (const EffectKeys *const keys : scene.keys_in_use())
       keys->review(rest, review);
-    for (const auto &[name, equation] : effects.equations)
+    for (const auto &[name, equation] : model.equations)
       equation->review(at, review);
-    review_unused(scene.tissue, review);
     review_idle_effects(scene, review);
-    review_idle_keys(scene, founders, comm, review);
     review_types(scene.cell_types, at, !founders.types.empty(), review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);
@@ -131,9 +122,6 @@ namespace Morula
                            counts.points > 0 && counts.fixed == counts.points,
                            review);
     review_method(scene, review);
-    scene.output.review(scene.time.step,
-                        estimated_size(scene, founders, comm).seconds,
-                        review);
     return review.warnings;
   }
 

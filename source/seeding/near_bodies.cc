@@ -116,39 +116,6 @@ namespace Morula
                     surface.positions.end());
       return points;
     }
-
-    /** Whether grid lines that lie otherwise would make fewer pieces than there
-     *  are bodies. Collective. */
-    template <int dim>
-    bool
-    may_stick(const GridParameters      &grid,
-              const unsigned int         bodies,
-              const Founders<dim>       &founders,
-              const SurfacePatches<dim> &surface,
-              const MPI_Comm             comm)
-    {
-      // The lines are shifted by quarters of a spacing, along one axis and
-      // along all of them: a gap of less than two spacings is missed by some
-      // of these.
-      const std::vector<Point<dim>> points  = all_points(founders, surface);
-      const std::vector<double>     of_grid = grid.offset;
-      unsigned int                  sticks  = 0;
-      for (unsigned int axis = 0; axis <= dim; ++axis)
-        for (unsigned int quarter = 1; quarter < 4; ++quarter)
-          {
-            Point<dim> offset;
-            for (unsigned int d = 0; d < dim; ++d)
-              offset[d] =
-                of_grid[d] +
-                (axis == d || axis == dim ? 0.25 * quarter * grid.spacing : 0.);
-            const auto pieces =
-              occupied<dim>(points, offset, grid.spacing, comm);
-            // Only rank 0 has all of them.
-            if (!pieces.empty() && n_groups<dim>(pieces, 1) < bodies)
-              sticks = 1;
-          }
-      return Utilities::MPI::max(sticks, comm) > 0;
-    }
   } // namespace
 
 
@@ -193,9 +160,7 @@ namespace Morula
                 const MPI_Comm             comm,
                 Review                    &review)
   {
-    // A shape is one body. Bodies that stick as the grid lies are told of
-    // first; else those that would with other grid lines, as only chance keeps
-    // them apart then.
+    // A shape is one body. The run says when bodies come to stick later.
     if (!tissue.is_from_file())
       return;
     const BodyCounts counts = count_bodies(grid, founders, surface, comm);
@@ -211,18 +176,6 @@ namespace Morula
                     "(doc/faq.md, bodies that stick).",
                   "A Grid/Spacing of less than half the gap between them keeps "
                   "them apart.");
-    else if (counts.bodies > 1 &&
-             may_stick(grid, counts.bodies, founders, surface, comm))
-      review.warn(grid.spacing.path(),
-                  as_text(grid.spacing) + " um",
-                  "the tissue is " + std::to_string(counts.bodies) +
-                    " bodies, and some stand nearer to each other than two "
-                    "grid spacings: as the grid lines lie they are apart, "
-                    "with another Grid/Offset they would stick together, and "
-                    "they do as soon as they come nearer (doc/faq.md, bodies "
-                    "that stick).",
-                  "A Grid/Spacing of less than half the gap between them keeps "
-                  "them apart, and so does Contact/Between = bodies.");
   }
 
 

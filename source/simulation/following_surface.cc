@@ -120,7 +120,7 @@ namespace Morula
     , grows(model.scene.has_active_tissue())
     , spreads(grows &&
               model.material.volumetric_form() == VolumetricStrain::pooled)
-    , exists_(has_surface<dim>(model.scene))
+    , exists_(has_surface(model))
   {}
 
 

@@ -67,15 +67,14 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  RunFiles<dim>::RunFiles(const Scene                            &scene,
-                          const Tables<dim>                      &of_effects,
+  RunFiles<dim>::RunFiles(const TissueModel<dim>                 &model,
                           const std::optional<SnapshotData<dim>> &resumed_from,
                           const Timer                            &clock,
                           const MPI_Comm                          comm)
-    : scene(scene)
+    : scene(model.scene)
     , comm(comm)
-    , records_events(of_effects.records_events())
-    , contents{scene.type_names(), of_effects.has_causes()}
+    , records_events(model.tables.records_events())
+    , contents{scene.type_names(), model.tables.has_causes()}
     , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
     , clock(clock)
     , next_output(
@@ -109,7 +108,7 @@ namespace Morula
                                                                section),
                                            seconds};
             }
-        continue_tables(of_effects, *resumed_from);
+        continue_tables(model, *resumed_from);
         prepare_resume(scene.output_directory,
                        setup(),
                        output_times.size(),
@@ -117,7 +116,7 @@ namespace Morula
       }
     else
       prepare_directory(scene.output_directory, setup(), comm);
-    for (const Table &table : tables_of(scene, of_effects))
+    for (const Table &table : tables_of(model))
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
@@ -170,14 +169,14 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::continue_tables(const Tables<dim>       &of_effects,
+  RunFiles<dim>::continue_tables(const TissueModel<dim>  &model,
                                  const SnapshotData<dim> &resumed_from)
   {
     // The first pass checks all tables, the second one cuts them to the rows
     // that the snapshot counts. So a table that does not fit leaves all others
     // whole.
     for (const bool check : {true, false})
-      for (const Table &table : tables_of(scene, of_effects))
+      for (const Table &table : tables_of(model))
         {
           const std::string &name = table.name;
           const std::string  file = path(name + ".csv");

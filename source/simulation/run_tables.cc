@@ -20,16 +20,16 @@ namespace Morula
     /** A row with the columns that a run of this scene has. */
     template <int dim>
     StatisticsRow
-    row_like(const Scene &scene, const Tables<dim> &tables)
+    row_like(const TissueModel<dim> &model)
     {
       // The values do not matter: a column exists where the row has a value for
       // it.
       StatisticsRow row;
-      for (const auto &column : tables.columns())
+      for (const auto &column : model.tables.columns())
         row.of_effects.emplace_back(column.name, 0.);
-      if (has_surface<dim>(scene))
+      if (has_surface(model))
         row.surface.emplace();
-      if (effects_of<dim>(scene).development.states_error())
+      if (model.development.states_error())
         row.step_error = 0.;
       return row;
     }
@@ -38,17 +38,18 @@ namespace Morula
 
   template <int dim>
   std::vector<Table>
-  tables_of(const Scene &scene, const Tables<dim> &of_effects)
+  tables_of(const TissueModel<dim> &model)
   {
     // The first tables follow from what acts in the scene, which a resumed run
     // cannot change. The others follow from keys that it may change, or came
     // with a later version: they may begin later.
+    const Scene       &scene  = model.scene;
     std::vector<Table> tables = {
-      {"statistics", statistics_columns(row_like(scene, of_effects))},
+      {"statistics", statistics_columns(row_like(model))},
       {"lineage", lineage_columns(!scene.type_names().empty())}};
-    if (of_effects.records_events())
+    if (model.tables.records_events())
       tables.push_back(
-        {"events", event_columns({{}, of_effects.has_causes()})});
+        {"events", event_columns({{}, model.tables.has_causes()})});
     if (Scene::has_any(scene.catalogue.boundary_conditions) ||
         Scene::has_any(scene.catalogue.interactions))
       tables.push_back({"forces", force_columns(), true});

@@ -5,7 +5,6 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/simulation/former_columns.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
@@ -56,7 +55,7 @@ namespace Morula
     if (resume)
       restore();
     else
-      seed(seed_tissue<dim>(scene, comm));
+      seed(seed_tissue(model, comm));
   }
 
   template <int dim>
@@ -114,16 +113,6 @@ namespace Morula
     const std::string path = model.scene.output_directory + "/snapshot.h5";
     check_resumable(model.scene, read_snapshot_parameters(path, comm));
     resumed_from = read_snapshot<dim>(path, comm);
-    const std::string added =
-      add_former_columns(tissue.boundary_points().columns(),
-                         comm,
-                         *resumed_from);
-    if (!added.empty())
-      warnings.push_back("Warning: the snapshot of an older version lacks the "
-                         "columns " +
-                         added +
-                         " of boundary points: they are 0 until the end of "
-                         "the next step.");
     check_columns(*resumed_from,
                   tissue.cells().columns(),
                   tissue.boundary_points().columns(),
@@ -201,7 +190,7 @@ namespace Morula
     // it, so they are found again on new splines. The splines are kept for the
     // first step, which begins in the same configuration. A resumed run has its
     // rows already.
-    files.emplace(model.scene, model.tables, resumed_from, clock, comm);
+    files.emplace(model, resumed_from, clock, comm);
     if (!resumed_from)
       {
         for (const std::string &warning : warnings)

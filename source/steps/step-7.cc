@@ -103,13 +103,6 @@ namespace Step7
       return std::exp(k * room * (t1 - t0)) * cell.growth;
     }
 
-    // The estimate of memory takes this: with pressure cells grow no more than
-    // without.
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override
-    {
-      return std::exp(dim * rate.value(X, 0.) * t);
-    }
 
   private:
     const Expression rate;

@@ -54,22 +54,6 @@ TEST_F(AvailableMemory, IsLimitedByTheGroupsOfTheProcess)
   EXPECT_EQ(available_memory(root / ""), 0u);
 }
 
-TEST_F(AvailableMemory, IsLimitedByGroupsOfTheFirstVersion)
-{
-  write(root / "proc/self/cgroup", "4:cpu:/step\n3:memory:/job\n");
-  std::filesystem::create_directories(root / "sys/fs/cgroup/memory/job");
-  put("memory/job/memory.limit_in_bytes", "9223372036854771712\n");
-  put("memory/job/memory.usage_in_bytes", "700000\n");
-  EXPECT_EQ(available_memory(root / ""), 8000u * 1024);
-
-  put("memory/job/memory.limit_in_bytes", "1000000\n");
-  put("memory/job/memory.stat", "total_inactive_file 100000\n");
-  EXPECT_EQ(available_memory(root / ""), 400000u);
-
-  put("memory/memory.limit_in_bytes", "50000\n"); // of all
-  EXPECT_EQ(available_memory(root / ""), 50000u);
-}
-
 TEST_F(AvailableMemory, OfThisMachineIsSomething)
 {
   EXPECT_GT(available_memory(), 1u << 20);

@@ -18,12 +18,6 @@ namespace
       EXPECT_LE((cell.elastic - unit_tensor<dim>()).norm(), 0.7);
       return 1.1 * cell.growth;
     }
-
-    double
-    expected_volume_ratio(const Point<dim> &, const double) const override
-    {
-      return 1.;
-    }
   };
 
   /** Turns the drawn axis into one that depends on the place. */

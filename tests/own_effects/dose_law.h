@@ -10,8 +10,6 @@
 #include <morula/base/expression_key.h>
 #include <morula/effects/growth/growth_law.h>
 
-#include <cmath>
-
 namespace Own
 {
   using namespace Morula;
@@ -54,12 +52,6 @@ namespace Own
       const double before = cell.cell != nullptr ? cell.cell->get(dose) : 0.;
       return stretch(before + taken_up(cell.founder_position, t1 - t0)) *
              Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    }
-
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override
-    {
-      return std::pow(stretch(taken_up(X, t)), dim);
     }
 
     void

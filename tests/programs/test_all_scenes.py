@@ -32,8 +32,6 @@ WARNED = {name: ["Grid/Spacing"] for name in (
     "step-6.prm", "examples/folding-by-tangential-growth.prm", "showcase/cortex.prm")}
 # Their tension is to smooth the outline, be it somewhat late.
 WARNED["showcase/spheroid.prm"] = WARNED["examples/turnover.prm"] = ["Time/Step"]
-# Its states follow its days, not its steps.
-WARNED["showcase/organoid.prm"] = ["Output/Interval"]
 # Whole cells do not fit their shapes to some percent.
 WARNED["hard/mesh.prm"] = ["Tissue/Cell spacing"]
 WARNED["hard/solver.prm"] = ["Tissue/Cell spacing", "Grid/Spacing"]

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What the program says before and in a run that a user may not have meant:
-pieces that nothing holds, keys that do nothing, times between steps, units."""
+pieces that nothing holds, keys that do nothing, times between steps."""
 import h5py
 import numpy as np
 import pytest
-
-from tests.common.sealing import seal
 
 BOX = {"Dimension": 2, "Tissue/Shape": "box", "Tissue/Size": "100, 100",
        "Tissue/Cell spacing": 10, "Grid/Spacing": 40, "Time/End time": 0.2,
@@ -179,10 +177,6 @@ EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
     ({**CYCLE, "Proliferation/Cell cycle/G0 exit rate": 0}, "none ever leaves it"),
     ({**CYCLE, "Proliferation/Cell cycle/Size checkpoint": 1.5}, "only stretched cells enter S"),
     ({**RATE, "Growth/Rate/Rate": 0.1, "Division by size/Volume": 50}, "divide at once"),
-    ({**CYCLE, "Time/Stop at cells": 50}, "the run ends at its first step"),
-    ({**BOX, "Time/Step": 1}, "it is longer than the run"),
-    ({**BOX, "Output/Interval": 6}, "only its begin and its end are written"),
-    ({**BOX, "Time/End time": 86400, "Time/Step": 3600}, "Is it in hours or seconds?"),
     (field(Diffusion=100, Consumption=1, Initial=5), EMPTY),
     (field(Diffusion=100, Consumption=1, Transfer=0, Value=1), EMPTY),
     (field(Diffusion=1e4, Consumption=1, Fixed_where=1, Value=1, Transfer=5),
@@ -190,7 +184,6 @@ EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
     (field(Diffusion=1e4, Consumption=1, Value=1, Fixed_where="X + Y > 90"), "by a whole patch"),
     (field(Diffusion=100, Consumption=1e4, Value=1, Fixed_where=1),
      "the field reaches only 0.1 um"),
-    ({**BOX, "Material/Young's modulus": "1000*(1 + X/100)"}, "Is it in Pa or MPa?"),
     ({**BOX, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": 1.5},
      "by a factor of up to 1.5"),
     (RATE, "no cell grows: it"), ({**LEAVES, "Death/When": "X > 500"}, NOBODY),
@@ -207,13 +200,6 @@ def test_no_words(runs, keys):
     said = runs.run("plain", keys).said
     assert BETWEEN not in said
     assert keys not in (HELD, PULL) or "Warning" not in said
-
-
-@pytest.mark.parametrize("keys, word", [
-    ({TRACTION: "50; 0"}, "Is it in Pa?"), ({WEIGHT: "0; -1"}, "Is it in Pa?"),
-    ({TRACTION: "1e-7; 0"}, "Is it in MPa?")])
-def test_loads_in_other_units(runs, keys, word):
-    assert word in runs.explain({**PULL, "Time/Smallest step": 0.1}, keys)
 
 
 def test_between_steps_of_a_type(runs):
@@ -283,14 +269,6 @@ def test_an_obstacle_in_the_tissue(runs):
     assert "4 cells stand in it" in runs.run("ball", obstacle("sphere", Radius=10)).said
 
 
-@pytest.mark.parametrize("velocity, is_far", [
-    ("0; 0.001; 0", True), ("0; 2000; 0", False), ("0; 5000*cos(400*t); 0", False)])
-def test_obstacles_that_nothing_feels(runs, velocity, is_far):
-    said = runs.explain(obstacle("plane", Center="0, -500, 0", Normal="0, 1, 0",
-                                 Velocity=velocity))
-    assert ("they do not meet unless the tissue" in said) == is_far
-
-
 def test_a_plate_that_must_not_pass(runs):
     """A plate of 8 um comes 10 um in each step."""
     plate = obstacle("box", Size="200, 8, 8", Center="0, -60, 0", Velocity="0; 100; 0")
@@ -306,24 +284,3 @@ def test_bodies_that_chance_keeps_apart(runs, offset):
     said = runs.explain({**POINTS, **points(runs, rows), "Tissue/Points surface": "always",
                          "Grid/Offset": f"{offset}, 0", "Time/End time": 1})
     assert "(doc/faq.md, bodies that stick)" in said
-
-
-def test_snapshot_without_forces(runs):
-    """One of a version without this column goes on, and says so."""
-    keys = {**PULL, "Output/Interval": 0.1, "Time/End time": 0.4}
-    whole = runs.run("whole", keys)
-    part = runs.run("part", keys, {"Time/End time": 0.2})
-    path = part.directory / "snapshot.h5"
-    with h5py.File(path, "r+") as file:
-        group = file["boundary points"]
-        places = columns_of(group)
-        left = np.delete(group["properties"][()], places["force"], axis=1)
-        less = "".join(f"{name} {len(place)}\n" for name, place in places.items()
-                       if name != "force")
-        for name, data in (("properties", left), ("columns", np.array([less.encode()]))):
-            del group[name]
-            group.create_dataset(name, data=data)
-    seal(path)
-    part = runs.run("part", keys, {}, "--resume")
-    assert "lacks the columns force of boundary points" in part.said
-    np.testing.assert_array_equal(part.statistics["xmax"], whole.statistics["xmax"])

@@ -14,27 +14,11 @@ CYCLE = {**TYPES, "Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/D
 GROWS = {**TYPES, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.1*t"}
 RATE = {**TYPES, "Growth/Law": "rate", "Growth/Rate/Rate": 0.1}
 MOVES = {**TYPES, "Rearrangement/Diffusion": 10}
-DIES = {**BOX, "Death/When": "X > 40", "Death/Shrinking time": 0}
 FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100, "Fields/u/Consumption": 1,
          "Fields/u/Production": 1}
 
 POINTS = {**{key: value for key, value in BOX.items() if key not
              in ("Tissue/Size", "Tissue/Cell spacing")}, "Tissue/Shape": "points"}
-POINTS_CYCLE = {**POINTS, **{key: CYCLE[key] for key in CYCLE if key.startswith("Proliferation")}}
-POINTS_TYPES = {**POINTS, "Cell types/Names": "a, b"}
-
-# Key, value, the other keys, and the columns of a points file.
-OF_POINTS = (("Tissue/Cell spacing", 12, POINTS, {"volume": 100}),
-             ("Tissue/Closed gap", 5, POINTS, {}), ("Tissue/Boundary points", 50, POINTS, {}),
-             ("Tissue/Refine surface", "true", POINTS, {}),
-             ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {"phase": 1}),
-             ("Cell types/b/Where", "X > 0", POINTS_TYPES, {"type": "a"}))
-OF_POINTS_READ = (("Tissue/Cell spacing", 12, POINTS, {}),
-                  ("Tissue/Closed gap", 5, {**POINTS, "Tissue/Points surface": "always"}, {}),
-                  ("Tissue/Refine surface", "true", {**POINTS,
-                                                     "Boundary conditions/Fixed where": "X < -45"},
-                   {}), ("Proliferation/Cell cycle/Start", "together", POINTS_CYCLE, {}),
-                  ("Cell types/b/Where", "X > 0", POINTS_TYPES, {}))
 
 # Effects that are asked for and happen to nobody: what is said, and a scene of
 # the same kind in which something happens.
@@ -66,40 +50,24 @@ NOBODY = (
     (CYCLE, {CYCLE_WAIT: "0*X"}, {CYCLE_WAIT: "X > 0"}, "no cell divides."))
 
 IDLE = (
-    ("Neighbours/Reach", 1.3, TYPES), ("Neighbours/Found by", "radius", TYPES),
-    ("Neighbours/Reach", 1.3, MOVES), ("Tension/Force", "false", TYPES),
+    ("Tension/Force", "false", TYPES),
     ("Tension/Force", "false", {**TYPES, "Cell types/a/Tension/With b": 1}),
-    ("Rearrangement/Fluctuation energy", 3, MOVES),
-    ("Material/On transition", "forget stress", TYPES),
-    ("Death/Final volume", 0.2, DIES),
-    ("Growth/Rate/Predictor", "false", RATE),
-    ("Solver/Largest gap", 0.1, BOX), ("Output/Snapshot interval", 5, BOX),
+    ("Solver/Largest gap", 0.1, BOX),
     ("Fields/u/Dilution", "false", FIELD),
     ("Growth/Rate/Rate", 0.3, GROWS),
     ("Cell types/b/Growth/Rate/Rate", 0.3, GROWS),
     ("Cell types/b/Material/Yield stress", 0.3, TYPES),
     ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE),
-    ("Cell types/b/Proliferation/Cell cycle/Axis spread", 3, CYCLE),
-    ("Cell types/b/Proliferation/Cell cycle/Least anisotropy", 1.1, CYCLE),
     ("Proliferation/Cell cycle/Duration", 0.5,
      {**BOX, "Proliferation/Law": "none"}),
     ("Death/Final volume", 0.2, {**BOX, "Death/Rate": 0}))
 
 READ = (
-    ("Neighbours/Reach", 1.3, {**BOX, "Growth/Law": "rate",
-                               "Growth/Rate/Rate": "0.01*neighbours"}),
-    ("Rearrangement/Fluctuation energy", 3,
-     {**MOVES, "Cell types/a/Tension/With b": 1}),
     ("Tension/Force", "false", {**MOVES, "Cell types/a/Tension/With b": 1,
                                 "Rearrangement/Fluctuation energy": 1}),
-    ("Material/On transition", "forget stress",
-     {**TYPES, "Cell types/a/Transitions/To b": 1}),
-    ("Growth/Rate/Predictor", "false",
-     {**RATE, "Growth/Rate/Rate": "0.1*max(0, 1 - pressure)"}),
     ("Solver/Largest gap", 0.1,
      {**BOX, "Boundary conditions/Fixed where": "X < -49"}),
-    ("Cell types/b/Proliferation/Cell cycle/Axis spread", 3,
-     {**CYCLE, "Proliferation/Cell cycle/Division axis": "stretch"}),
+    ("Cell types/b/Growth/Rate/Rate", 0.3, RATE),
     ("Fields/u/Value", 3, {**FIELD, "Fields/u/Fixed where": "X > 49"}))
 
 
@@ -125,23 +93,9 @@ def points(runs, columns):
     return {"Tissue/Points file": runs.write("cells.csv", "\n".join([head, *rows]) + "\n")}
 
 
-@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS)
-def test_of_points(runs, key, value, keys, columns):
-    said = runs.explain({**keys, **points(runs, columns), key: value})
-    assert f"Warning: {key} = '{value}': it does nothing here: " in said
-
-
-@pytest.mark.parametrize("key, value, keys, columns", OF_POINTS_READ)
-def test_of_points_that_are_read(runs, key, value, keys, columns):
-    assert "it does nothing" not in runs.explain({**keys, **points(runs, columns), key: value})
-
-
 def test_columns_that_nothing_reads(runs):
-    file = points(runs, {"phase": 1, "id": 7})
-    said = runs.explain(POINTS, file)
+    said = runs.explain(POINTS, points(runs, {"phase": 1, "id": 7}))
     assert "its columns 'id' say nothing about cells here and are skipped." in said
-    assert "nothing reads its column 'phase'" in said
-    assert "nothing reads its column" not in runs.explain(POINTS_CYCLE, file)
 
 
 @pytest.mark.parametrize("keys, idle, acts, word", NOBODY)

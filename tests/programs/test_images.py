@@ -189,6 +189,32 @@ def test_table(runs, cells, explained):
     assert explained(runs.work / "spots/scene.prm")["cells"] == 125
 
 
+@pytest.mark.parametrize("name, content", [
+    ("semicolons", "sep=;\nx;y;z;volume\n1,5;2;3;4\n9;2;3;4\n"),
+    ("tabs", "X\tY\tZ\tVolume\r\n1.5\t2\t3\t4\r\n9\t2\t3\t4\r\n"),
+    ("blanks", " x  y z volume\n 1.5 2 3 4\n9 2 3 4 # a remark\n"),
+    ("fortran", "x,y,z,volume\n1.5D0,2d0,3,4\n9,2,3,4\n"),
+    ("units", "x (nm),y [um],Z (micron),volume (um^3)\n1500,2,3,4\n9000,2,3,4\n"),
+    ("latin", "x (\u00b5m),y (\u00b5m),z,volume\n1.5,2,3,4\n9,2,3,4\n")])
+def test_habits_of_tables(runs, cells, name, content):
+    """What the program refuses in a points file is understood here."""
+    file = runs.work / f"{name}.csv"
+    file.write_text(content, encoding="latin-1", newline="")
+    runs.call([TOOL, file.name, "--again"], cwd=runs.work)
+    np.testing.assert_allclose(cells(name)["x"], [1.5, 9])
+    np.testing.assert_allclose(cells(name)["volume"], [4, 4])
+
+
+def test_units_and_columns_of_tables(runs):
+    """Pixels are refused; phases and generations stay."""
+    runs.write("pixels.csv", "x,y\n(pixel),(pixel)\n1,2\n9,2\n")
+    assert "is in pixel" in runs.call([TOOL, "pixels.csv"], 1, cwd=runs.work).stderr
+    runs.write("phases.csv", "x,y,phase,generation\n1,2,0,3\n9,2,4,2\n")
+    runs.call([TOOL, "phases.csv"], cwd=runs.work)
+    written = (runs.work / "phases/cells.csv").read_text().splitlines()
+    assert written == ["x,y,volume,generation,phase", "1,2,64,3,0", "9,2,64,2,4"]
+
+
 @pytest.mark.quick
 def test_cover_of_a_cavity():
     """Balls hold all of a bent cavity and nothing of the outer surface."""

@@ -3,8 +3,6 @@
 """What cells know of their neighbours, and what they do by it: columns by closed
 forms on a lattice, on one rank and on several; lateral inhibition; that
 scenes without them have nothing of it."""
-import json
-
 import numpy
 
 from tests.common.program import TESTS
@@ -89,15 +87,3 @@ def test_absent(runs):
     assert "commit" in run.timings.index
     assert not {"neighbours", "rearrangement", "type tension"} & {*run.timings.index}
     assert "exchanges" not in run.statistics
-
-
-def test_time_is_told(runs):
-    """Before the run, where neighbours take a large part of it: found by
-    distance they take less."""
-    def seconds(keys):
-        said = json.loads(runs.explain(INHIBITION, keys, "--explain=json"))["size"]
-        assert sum(said["seconds of effects"].values()) < said["seconds"]
-        return said["seconds of effects"]
-    facets = seconds({})
-    assert set(facets) == {"neighbours", "transitions"}
-    assert seconds({"Neighbours/Found by": "radius"})["neighbours"] < facets["neighbours"]

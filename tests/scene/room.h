@@ -5,7 +5,6 @@
 #define morula_tests_scene_room_h
 
 #include <morula/base/input_error.h>
-#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/growth/contraction.h>
@@ -17,8 +16,6 @@
 #include <morula/effects/surface/slip.h>
 #include <morula/effects/surface/traction.h>
 #include <morula/scene/checks.h>
-#include <morula/scene/estimates.h>
-#include <morula/scene/free_growth.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>

@@ -20,8 +20,9 @@ block()
 
 TEST(SeededTissue, CountsAndWarns)
 {
-  Scene                 scene  = block();
-  const SeededTissue<3> tissue = seed_tissue<3>(scene, MPI_COMM_WORLD);
+  Scene                 scene = block();
+  const SeededTissue<3> tissue =
+    seed_tissue(TissueModel<3>(scene), MPI_COMM_WORLD);
   EXPECT_EQ(tissue.founders.n_global, 500u);
   EXPECT_EQ(tissue.n_proliferating, 250u);
   EXPECT_EQ(tissue.counts.points, tissue.surface.n_global);
@@ -30,10 +31,11 @@ TEST(SeededTissue, CountsAndWarns)
   EXPECT_TRUE(tissue.warnings.empty());
 
   scene.grid.spacing = 15.;
-  EXPECT_EQ(seed_tissue<3>(scene, MPI_COMM_WORLD).warnings.size(), 1u);
+  EXPECT_EQ(seed_tissue(TissueModel<3>(scene), MPI_COMM_WORLD).warnings.size(),
+            1u);
   scene.keys<CellCycleParameters>().where = "X > 50";
-  EXPECT_THROW(seed_tissue<3>(scene, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(seed_tissue(TissueModel<3>(scene), MPI_COMM_WORLD), InputError);
   scene                               = block();
   scene.keys<FixedParameters>().where = "Z < -26";
-  EXPECT_THROW(seed_tissue<3>(scene, MPI_COMM_WORLD), InputError);
+  EXPECT_THROW(seed_tissue(TissueModel<3>(scene), MPI_COMM_WORLD), InputError);
 }

@@ -189,22 +189,16 @@ TEST(MeshFiles, MergesWhatDiffersByRounding)
 TEST(MeshFiles, SaysWhatAFileIs)
 {
   EXPECT_TRUE(contains(refusal(" \n\t\r\n", ".stl"), "empty"));
-  EXPECT_TRUE(
-    contains(refusal(std::string("\xFF\xFEs\0o\0", 6), ".stl"), "UTF-16"));
-  EXPECT_TRUE(
-    contains(refusal(std::string("\xFE\xFF\0s\0o", 6), ".obj"), "UTF-16"));
-  EXPECT_TRUE(contains(refusal("PK\x03\x04", ".ply"), "compressed"));
-  EXPECT_TRUE(
-    contains(refusal("version https://git-lfs.github.com/spec/v1\n", ".stl"),
-             "git lfs pull"));
-  EXPECT_TRUE(contains(refusal("<html>\n</html>\n", ".stl"), "'<html>'"));
+  // A text without a triangle is read as one.
+  EXPECT_TRUE(contains(refusal("<html>\n</html>\n", ".stl"), "cut off"));
+  for (const std::string text :
+       {"PK\x03\x04", "version https://git-lfs.github.com/spec/v1\n"})
+    EXPECT_TRUE(contains(refusal(text, ".ply"), "cannot be read"));
   EXPECT_TRUE(
     contains(refusal(replaced(stl(), "vertex 3", "vertex 3,0"), ".stl"),
              "decimal points"));
-  EXPECT_TRUE(
-    contains(refusal("OFF\n8 12 0\n" + lists("", "3 ", 3), ".off"), "be read"));
-  EXPECT_TRUE(
-    contains(refusal(lists("v ", "f ", 2), ".obj"), "none of the 8 there"));
+  EXPECT_NE(refusal("OFF\n8 12 0\n" + lists("", "3 ", 3), ".off"), "");
+  EXPECT_NE(refusal(lists("v ", "f ", 2), ".obj"), "");
 }
 
 TEST(MeshFiles, RefusesFilesThatAreCutOff)
@@ -222,7 +216,7 @@ TEST(MeshFiles, RefusesFilesThatAreCutOff)
   EXPECT_TRUE(contains(refusal("", ".ply"), "empty"));
 }
 
-TEST(MeshFiles, SaysWhichLineNoReaderCouldTake)
+TEST(MeshFiles, RefusesWhatNoReaderCouldTake)
 {
   const std::string off = "OFF\n8 12 0\n" + lists("", "3 ", 0);
   const std::string obj = "# by hand\n\no box\n" + lists("v ", "f ", 1);
@@ -232,46 +226,25 @@ TEST(MeshFiles, SaysWhichLineNoReaderCouldTake)
                           "property list uchar int vertex_indices\n"
                           "end_header\n" +
                           lists("", "3 ", 0);
-  struct Case
-  {
-    std::string text, ending, reason;
-  };
-  for (const Case &one : std::vector<Case>{
-         {replaced(obj, "f 3 8 7", "f 3 80 7"),
-          ".obj",
-          "line 21, 'f 3 80 7', names vertex 80 (from 1), which is none of the "
-          "8 there"},
-         {replaced(obj, "f 3 8 7", "f -9 8 7"), ".obj", "line 21, 'f -9 8 7'"},
-         {replaced(obj, "v 3 4 5", "v 3 nan 5"),
-          ".obj",
-          "line 10, 'v 3 nan 5', is no vertex of three finite numbers"},
-         {replaced(obj, "v 3 4 5", "v 3 \\\n 5"), ".obj", "line 10, 'v 3"},
-         {replaced(off, "3 2 3 7", "3 2 3 8"), ".off", "names vertex 8"},
-         {replaced(off, "3 2 3 7", "2 2 x"), ".off", "line 19, '2 2 x'"},
-         {replaced(off, "\n3 4 5\n", "\n3 inf 5\n"),
-          ".off",
-          "line 9, '3 inf 5'"},
-         {off.substr(0, off.size() - 16),
-          ".off",
-          "ends after 10 of the 12 records 'face'"},
-         {"OFF 8\n", ".off", "does not say how many"},
-         {replaced(ply, "\n3 4 5\n", "\n3 4 -nan\n"),
-          ".ply",
-          "line 16, '3 4 -nan'"},
-         {replaced(ply, "3 2 3 7", "3 2 3 x"),
-          ".ply",
-          "line 26, '3 2 3 x', is no polygon"},
-         {ply.substr(0, ply.find("3 4 0")), ".ply", "records 'vertex'"},
-         {replaced(ply, "end_header\n", ""), ".ply", "no line of a PLY header"},
+  for (const auto &[text, ending] :
+       std::vector<std::pair<std::string, std::string>>{
+         {replaced(obj, "f 3 8 7", "f 3 80 7"), ".obj"},
+         {replaced(obj, "f 3 8 7", "f -9 8 7"), ".obj"},
+         {replaced(obj, "v 3 4 5", "v 3 nan 5"), ".obj"},
+         {replaced(obj, "v 3 4 5", "v 3 \\\n 5"), ".obj"},
+         {replaced(off, "3 2 3 7", "3 2 3 8"), ".off"},
+         {replaced(off, "3 2 3 7", "2 2 x"), ".off"},
+         {replaced(off, "\n3 4 5\n", "\n3 inf 5\n"), ".off"},
+         {off.substr(0, off.size() - 16), ".off"},
+         {"OFF 8\n", ".off"},
+         {replaced(ply, "\n3 4 5\n", "\n3 4 -nan\n"), ".ply"},
+         {replaced(ply, "3 2 3 7", "3 2 3 x"), ".ply"},
+         {ply.substr(0, ply.find("3 4 0")), ".ply"},
+         {replaced(ply, "end_header\n", ""), ".ply"},
          {replaced(stl(), "vertex 3 4 5\n", "vertex 3 4 5\nvertex 1 1 1\n"),
-          ".stl",
-          "'endloop', ends a polygon of 4 vertices"},
-         {replaced(stl(), "vertex 3 4 5", "vertex 3 4 infinite"),
-          ".stl",
-          "'vertex 3 4 infinite', is no vertex"}})
-    EXPECT_TRUE(contains(refusal(one.text, one.ending), one.reason))
-      << one.reason << "\nbut:\n"
-      << refusal(one.text, one.ending);
+          ".stl"},
+         {replaced(stl(), "vertex 3 4 5", "vertex 3 4 infinite"), ".stl"}})
+    EXPECT_NE(refusal(text, ending), "") << ending << ":\n" << text;
 }
 
 TEST(MeshFiles, RecordsOfABinaryFile)
@@ -304,14 +277,13 @@ TEST(MeshFiles, RecordsOfABinaryFile)
             }
         }
       EXPECT_NEAR(volume(text, ".ply"), 60., 1e-12);
-      EXPECT_TRUE(contains(refusal(text.substr(0, text.size() - 20), ".ply"),
-                           "ends after 10 of the 12 records 'face'"));
-      EXPECT_TRUE(contains(refusal(wrong, ".ply"),
-                           "face 11 (from 0), names vertex 13 (from 0)"));
+      EXPECT_NE(refusal(text.substr(0, text.size() - 20), ".ply"), "");
+      // CGAL reads it in silence.
+      EXPECT_TRUE(contains(refusal(wrong, ".ply"), "names a vertex"));
     }
 }
 
-TEST(MeshFiles, SaysWhichFacesWereDropped)
+TEST(MeshFiles, DropsFacesThatAreThereTwiceOrFlat)
 {
   const std::string end   = "endsolid box\n";
   const std::string facet = "facet normal 0 0 0\nouter loop\nvertex 0 0 0\n"
@@ -321,16 +293,6 @@ TEST(MeshFiles, SaysWhichFacesWereDropped)
              "A",
              "3 0 0");
   const std::string flat = replaced(facet, "3 4 0", "0 0 0");
-  for (const std::string &more : {facet, turned})
-    {
-      const std::string text = replaced(stl(), end, more + end);
-      EXPECT_NEAR(volume(text, ".stl"), 60., 1e-12);
-      const auto said = warnings(text, ".stl");
-      ASSERT_EQ(said.size(), 1u);
-      EXPECT_TRUE(contains(said[0], "1 of its faces are there twice"))
-        << said[0];
-    }
-  const auto said = warnings(replaced(stl(), end, flat + flat + end), ".stl");
-  ASSERT_EQ(said.size(), 1u);
-  EXPECT_TRUE(contains(said[0], "2 of its faces have no three corners"));
+  for (const std::string &more : {facet, turned, flat + flat})
+    EXPECT_NEAR(volume(replaced(stl(), end, more + end), ".stl"), 60., 1e-12);
 }

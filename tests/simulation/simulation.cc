@@ -21,11 +21,12 @@ block()
 
 TEST(Simulation, StartsFromATissueThatIsSeeded)
 {
-  const Scene           scene  = block();
-  const SeededTissue<3> tissue = seed_tissue<3>(scene, MPI_COMM_WORLD);
-  Simulation<3>         given(scene, MPI_COMM_WORLD, tissue);
-  Simulation<3>         seeds(scene, MPI_COMM_WORLD, false);
-  const auto           &cells = given.state().cells();
+  const Scene           scene = block();
+  const SeededTissue<3> tissue =
+    seed_tissue(TissueModel<3>(scene), MPI_COMM_WORLD);
+  Simulation<3> given(scene, MPI_COMM_WORLD, tissue);
+  Simulation<3> seeds(scene, MPI_COMM_WORLD, false);
+  const auto   &cells = given.state().cells();
   ASSERT_EQ(cells.size(), seeds.state().cells().size());
   EXPECT_EQ(sum_over_ranks(cells.size()), 500u);
   for (unsigned int p = 0; p < cells.size(); ++p)

@@ -27,8 +27,8 @@ namespace Morula
 
   /**
    * A suggestion for the full path of a key or section that does not exist: the
-   * most similar path, or the sections that have a key of its last name. Empty
-   * if nothing is similar.
+   * most similar path, or those that end with the same name. Empty if nothing
+   * is similar.
    * @param wanted     path, separated by '/'
    * @param candidates paths that exist
    */

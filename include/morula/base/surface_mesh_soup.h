@@ -35,9 +35,8 @@ namespace Morula
     {
       std::vector<Kernel::Point_3>          points;
       std::vector<std::vector<std::size_t>> polygons;
-      /** Vertices that differed by rounding, polygons that were there twice,
-       *  and those without three corners: all are gone. */
-      std::size_t n_merged = 0, n_doubled = 0, n_flat = 0;
+      /** Vertices that differed from others by rounding, and are gone. */
+      std::size_t n_merged = 0;
     };
 
     /** A file and the path of the key that names it. */

@@ -258,18 +258,6 @@ namespace Morula
            const double                  t0,
            const double                  t1) const;
 
-    /**
-     * The law's part of det F_g at @p end (day) of a founder that grows free of
-     * stress where it stands, and neither divides nor changes its type.
-     * @param row its columns at t = 0
-     * @throws InputError where the law has no value
-     */
-    double
-    free_growth(std::vector<double>         row,
-                const types::particle_index id,
-                const double                end,
-                const unsigned int          n_steps) const;
-
     /** What befalls cells. */
     const Fates<dim> &
     fates() const

@@ -19,7 +19,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,22 +29,6 @@ namespace Morula
   class Catalogue;
   class ExpressionKey;
   struct RestOfScene;
-
-  /** A key that nothing reads in a scene, and what to do. */
-  struct IdleKey
-  {
-    const AnyKey &key;
-    std::string   why; // half a sentence
-    std::string   remedy;
-  };
-
-  /** A part of an effect that --explain names by itself. */
-  struct PartOfEffect
-  {
-    std::string name;
-    bool        on;
-    std::string details;
-  };
 
   /** A field whose value at a cell expressions may read. */
   struct NamedField
@@ -131,26 +114,10 @@ namespace Morula
 
     /** How a scene gets the effect, a sentence without its end, for values that
      *  do nothing without it. */
-    virtual std::string
+    std::string
     how_to_switch_on() const
     {
       return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
-    }
-
-    /** Keys that nothing reads, as the values of others tell: said of those
-     *  that the scene sets. See AnyKey::needs(), too. */
-    virtual std::vector<IdleKey>
-    idle_keys(const RestOfScene &) const
-    {
-      return {};
-    }
-
-    /** Keys that nothing reads where a file of points says for each cell what
-     *  stands in @p column. */
-    virtual std::vector<const AnyKey *>
-    said_by_column(const std::string & /*column*/) const
-    {
-      return {};
     }
 
     /** Keys that choose boundary points on which the effect acts, besides those
@@ -190,14 +157,6 @@ namespace Morula
     take_laws_of_types(const std::vector<const Key<std::string> *> & /*laws*/)
     {}
 
-    /** What the number of cells is that --explain expects at the end, "about "
-     *  or "at least "; empty: the effect does not make cells. */
-    virtual std::string
-    counts_cells(const RestOfScene &) const
-    {
-      return "";
-    }
-
     /** Refuses what the keys contradict in the rest of the scene. Also called
      *  while the effect is off. @throws InputError */
     virtual void
@@ -221,33 +180,10 @@ namespace Morula
     virtual std::string
     details() const;
 
-    /** Its parts that --explain names by themselves. */
-    virtual std::vector<PartOfEffect>
-    parts() const
-    {
-      return {};
-    }
-
     /** Lines of --explain that follow from the keys and the rest of the scene,
      *  each with its end, if the effect is on. */
     virtual std::string
     further_lines(const RestOfScene &) const
-    {
-      return "";
-    }
-
-    /** By what tissue that grows may buckle where the effect is on: what
-     *  follows "tissue grows " in --explain; empty: not by it. */
-    virtual std::string
-    lets_buckle() const
-    {
-      return "";
-    }
-
-    /** How the effect resists motion, which decides the fold that is found, if
-     *  it is on; empty: it does not. */
-    virtual std::string
-    resistance(const RestOfScene &) const
     {
       return "";
     }
@@ -312,8 +248,6 @@ namespace Morula
     bool is_loaded = false;
     /** Initial volumes of the founders of all ranks, µm^dim. */
     double mean_volume = 0., largest_volume = 0.;
-    /** E of the stiffest cell, kPa, if it is known before the run. */
-    std::optional<double> stiffness = {};
     /** Initial volumes of this rank's founders, µm^dim. */
     std::vector<double> volumes = {};
     /** Their types by number; empty without types. */

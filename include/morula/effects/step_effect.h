@@ -83,17 +83,7 @@ namespace Morula
   /** Something that happens to the tissue as a whole once a step. */
   template <int dim>
   class StepEffect : public Effect<dim>, public Moments<dim>
-  {
-  public:
-    /** Seconds of one core that this takes for each cell in a step, roughly,
-     *  where it is more than a small part of the step: what --explain adds to
-     *  the time of a run, and names. */
-    virtual double
-    seconds_per_cell() const
-    {
-      return 0.;
-    }
-  };
+  {};
 } // namespace Morula
 
 #endif

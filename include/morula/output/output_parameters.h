@@ -5,7 +5,6 @@
 #define morula_output_output_parameters_h
 
 #include <morula/base/key.h>
-#include <morula/base/review.h>
 
 namespace Morula
 {
@@ -24,11 +23,6 @@ namespace Morula
     using Keys::list;
     KeyList
     list() override;
-
-    /** Warns of intervals that do not suit steps of length @p step (day), or a
-     *  run of so many @p seconds. */
-    void
-    review(const double step, const double seconds, Review &review) const;
   };
 } // namespace Morula
 

@@ -21,11 +21,6 @@ namespace Morula
     double reach = 1.8;
     /** The least facet of neighbours, as a part of a cell's mean surface. */
     double least_part = 0.01;
-
-    /** Seconds that one core takes to find the neighbours of a cell, roughly:
-     *  as scene/estimates.cc has those of a step. */
-    double
-    seconds_per_cell(const unsigned int dim) const;
   };
 
   /**

@@ -4,24 +4,21 @@
 #ifndef morula_program_explain_parts_h
 #define morula_program_explain_parts_h
 
-#include <morula/scene/free_growth.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
 
 #include <deal.II/particles/property_pool.h>
 
-#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 namespace Morula
 {
-  /** An effect: its name, whether it is on, what it is, and further lines. */
+  /** An effect of a scene: its name, what it is, and further lines. */
   struct EffectRow
   {
     std::string name;
-    bool        on;
     std::string description;
     std::string further = {};
   };
@@ -32,16 +29,14 @@ namespace Morula
   void
   add_effect(EffectRows        &rows,
              const std::string &name,
-             const bool         on,
              const std::string &description,
              const std::string &further = "");
 
-  /** Prints one line: a name, 'on' or 'off', and what it is; and the further
-   *  lines. */
+  /** Prints one line, a name and what it is, and the further lines. */
   void
   print(std::ostream &out, const EffectRow &row);
 
-  /** All effects that the program knows, with what the scene makes of them.
+  /** The effects of a scene.
    *  @param counts  of boundary points
    *  @param applied what the conditions apply
    *  @param n_founders, n_proliferating on all ranks */
@@ -65,17 +60,6 @@ namespace Morula
    *  are none. */
   void
   print_cell_expressions(std::ostream &out, const Scene &scene);
-
-  /**
-   * Prints what may buckle or fold in the scene, what friction means there, and
-   * which volumetric strain goes with growth that differs from cell to cell.
-   * Prints nothing where none of it applies.
-   * @param growth of the founders, if there is a law
-   */
-  void
-  print_folds(std::ostream                    &out,
-              const Scene                     &scene,
-              const std::optional<FreeGrowth> &growth);
 } // namespace Morula
 
 #endif

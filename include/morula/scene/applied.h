@@ -4,7 +4,7 @@
 #ifndef morula_scene_applied_h
 #define morula_scene_applied_h
 
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/point.h>
@@ -50,7 +50,7 @@ namespace Morula
    */
   template <int dim>
   std::vector<AppliedCondition>
-  applied_conditions(const Scene               &scene,
+  applied_conditions(const TissueModel<dim>    &model,
                      const SurfacePatches<dim> &surface,
                      const MPI_Comm             comm);
 
@@ -74,15 +74,10 @@ namespace Morula
   applied_texts(const Scene                         &scene,
                 const std::vector<AppliedCondition> &applied);
 
-  /** Adds warnings of conditions on few points or none and without a load, and
-   *  of numbers that look like another unit's. Collective.
-   *  @param founders initial positions of this rank's, µm */
-  template <int dim>
+  /** Adds warnings of conditions on few points or none and without a load. */
   void
   review_applied(const Scene                         &scene,
                  const std::vector<AppliedCondition> &applied,
-                 const std::vector<Point<dim>>       &founders,
-                 const MPI_Comm                       comm,
                  std::vector<std::string>            &warnings);
 } // namespace Morula
 

@@ -4,7 +4,7 @@
 #ifndef morula_scene_checks_h
 #define morula_scene_checks_h
 
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -19,7 +19,7 @@ namespace Morula
    *  this rank, which must outlive the result. Collective. */
   template <int dim>
   Preview<dim>
-  preview(const Scene                       &scene,
+  preview(const TissueModel<dim>            &model,
           const std::vector<Point<dim>>     &founders,
           const std::vector<Point<dim>>     &boundary_points,
           const std::vector<Tensor<1, dim>> &normals,
@@ -30,7 +30,7 @@ namespace Morula
    *  @param given what the file says. @throws InputError */
   template <int dim>
   std::vector<unsigned int>
-  types_of(const Scene                     &scene,
+  types_of(const TissueModel<dim>          &model,
            const std::vector<Point<dim>>   &founders,
            const std::vector<unsigned int> &given);
 
@@ -39,7 +39,7 @@ namespace Morula
    *  @param given their types, if their file says them */
   template <int dim>
   std::vector<types::particle_index>
-  founders_of_types(const Scene                     &scene,
+  founders_of_types(const TissueModel<dim>          &model,
                     const std::vector<Point<dim>>   &founders,
                     const MPI_Comm                   comm,
                     const std::vector<unsigned int> &given = {});
@@ -56,7 +56,7 @@ namespace Morula
    */
   template <int dim>
   types::particle_index
-  check_at_cells(const Scene                   &scene,
+  check_at_cells(const TissueModel<dim>        &model,
                  const std::vector<Point<dim>> &founders,
                  const MPI_Comm                 comm);
 
@@ -78,7 +78,7 @@ namespace Morula
    */
   template <int dim>
   ConditionCounts
-  check_at_surface(const Scene               &scene,
+  check_at_surface(const TissueModel<dim>    &model,
                    const SurfacePatches<dim> &surface,
                    const MPI_Comm             comm);
 } // namespace Morula

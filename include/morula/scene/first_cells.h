@@ -6,7 +6,7 @@
 
 #include <morula/effects/development.h>
 #include <morula/effects/state/surface_distance.h>
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -46,8 +46,8 @@ namespace Morula
   class FirstCells
   {
   public:
-    /** Collective. @param founders must outlive this */
-    FirstCells(const Scene               &scene,
+    /** Collective. @param model and @p founders must outlive this */
+    FirstCells(const TissueModel<dim>    &model,
                const Founders<dim>       &founders,
                const SurfacePatches<dim> &patches,
                const MPI_Comm             comm);
@@ -61,24 +61,9 @@ namespace Morula
     PresentCell<dim>
     cell(std::vector<double> &row, const std::size_t i) const;
 
-    /** What acts on them. */
-    const auto &
-    forces() const
-    {
-      return effects.forces;
-    }
-
-    /** The rules by which the founders develop. */
-    const CellDevelopment<dim> &
-    development() const
-    {
-      return development_;
-    }
-
   private:
+    const TissueModel<dim>       &model;
     const Founders<dim>          &founders;
-    SceneEffects<dim>             effects; // but for those of development_
-    CellDevelopment<dim>          development_;
     std::vector<NearSurface<dim>> surface;
     CellReader<dim>               reader;
   };

@@ -4,7 +4,7 @@
 #ifndef morula_scene_held_pieces_h
 #define morula_scene_held_pieces_h
 
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/point.h>
@@ -45,7 +45,7 @@ namespace Morula
    */
   template <int dim>
   std::vector<HeldPiece>
-  held_pieces(const Scene               &scene,
+  held_pieces(const TissueModel<dim>    &model,
               const Founders<dim>       &founders,
               const SurfacePatches<dim> &surface,
               const MPI_Comm             comm);

@@ -5,7 +5,7 @@
 #define morula_scene_reviews_h
 
 #include <morula/base/review.h>
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -18,15 +18,6 @@ namespace Morula
   void
   review_idle_effects(const Scene &scene, Review &review);
 
-  /** Warns of times and columns of a points file with which values do nothing.
-   *  Collective. */
-  template <int dim>
-  void
-  review_idle_keys(const Scene         &scene,
-                   const Founders<dim> &founders,
-                   const MPI_Comm       comm,
-                   Review              &review);
-
   /**
    * Warns of rates of death and of leaving a type that are fast for the step.
    * Such a rate is taken for the cell's state at the beginning of a step, so
@@ -37,7 +28,7 @@ namespace Morula
    */
   template <int dim>
   void
-  review_rates(const Scene               &scene,
+  review_rates(const TissueModel<dim>    &model,
                const Founders<dim>       &founders,
                const SurfacePatches<dim> &surface,
                const MPI_Comm             comm,

@@ -305,20 +305,10 @@ namespace Morula
                  CellColumns<dim>  &columns,
                  StateColumns<dim> &state);
 
-  /** Makes all effects of a scene. @throws InputError */
+  /** Makes all effects of a scene, for TissueModel. @throws InputError */
   template <int dim>
   SceneEffects<dim>
   effects_of(const Scene &scene);
-
-  /** The scene's interaction, with columns of its own. @throws InputError */
-  template <int dim>
-  std::optional<NamedEffect<Interaction<dim>>>
-  interaction_of(const Scene &scene);
-
-  /** The scene's conditions on the surface. @throws InputError */
-  template <int dim>
-  BoundaryConditions<dim>
-  boundary_conditions_of(const Scene &scene);
 } // namespace Morula
 
 #endif

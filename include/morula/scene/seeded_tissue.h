@@ -7,7 +7,7 @@
 #include <morula/scene/applied.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/held_pieces.h>
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -50,10 +50,10 @@ namespace Morula
               const SeededTissue<dim> &tissue,
               const MPI_Comm           comm);
 
-  /** Whether the tissue of a scene has boundary points. @throws InputError */
+  /** Whether the tissue of a scene has boundary points. */
   template <int dim>
   bool
-  has_surface(const Scene &scene);
+  has_surface(const TissueModel<dim> &model);
 
   /**
    * Seeds the tissue, with a surface around cells from a file if Tissue/Points
@@ -64,7 +64,7 @@ namespace Morula
    */
   template <int dim>
   SeededTissue<dim>
-  seed_tissue(const Scene &scene, const MPI_Comm comm);
+  seed_tissue(const TissueModel<dim> &model, const MPI_Comm comm);
 } // namespace Morula
 
 #endif

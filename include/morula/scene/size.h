@@ -7,19 +7,15 @@
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
 
-#include <deal.II/base/point.h>
-
 #include <mpi.h>
-
-#include <vector>
 
 namespace Morula
 {
-  /** The present or expected size of a scene. */
+  /** The size of a scene at t = 0. */
   struct SceneSize
   {
     double cells  = 0.;
-    double volume = 0.; // µm^dim, without stress
+    double volume = 0.; // µm^dim
     // of the box around the tissue; 0: not known (few for compact tissue)
     double grid_cells = 0.;
   };
@@ -30,19 +26,6 @@ namespace Morula
    */
   SceneSize
   initial_size(const Scene &scene);
-
-  /**
-   * Expected size at End time of the descendants of @p founders, no more than
-   * twice 'Stop at cells'. With a size checkpoint only the founders are
-   * counted, since only the run shows its effect: a lower bound. Collective;
-   * every rank gives its own founders.
-   * @throws InputError, on some ranks only, if an expression has no value
-   */
-  template <int dim>
-  SceneSize
-  expected_size(const Scene                   &scene,
-                const std::vector<Point<dim>> &founders,
-                const MPI_Comm                 comm);
 
   /** Physical memory of all machines that run ranks, bytes. Collective. */
   double

@@ -26,7 +26,7 @@ namespace Morula
    */
   template <int dim>
   std::vector<std::string>
-  scene_warnings(const Scene               &scene,
+  scene_warnings(const TissueModel<dim>    &model,
                  const Founders<dim>       &founders,
                  const SurfacePatches<dim> &surface,
                  const ConditionCounts     &counts,

@@ -4,7 +4,6 @@
 #ifndef morula_seeding_points_file_h
 #define morula_seeding_points_file_h
 
-#include <morula/base/review.h>
 #include <morula/seeding/seeding.h>
 
 #include <mpi.h>
@@ -19,16 +18,15 @@ namespace Morula
    * Reads this rank's part of the cells in a CSV file. Its header line names
    * the columns in any order: x, y, in 3-D z, in µm, volume, in µm^dim,
    * generation, phase and type; others are skipped. Entries are separated by
-   * commas, semicolons, tabs or blanks. Lines of words below the header line
-   * belong to the header. Without a column of volumes every cell has @p
-   * default_volume. In 2-D a column z is allowed if it holds only zeros. Blank
-   * lines and lines that begin with # are skipped. The order of the rows is the
-   * order of the ids. Every rank reads only its share of the file. Collective.
-   * @throws InputError on all ranks with the file's first bad line: values that
-   * are no numbers, wrong columns, volumes that are not positive, generations
-   * that are no whole number, two cells at
-   * one place, a cell beyond the limits or far away from all others, no cells;
-   * and for a file that is no text, or with cells of several moments
+   * commas. Without a column of volumes every cell has @p default_volume. In
+   * 2-D a column z is allowed if it holds only zeros. Blank lines and lines
+   * that begin with # are skipped. The order of the rows is the order of the
+   * ids. Rank 0 reads the file. Collective.
+   * @throws InputError on all ranks with the file's first bad line and column:
+   * values that are no numbers, wrong columns, volumes that are not positive,
+   * generations that are no whole number, a cell beyond the limits, a second
+   * moment; then for two cells at one place, a cell far away from all others,
+   * and a file without cells
    */
   template <int dim>
   Founders<dim>
@@ -36,12 +34,6 @@ namespace Morula
               const double              default_volume,
               const MPI_Comm            comm,
               const SeedingLimits<dim> &limits = {});
-
-  /** Warns of the columns and lines of a good file that read_points() has
-   *  skipped. Every rank reads the header. */
-  template <int dim>
-  void
-  review_points_file(const std::string &file, Review &review);
 } // namespace Morula
 
 #endif

@@ -28,9 +28,8 @@ namespace Morula
               Review                    &review);
 
   /**
-   * Warns if the file of a tissue seems not to be in µm: the nearest neighbours
-   * of points are nearer or farther than cells are long, or a mesh holds few
-   * cells. Collective.
+   * Warns of cells whose length is that of another unit, and of a surface that
+   * does not enclose the volume of its cells. Collective.
    */
   template <int dim>
   void
@@ -39,12 +38,6 @@ namespace Morula
                const SurfacePatches<dim> &surface,
                const MPI_Comm             comm,
                Review                    &review);
-
-  /** Warns of keys of Tissue that the chosen shape does not use. Those that
-   *  name files are refused; these are not, so that one scene serves several
-   *  shapes. */
-  void
-  review_unused(const TissueParameters &tissue, Review &review);
 } // namespace Morula
 
 #endif

@@ -144,6 +144,8 @@ namespace Morula
     std::vector<unsigned int> types;
     /** Numbers of their bodies; empty without contact. */
     std::vector<unsigned int> bodies;
+    /** Columns of their file that say nothing about cells here. */
+    std::vector<std::string> skipped_columns;
   };
 
   /**

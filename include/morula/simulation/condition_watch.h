@@ -6,7 +6,7 @@
 
 #include <morula/base/announce.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/scene/tissue_model.h>
 
 #include <cstdint>
 #include <map>

@@ -4,8 +4,8 @@
 #ifndef morula_simulation_following_surface_h
 #define morula_simulation_following_surface_h
 
+#include <morula/scene/tissue_model.h>
 #include <morula/seeding/points_surface.h>
-#include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/timer.h>
 

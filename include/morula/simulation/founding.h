@@ -6,7 +6,7 @@
 
 #include <morula/output/lineage.h>
 #include <morula/scene/seeded_tissue.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/scene/tissue_model.h>
 
 #include <vector>
 

@@ -41,12 +41,10 @@ namespace Morula
     /**
      * Locks the directory for this run and makes it ready, for a new run or for
      * one resumed from a snapshot.
-     * @param tables what the effects add
      * @param clock runs since this program began the run; kept as a reference
      * @throws InputError, or std::runtime_error with path and reason
      */
-    RunFiles(const Scene                            &scene,
-             const Tables<dim>                      &tables,
+    RunFiles(const TissueModel<dim>                 &model,
              const std::optional<SnapshotData<dim>> &resumed_from,
              const Timer                            &clock,
              const MPI_Comm                          comm);
@@ -139,7 +137,7 @@ namespace Morula
     void
     warn_of_missing_states(); // written with another Output/Formats
     void
-    continue_tables(const Tables<dim>       &of_effects,
+    continue_tables(const TissueModel<dim>  &model,
                     const SnapshotData<dim> &resumed_from);
 
     RunSetup

@@ -4,7 +4,7 @@
 #ifndef morula_simulation_run_tables_h
 #define morula_simulation_run_tables_h
 
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 
 #include <string>
 #include <vector>
@@ -20,11 +20,10 @@ namespace Morula
     bool may_begin_later = false;
   };
 
-  /** The tables of a run of this scene. @param of_effects what its effects add
-   */
+  /** The tables of a run of this scene. */
   template <int dim>
   std::vector<Table>
-  tables_of(const Scene &scene, const Tables<dim> &of_effects);
+  tables_of(const TissueModel<dim> &model);
 } // namespace Morula
 
 #endif

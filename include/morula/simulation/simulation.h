@@ -6,6 +6,7 @@
 
 #include <morula/effects/equation.h>
 #include <morula/scene/seeded_tissue.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/simulation/condition_watch.h>
 #include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
@@ -15,7 +16,6 @@
 #include <morula/simulation/run_state.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/stop_signals.h>
-#include <morula/simulation/tissue_model.h>
 
 #include <deal.II/base/timer.h>
 

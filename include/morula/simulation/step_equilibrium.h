@@ -8,8 +8,8 @@
 #include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/simulation/surface_forces.h>
-#include <morula/simulation/tissue_model.h>
 #include <morula/solver/condition_estimate.h>
 #include <morula/solver/newton.h>
 

@@ -5,7 +5,7 @@
 #define morula_simulation_step_supports_h
 
 #include <morula/mechanics/rigid_modes.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/scene/tissue_model.h>
 
 #include <vector>
 

@@ -7,7 +7,7 @@
 #include <morula/output/cell_fields.h>
 #include <morula/output/statistics.h>
 #include <morula/output/surface_fields.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/scene/tissue_model.h>
 
 namespace Morula
 {

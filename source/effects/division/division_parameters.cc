@@ -77,22 +77,6 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  DivisionParameters::idle_keys(const RestOfScene &scene) const
-  {
-    const std::string remedy = "Set " + axis.path() + ", or remove this key.";
-    std::vector<IdleKey> idle;
-    if (scene.division_axes == std::set<std::string>{"random"})
-      idle.push_back({axis_spread, "all axes are random", remedy});
-    if (scene.division_axes.count("stretch") +
-          scene.division_axes.count("stress") ==
-        0)
-      idle.push_back(
-        {least_anisotropy, "no axis is that of stretch or stress", remedy});
-    return idle;
-  }
-
-
   KeyList
   DivisionParameters::list()
   {

@@ -7,7 +7,6 @@
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
-#include <morula/effects/usual_numbers.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -64,15 +63,6 @@ namespace Morula
                   "stretched cells enter S.",
                   "Choose a number below 1.");
 
-    constexpr double longest = 10.; // day
-    review_number(parameters.duration,
-                  range_of(parameters.duration, scene.founders, scene.comm),
-                  0.,
-                  longest,
-                  "day",
-                  "cell cycles take 0.3 to 3 days",
-                  "Is it in hours?",
-                  review);
     const Expression &duration = parameters.duration.expression(dim);
     const Expression &where    = parameters.where.expression(dim);
     if (depends_on_more_than_place(duration))

@@ -73,14 +73,6 @@ namespace Morula
   }
 
 
-  std::vector<const AnyKey *>
-  CellCycleParameters::said_by_column(const std::string &column) const
-  {
-    return column == "phase" ? std::vector<const AnyKey *>{&start} :
-                               std::vector<const AnyKey *>();
-  }
-
-
   bool
   CellCycleParameters::is_on() const
   {
@@ -89,44 +81,13 @@ namespace Morula
 
 
   std::string
-  CellCycleParameters::how_to_switch_on() const
-  {
-    return "Set " + law.path() + " = cell cycle";
-  }
-
-
-  std::string
   CellCycleParameters::details() const
   {
     return "cell cycle, T = " + duration.text() +
-           " day, Lambda = " + exit_rate.text() + " /day";
-  }
-
-
-  std::vector<PartOfEffect>
-  CellCycleParameters::parts() const
-  {
-    return {{"size checkpoint",
-             !size_checkpoint.is_default(),
-             "J_th = " + size_checkpoint.text()}};
-  }
-
-
-  std::string
-  CellCycleParameters::counts_cells(const RestOfScene &scene) const
-  {
-    // Only the run can tell times that depend on the cells' state, and which
-    // cells die: the sum over generations is then a bound.
-    const auto &fates = scene.catalogue.fates;
-    const bool  others =
-      std::any_of(fates.begin(), fates.end(), [this](const auto &choice) {
-        return &choice.keys() != this && choice.keys().is_on();
-      });
-    return others || !size_checkpoint.is_default() ||
-               depends_on_more_than_place(duration.expression(scene.dim)) ||
-               depends_on_more_than_place(exit_rate.expression(scene.dim)) ?
-             "at least " :
-             "about ";
+           " day, Lambda = " + exit_rate.text() + " /day" +
+           (size_checkpoint.is_default() ?
+              "" :
+              ", size checkpoint J_th = " + size_checkpoint.text());
   }
 
 

@@ -237,17 +237,6 @@ namespace Morula
   }
 
 
-  std::vector<const AnyKey *>
-  CellTypesParameters::said_by_column(const std::string &column) const
-  {
-    std::vector<const AnyKey *> keys;
-    if (column == "type")
-      for (const CellTypeKeys &type : types)
-        keys.push_back(&type.where);
-    return keys;
-  }
-
-
   void
   CellTypesParameters::check_with(const RestOfScene &scene) const
   {
@@ -266,19 +255,6 @@ namespace Morula
                                  "A scene has one law of growth: give its keys "
                                  "other values for this type.");
       }
-  }
-
-
-  std::vector<IdleKey>
-  CellTypesParameters::idle_keys(const RestOfScene &scene) const
-  {
-    for (const CellTypeKeys &type : types)
-      for (const ExpressionKey &rate : type.transitions)
-        if (!rate.is_default())
-          return {};
-    return {{scene.material.on_transition,
-             "no cell changes its type",
-             "Set Cell types/NAME/Transitions, or remove this key."}};
   }
 
 

@@ -66,13 +66,6 @@ namespace Morula
   }
 
 
-  std::string
-  DeathParameters::how_to_switch_on() const
-  {
-    return "Set " + rate.path() + " or " + when.path();
-  }
-
-
   void
   DeathParameters::check_with(const RestOfScene &scene) const
   {
@@ -88,18 +81,6 @@ namespace Morula
         "A shrunken cell would pull with the stiffness of a whole one. Cells "
         "may also go at once: " +
           shrinking_time.path() + " = 0.");
-  }
-
-
-  std::vector<IdleKey>
-  DeathParameters::idle_keys(const RestOfScene &scene) const
-  {
-    if (!shrinking_time.expression(scene.dim).is_always(0.))
-      return {};
-    return {
-      {final_volume,
-       "dead cells are removed at once, as " + shrinking_time.path() + " = 0",
-       "Set a Shrinking time > 0, or remove this key."}};
   }
 
 

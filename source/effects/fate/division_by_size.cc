@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/rest_of_scene.h>
 #include <morula/effects/state/present_cell.h>
@@ -252,34 +251,6 @@ namespace Morula
   {
     const double t = cell.get(time);
     return t == undivided ? std::numeric_limits<double>::infinity() : t;
-  }
-
-
-  template <int dim>
-  ExpectedCells<dim>
-  DivisionBySize<dim>::expected_cells(const double) const
-  {
-    if (depends_on_more_than_place(volume) || !volume.types().empty())
-      return {};
-    return [this](const Point<dim> &X, const double V) {
-      const double mean = volume.value(X, 0.);
-      return mean > 0. ? expected_cells_by_size(V / mean, 0.) : 1.;
-    };
-  }
-
-
-  template <int dim>
-  double
-  DivisionBySize<dim>::expected_cells(const PresentCell<dim> &founder,
-                                      const double            ratio) const
-  {
-    // A founder that the surface has cut divides as the whole cell would.
-    const double part = share.exists() ? founder.cell().get(share) : 1.;
-    const double V    = founder.cell().initial_volume() / part * ratio;
-    const double mean = founder.value(volume, 0.);
-    return mean > 0. ?
-             expected_cells_by_size(V / mean, founder.value(noise, 0.)) :
-             1.;
   }
 
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 
@@ -54,20 +53,6 @@ namespace Morula
     DividingFate<dim>::review(scene, review);
     if (parameters)
       review_cell_cycle(*parameters, scene, review);
-  }
-
-
-  template <int dim>
-  ExpectedCells<dim>
-  Proliferation<dim>::expected_cells(const double t) const
-  {
-    if (!parameters)
-      return {};
-    return
-      [descendants = Descendants<dim>(*parameters, t)](const Point<dim> &X,
-                                                       const double) mutable {
-        return descendants.expected(X);
-      };
   }
 
 

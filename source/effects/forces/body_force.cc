@@ -4,7 +4,6 @@
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/placed_force.h>
 #include <morula/effects/surface/dead_load.h>
-#include <morula/effects/usual_numbers.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -109,32 +108,6 @@ namespace Morula
                     " day, and may swing where it changes that state much in "
                     "a step.",
                   "Repeat the run with half the step, and compare.");
-    review_strength(scene, review);
-  }
-
-
-  template <int dim>
-  void
-  BodyForce<dim>::review_strength(const Preview<dim> &scene,
-                                  Review             &review) const
-  {
-    // Over its length the tissue carries the mean force times that length.
-    if (!scene.stiffness || density.depends_on_state())
-      return;
-    Tensor<1, dim> sum;
-    for (const Point<dim> &X : scene.founders)
-      sum += density.vector(X, scene.end_time);
-    const double load =
-      (Utilities::MPI::sum(sum, scene.comm) / scene.n_founders).norm() *
-      longest_extent(scene.founders, scene.comm);
-    if (load > strongest_load * *scene.stiffness)
-      review.warn(density.key(),
-                  density.text(),
-                  "over the length of the tissue it adds up to " +
-                    as_text(load) + " kPa, " +
-                    as_text(load / *scene.stiffness) +
-                    " times the stiffest cell's E. Is it in Pa?",
-                  "1 Pa/um is 0.001 kPa/um, 1 kN/m^3 is 1e-6 kPa/um.");
   }
 
 

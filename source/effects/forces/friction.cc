@@ -8,7 +8,6 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <cmath>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -36,31 +35,6 @@ namespace Morula
     return coefficient.is_changed();
   }
 
-
-  std::string
-  FrictionParameters::resistance(const RestOfScene &scene) const
-  {
-    const std::optional<double> value = coefficient.largest_number(scene.dim);
-    if (!value)
-      return details();
-    std::ostringstream text;
-    text << *value << " kPa day/um^2, as cells of " << scene.cell_spacing
-         << " um feel it one by one in a medium of "
-         << viscosity_of_medium(*value, scene.cell_spacing) << " Pa s";
-    return text.str();
-  }
-
-
-  double
-  viscosity_of_medium(const double friction, const double length)
-  {
-    // Stokes' force 6 π η R v on a sphere equals ζ V v with V = 4 π R³/3, hence
-    // η = 2 ζ R²/9. R is that of the sphere with the volume of the cube.
-    constexpr double pascal_seconds = 1e3 * 86400.; // in a kPa day
-    const double     radius_squared =
-      std::pow(3. / (4. * numbers::PI), 2. / 3.) * length * length;
-    return 2. / 9. * friction * radius_squared * pascal_seconds;
-  }
 
 
   template <int dim>

@@ -42,17 +42,6 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  TypeTensionParameters::idle_keys(const RestOfScene &) const
-  {
-    if (any())
-      return {};
-    return {{force,
-             "no cells have tensions",
-             "Set Cell types/NAME/Tension, or remove this key."}};
-  }
-
-
   void
   TypeTensionParameters::declare_types(const std::vector<std::string> &names)
   {

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <cmath>
 #include <sstream>
 
 namespace Morula
@@ -78,17 +77,6 @@ namespace Morula
     return cell.present == nullptr ?
              I :
              checked(cell.present->value(theta, t1), X, t1) * I;
-  }
-
-
-  template <int dim>
-  double
-  IsotropicGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
-                                              const double      t) const
-  {
-    // A volume has dim lengths that grow alike. A stretch that is not known
-    // before the run counts as no growth, a lower bound as a rule.
-    return is_known_before() ? std::pow(stretch(X, t), dim) : 1.;
   }
 
 

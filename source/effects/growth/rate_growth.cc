@@ -404,24 +404,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  RateGrowth<dim>::expected_volume_ratio(const Point<dim> &X,
-                                         const double      t) const
-  {
-    if (!is_known_before())
-      return 1.;
-    // The midpoint rule with 64 intervals has an error of some 1e-4 for a rate
-    // that changes smoothly: an estimate of the size needs no more.
-    constexpr unsigned int n_steps = 64;
-    double                 growth  = 0.;
-    const unsigned int     n       = rate.depends_on_time() ? n_steps : 1;
-    for (unsigned int i = 0; i < n; ++i)
-      growth += rate.value(X, (i + 0.5) * t / n) * t / n;
-    return std::exp(growth);
-  }
-
-
-  template <int dim>
   void
   RateGrowth<dim>::check(const Preview<dim> &scene) const
   {

@@ -59,20 +59,6 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  RateGrowthParameters::idle_keys(const RestOfScene &scene) const
-  {
-    // The predictor is for rates that can fall while a step lasts.
-    if (rate.differs_by_type() ||
-        rate.expression(scene.dim).depends_on_state() ||
-        homeostasis.is_changed())
-      return {};
-    return {{predictor,
-             "no rate of growth depends on the cell's state",
-             "Remove this key."}};
-  }
-
-
   KeyList
   RateGrowthParameters::list()
   {

@@ -4,7 +4,6 @@
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/present_cell.h>
-#include <morula/effects/usual_numbers.h>
 #include <morula/mechanics/relaxation.h>
 
 #include <deal.II/base/mpi.h>
@@ -202,25 +201,9 @@ namespace Morula
   void
   Relaxation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    // A time in another unit comes first. Passes without a yield stress are
-    // ignored, which is said. Then the shortest relaxation time of all founders
-    // and types is compared with the step; the minimum over the ranks is
-    // collective, and the return before it depends on what all ranks share.
-    constexpr double longest = 2.; // day
-    review_number(keys.time,
-                  range_of(keys.time, scene.founders, scene.comm),
-                  0.,
-                  longest,
-                  "day",
-                  "tissue relaxes within minutes to hours",
-                  "Is it in hours?",
-                  review);
-    if (keys.passes > 1 && keys.yield_stress.expression(3).is_always(0.))
-      review.warn(keys.passes.path(),
-                  keys.passes.text(),
-                  "the flow of a step is exact in one pass where there is no " +
-                    keys.yield_stress.path() + ", so this is ignored.",
-                  "Leave it out.");
+    // The shortest relaxation time of all founders and types is compared with
+    // the step; the minimum over the ranks is collective, and the return before
+    // it depends on what all ranks share.
     if (!scene.is_loaded)
       return;
     // A time that depends on the state is known only in the run.

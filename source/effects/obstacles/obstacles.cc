@@ -4,7 +4,6 @@
 #include <morula/base/input_error.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/obstacles.h>
-#include <morula/effects/usual_numbers.h>
 #include <morula/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -264,47 +263,6 @@ namespace Morula
                         " cells stand in it, and no boundary point does: it "
                         "lies within the tissue, where nothing feels it.",
                       "Make a hole in the tissue around it, or move it.");
-      }
-    review_distance(scene, review);
-  }
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::review_distance(const Preview<dim> &scene,
-                                  Review             &review) const
-  {
-    // The tissue may come nearer as well, by growth or loads; beyond its own
-    // length that was hardly meant. The length of an obstacle's way is taken
-    // from the velocity in the middle of some times.
-    constexpr unsigned int n = 200;
-    if (Utilities::MPI::sum(scene.boundary_points.size(), scene.comm) == 0)
-      return;
-    const double extent = longest_extent(scene.boundary_points, scene.comm);
-    for (const Obstacle &obstacle : list)
-      {
-        double nearest = std::numeric_limits<double>::max(), way = 0.;
-        for (const Point<dim> &X : scene.boundary_points)
-          {
-            const double outside = obstacle.body->distance(X).value;
-            nearest = std::min(nearest, obstacle.is_mould ? -outside : outside);
-          }
-        nearest = Utilities::MPI::min(nearest, scene.comm);
-        for (unsigned int i = 0; i < n; ++i)
-          way += obstacle.velocity
-                   .vector(Point<dim>(), (i + 0.5) / n * scene.end_time)
-                   .norm() *
-                 scene.end_time / n;
-        if (nearest > way + extent)
-          review.warn("Obstacles/Names",
-                      obstacle.name,
-                      "it stands " + as_text(nearest) +
-                        " um from the tissue, which is " + as_text(extent) +
-                        " um long, and moves by " + as_text(way) +
-                        " um until the end: they do not meet unless the "
-                        "tissue grows or moves that far. Are its lengths in "
-                        "um and its Velocity in um/day?",
-                      "If it is meant so, all is well.");
       }
   }
 

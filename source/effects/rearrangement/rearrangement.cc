@@ -87,16 +87,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  double
-  Rearrangement<dim>::seconds_per_cell() const
-  {
-    // Besides the neighbours it takes the places' edges, the attempts, here
-    // about one a cell, the move, and the spreading.
-    constexpr double exchange = dim == 2 ? 3e-6 : 6e-6;
-    return neighbours.seconds_per_cell(dim) + exchange;
-  }
-
 
   template <int dim>
   std::vector<Occupant>

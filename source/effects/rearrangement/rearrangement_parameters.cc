@@ -107,22 +107,6 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  RearrangementParameters::idle_keys(const RestOfScene &scene) const
-  {
-    for (const auto &row : scene.catalogue.tensions().between)
-      for (const double gamma : row)
-        if (gamma != 0.)
-          return {};
-    if (drive.is_changed())
-      return {};
-    return {{energy,
-             "no exchange changes an energy: there is neither a tension nor a "
-             "Drive",
-             "Set Cell types/NAME/Tension, or remove this key."}};
-  }
-
-
   void
   RearrangementParameters::review(const RestOfScene &scene,
                                   Review            &review) const

@@ -96,20 +96,6 @@ namespace Morula
   }
 
 
-  std::vector<IdleKey>
-  NeighbourParameters::idle_keys(const RestOfScene &) const
-  {
-    std::vector<IdleKey> idle;
-    if (!is_on())
-      for (const AnyKey *const key : list())
-        idle.push_back({*key,
-                        "no expression asks for neighbours",
-                        "Use a variable of neighbours (doc/glossary.md), or "
-                        "remove this key."});
-    return idle;
-  }
-
-
   std::string
   NeighbourParameters::details() const
   {

@@ -158,26 +158,6 @@ TEST(DivisionBySize, HasTheNoiseThatIsAsked)
 }
 
 
-TEST(DivisionBySize, IsExpectedAsItComes)
-{
-  // Founders of one volume divide at once; what is expected of their numbers
-  // is what comes, with noise and without.
-  for (const double noise : {0., 0.2})
-    {
-      const SizeSettings settings =
-        with(growing_to("1", "100"),
-             {"Division by size/Noise = " + std::to_string(noise)});
-      const SizedColony colony =
-        grow_colony(settings, std::vector<double>(1000, 60.), 1.5, 3);
-      const double expected =
-        1000. * expected_cells_by_size(0.6 * std::exp(1.5), noise);
-      EXPECT_NEAR(colony.volumes.size() / expected,
-                  1.,
-                  noise == 0. ? 1e-12 : 0.03);
-    }
-}
-
-
 TEST(DivisionBySize, HasExactTimesBesideOtherFates)
 {
   // Steps of other lengths change neither the order of a death, a change of

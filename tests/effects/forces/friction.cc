@@ -75,16 +75,3 @@ TEST(Friction, MayBeThatOfATypeAlone)
   settings.push_back("Cell types/still/Friction/Coefficient=1e-5");
   expect(friction(settings), 1e-5, 2e-5);
 }
-
-
-// A sphere of radius R that moves with the velocity v feels 6 π η R v.
-TEST(Friction, TheViscosityIsThatOfStokes)
-{
-  const double length = 10., eta = 3.; // µm, Pa s
-  const double radius     = length * std::cbrt(3. / (4. * numbers::PI));
-  const double in_kpa_day = eta / 1e3 / 86400.;
-  const double force = 6. * numbers::PI * in_kpa_day * radius; // per velocity
-  EXPECT_NEAR(viscosity_of_medium(force / std::pow(length, 3), length),
-              eta,
-              1e-12);
-}

@@ -34,5 +34,4 @@ TEST(IsotropicGrowth, IsAGrowthLaw)
   EXPECT_DOUBLE_EQ(F_g[1][1], 2.);
   EXPECT_EQ(F_g[0][1], 0.);
   EXPECT_EQ(F_g[1][0], 0.);
-  EXPECT_DOUBLE_EQ(law.expected_volume_ratio(Point<2>(2., 0.), 0.5), 4.);
 }

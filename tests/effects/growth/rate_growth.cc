@@ -269,15 +269,3 @@ TEST_2D_3D(RateGrowth, FollowsADirectionThatTurns)
   EXPECT_LE(fine, 1.5e-3);
   EXPECT_GE(coarse / fine, 3.3);
 }
-
-
-TEST(RateGrowth, ExpectsVolumesThatItKnows)
-{
-  LoneCell<2>         scene;
-  const RateGrowth<2> known(keys("0.2*X*t"), scene.setting());
-  EXPECT_NEAR(known.expected_volume_ratio(Point<2>(3., 0.), 2.),
-              std::exp(0.6 * 2.),
-              1e-12);
-  const RateGrowth<2> unknown(keys("0.2*J_e"), scene.setting());
-  EXPECT_EQ(unknown.expected_volume_ratio(Point<2>(3., 0.), 2.), 1.);
-}

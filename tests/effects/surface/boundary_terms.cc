@@ -152,12 +152,6 @@ namespace
       F_g[dim - 1][dim - 1] += 0.2 * t1;
       return F_g;
     }
-
-    double
-    expected_volume_ratio(const Point<dim> &, const double) const override
-    {
-      return 1.3;
-    }
   };
 } // namespace
 

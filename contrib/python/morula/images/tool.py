@@ -63,7 +63,7 @@ def scene_of_image(options, directory):
     directory.mkdir(parents=True, exist_ok=True)
     kinds = [types[name] for name in cells.names] if types else None
     write_cells(directory / "cells.csv", cells.places[:, ::-1], cells.volumes,
-                kinds)
+                {"type": kinds})
     surface = "surface.off" if labels.ndim == 3 else "outline.wkt"
     (write_off if labels.ndim == 3 else write_wkt)(directory / surface, parts)
     words += _about_parts(parts, labels.ndim)
@@ -96,7 +96,10 @@ def scene_of_table(options, directory):
     volumes = table["volume"].to_numpy()
     length = float(volumes.mean() ** (1 / len(axes)))
     directory.mkdir(parents=True, exist_ok=True)
-    write_cells(directory / "cells.csv", table[axes].to_numpy(), volumes, types)
+    write_cells(directory / "cells.csv", table[axes].to_numpy(), volumes,
+                {"type": types, **{name: list(table[name])
+                                   for name in ("generation", "phase")
+                                   if name in table}})
     words.append("A table has no surface: the program makes one around the "
                  "cells, in which narrow gaps and cavities are closed.")
     keys = scene_keys(len(axes), length, "always", types)
@@ -122,7 +125,7 @@ def scene_keys(dimension, length, surface, types):
             "Tissue/Cell spacing": f"{length:.4g}",
             "Tissue/Boundary points": 0, "Tissue/Refine surface": "true",
             "Grid/Spacing": f"{2.02 * length:.4g}", "Grid/Points per cell": 2,
-            # for cells that grow unequally (--explain, Folds)
+            # for cells that grow unequally (doc/modelling.md, Folds)
             "Material/Energy per": "grown volume",
             "Material/Volumetric strain": "pooled",
             "Proliferation/Law": "cell cycle",

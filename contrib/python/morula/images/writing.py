@@ -24,14 +24,16 @@ def poly_data(part):
     return result
 
 
-def write_cells(file, places, volumes, types):
-    """cells.csv; places (n, dim) in the order x, y, z."""
+def write_cells(file, places, volumes, others):
+    """cells.csv; places (n, dim) in the order x, y, z; `others` are further
+    columns by their names: lists, or None for a column that is not there."""
     names = [*NAMES[:places.shape[1]], "volume"]
     rows = [[format(number, ".9g") for number in (*place, volume)]
             for place, volume in zip(places, volumes)]
-    if types:
-        names.append("type")
-        rows = [[*row, kind] for row, kind in zip(rows, types)]
+    for name, entries in others.items():
+        if entries:
+            names.append(name)
+            rows = [[*row, entry] for row, entry in zip(rows, entries)]
     write_csv(file, [names, *rows])
 
 

@@ -17,7 +17,7 @@ def changed_keys(run, program):
 
 
 def effects(run, program):
-    """(name, on or off, description) by --explain; none if the program does not
+    """(name, description) by --explain; none if the program does not
     say, as when a file that the scene names has gone."""
     if program is None:
         return []
@@ -25,8 +25,7 @@ def effects(run, program):
         said = program.explain(run.directory / "parameters.prm")
     except (Refused, subprocess.SubprocessError, OSError):
         return []
-    return [(effect["name"], "on" if effect["on"] else "off", effect["description"])
-            for effect in said["effects"]]
+    return [(effect["name"], effect["description"]) for effect in said["effects"]]
 
 
 def log_lines(run):

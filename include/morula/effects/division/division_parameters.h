@@ -8,7 +8,6 @@
 #include <morula/effects/effect.h>
 
 #include <string>
-#include <vector>
 
 namespace Morula
 {
@@ -24,8 +23,6 @@ namespace Morula
     Key<bool>        axis_follows_rotation;
     Key<bool>        stay_inside;
 
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

@@ -48,8 +48,6 @@ namespace Morula
       return &law;
     }
 
-    std::string
-    how_to_switch_on() const override;
 
     bool
     divides_cells() const override
@@ -72,8 +70,6 @@ namespace Morula
     void
     take_laws_of_types(
       const std::vector<const Key<std::string> *> &laws) override;
-    std::vector<const AnyKey *>
-    said_by_column(const std::string &column) const override;
 
     std::string
     topic() const override
@@ -83,10 +79,6 @@ namespace Morula
 
     std::string
     details() const override;
-    std::vector<PartOfEffect>
-    parts() const override;
-    std::string
-    counts_cells(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList

@@ -78,15 +78,11 @@ namespace Morula
     void
     check_founders(const std::vector<dealii::types::particle_index> &n) const;
 
-    std::vector<const AnyKey *>
-    said_by_column(const std::string &column) const override;
 
     /** Refuses laws that differ from type to type, and daughters of types that
      *  there are not. */
     void
     check_with(const RestOfScene &scene) const override;
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     /** The names in the order of the types' numbers. */
     std::vector<std::string>

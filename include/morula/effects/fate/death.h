@@ -27,15 +27,11 @@ namespace Morula
     const AnyKey *
     switch_key() const override;
 
-    std::string
-    how_to_switch_on() const override;
 
     /** Refuses dead cells that shrink with the stiffness of whole ones. */
     void
     check_with(const RestOfScene &scene) const override;
 
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     std::string
     details() const override;

@@ -42,12 +42,6 @@ namespace Morula
     check_with(const RestOfScene &scene) const override;
 
     std::string
-    counts_cells(const RestOfScene &) const override
-    {
-      return "about ";
-    }
-
-    std::string
     details() const override
     {
       return "volume = " + volume.text() +
@@ -125,14 +119,6 @@ namespace Morula
       return this->axes ? this->axes->placement(cell, cell.get(axis), type) :
                           cell.get(axis);
     }
-
-    /** A founder that the surface has cut counts as a whole cell here. */
-    ExpectedCells<dim>
-    expected_cells(const double t) const override;
-
-    double
-    expected_cells(const PresentCell<dim> &founder,
-                   const double            ratio) const override;
 
     void
     inherit(const CellView<dim, double> &daughter,

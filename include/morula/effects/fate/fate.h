@@ -8,9 +8,6 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/cell_event.h>
 
-#include <deal.II/base/point.h>
-
-#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -26,12 +23,6 @@ namespace Morula
 
   template <int dim>
   class DivisionAxes;
-
-  /** How many cells a founder at X (µm) becomes on average, if growth takes the
-   *  volume of all of them to V, µm^dim. Empty: one. */
-  template <int dim>
-  using ExpectedCells =
-    std::function<double(const Point<dim> & /*X*/, const double /*V*/)>;
 
   /** What an event leaves of a cell's life in the step. */
   enum class LifeAfter
@@ -173,23 +164,6 @@ namespace Morula
     virtual Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell,
                    const unsigned int                 type) const;
-
-    /** What founders become until @p t, day, as far as place alone tells. For
-     *  estimates before there are cells. */
-    virtual ExpectedCells<dim>
-    expected_cells(const double /*t*/) const
-    {
-      return {};
-    }
-
-    /** The same of a founder in its state at t = 0, whose volume grows by the
-     *  factor `ratio`. */
-    virtual double
-    expected_cells(const PresentCell<dim> & /*founder*/,
-                   const double /*ratio*/) const
-    {
-      return 1.;
-    }
 
     /** Whether daughters stay inside the whole surface, not only inside its
      *  held parts. */

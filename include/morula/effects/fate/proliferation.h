@@ -50,10 +50,6 @@ namespace Morula
     void
     review(const Preview<dim> &scene, Review &review) const override;
 
-    using Fate<dim>::expected_cells;
-    ExpectedCells<dim>
-    expected_cells(const double t) const override;
-
     /** A cell's clock. */
     CycleState<dim>
     clock(const CellView<dim, const double> &cell) const

@@ -70,10 +70,6 @@ namespace Morula
     review(const Preview<dim> &scene, Review &review) const override;
 
   private:
-    /** Warns of a force that is far stronger than the tissue. Collective. */
-    void
-    review_strength(const Preview<dim> &scene, Review &review) const;
-
     const Expression density;
   };
 } // namespace Morula

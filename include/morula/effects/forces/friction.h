@@ -25,8 +25,6 @@ namespace Morula
     {
       return coefficient.text() + " kPa day/um^2";
     }
-    std::string
-    resistance(const RestOfScene &scene) const override;
     using Keys::list;
     KeyList
     list() override
@@ -34,12 +32,6 @@ namespace Morula
       return {&coefficient};
     }
   };
-
-  /** The viscosity (Pa s) of a medium in which a sphere with the volume of a
-   *  cube of edge @p length (µm) feels the @p friction (kPa day/µm², per
-   *  volume), by Stokes' law: η = 2 ζ R²/9. */
-  double
-  viscosity_of_medium(const double friction, const double length);
 
   /** Friction of cells with surroundings that stand still: doc/theory.md
    * (4.7a). Its coefficient is that of the cell's state at the beginning of a

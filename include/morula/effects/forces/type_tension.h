@@ -36,8 +36,6 @@ namespace Morula
     {
       return force && any();
     }
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
     void
     check_with(const RestOfScene &) const override
     {

@@ -62,23 +62,6 @@ namespace Morula
            const double            t1) const = 0;
 
     /**
-     * An upper estimate of the determinant of growth() at time @p t (day) in
-     * the descendants of the founder at @p X, for the memory that a scene will
-     * need. Called for all founders, at t = 0 and End time, before any work.
-     * @throws InputError where the law has no value
-     */
-    virtual double
-    expected_volume_ratio(const Point<dim> &X, const double t) const = 0;
-
-    /** Whether place and time alone tell growth, so that
-     *  expected_volume_ratio() is right; else only the run can tell. */
-    virtual bool
-    is_known_before() const
-    {
-      return true;
-    }
-
-    /**
      * Writes the law's own columns at the end of the step for which growth()
      * was called.
      * `after` is the cell at @p t1.

@@ -56,15 +56,6 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
-    bool
-    is_known_before() const override
-    {
-      return !theta.depends_on_state();
-    }
-
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override;
-
     void
     review(const Preview<dim> &scene, Review &review) const override;
 

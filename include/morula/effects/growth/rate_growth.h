@@ -25,8 +25,6 @@ namespace Morula
     ExpressionKey    homeostasis;        // 1/(day kPa)
     ExpressionKey    homeostatic_stress; // kPa
 
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
 
     using Keys::list;
     KeyList
@@ -53,12 +51,9 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
+    /** Whether place and time alone tell growth. */
     bool
-    is_known_before() const override;
-
-    /** 1 where the rate depends on the state of cells: nobody knows it yet. */
-    double
-    expected_volume_ratio(const Point<dim> &X, const double t) const override;
+    is_known_before() const;
 
     void
     remember(const GrowingCell<dim>      &cell,

@@ -52,11 +52,6 @@ namespace Morula
     review(const Preview<dim> &scene, Review &review) const override;
 
   private:
-    /** Warns of obstacles that stand farther from the tissue than it is long
-     *  and they move until the end. Collective. */
-    void
-    review_distance(const Preview<dim> &scene, Review &review) const;
-
     struct Obstacle
     {
       std::string                      name;

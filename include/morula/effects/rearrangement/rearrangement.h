@@ -35,15 +35,8 @@ namespace Morula
     {
       return &diffusion;
     }
-    std::string
-    how_to_switch_on() const override
-    {
-      return "Set " + diffusion.path() + " > 0";
-    }
     void
     check_with(const RestOfScene &scene) const override;
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
     void
     review(const RestOfScene &scene, Review &review) const override;
     std::string
@@ -86,8 +79,6 @@ namespace Morula
     void
     rearrange(Tissue<dim>            &tissue,
               const MomentOfRun<dim> &moment) const override;
-    double
-    seconds_per_cell() const override;
 
   private:
     /** The cells of this rank as occupants of places. @throws InputError */

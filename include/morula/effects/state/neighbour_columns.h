@@ -31,8 +31,6 @@ namespace Morula
 
     bool
     is_on() const override;
-    std::vector<IdleKey>
-    idle_keys(const RestOfScene &scene) const override;
     std::string
     details() const override;
     using Keys::list;
@@ -69,12 +67,6 @@ namespace Morula
     settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
     void
     after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
-
-    double
-    seconds_per_cell() const override
-    {
-      return search.seconds_per_cell(dim);
-    }
 
   private:
     const NeighbourSearch                search;

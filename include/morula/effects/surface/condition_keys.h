@@ -32,11 +32,6 @@ namespace Morula
       return &where;
     }
     std::string
-    how_to_switch_on() const override
-    {
-      return "Say where it acts by " + where.path();
-    }
-    std::string
     details() const override
     {
       return "";

@@ -31,11 +31,6 @@ namespace Morula
     }
     std::string
     details() const override;
-    std::string
-    lets_buckle() const override
-    {
-      return volume.empty() ? "" : "around a lumen whose volume is given";
-    }
   };
 
   /** A patch of the surface around a lumen. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_simulation_tissue_model_h
-#define morula_simulation_tissue_model_h
+#ifndef morula_scene_tissue_model_h
+#define morula_scene_tissue_model_h
 
 #include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_conditions.h>
@@ -19,16 +19,22 @@
 
 namespace Morula
 {
-  /** The material and all effects of a scene. Nothing in it changes during a
-   *  run. */
+  /** The material and all effects of a scene, which are made once, before the
+   *  tissue is seeded. Nothing in it changes. */
   template <int dim>
   struct TissueModel
   {
     /** @throws InputError */
     explicit TissueModel(const Scene &scene);
 
-    const Scene                                          scene;
-    const Tables<dim>                                    tables;
+    const Scene       scene;
+    const Tables<dim> tables;
+    /** SceneEffects::all() */
+    const std::vector<const Effect<dim> *> all_effects;
+    /** The types of cells, or null. */
+    const CellTypes<dim> *const types;
+    /** Whether changes of type see the types of the cells around. */
+    const bool                                           sees_neighbours;
     const TissueMaterial                                 material;
     const BoundaryConditions<dim>                        boundary_conditions;
     const CellDevelopment<dim>                           development;

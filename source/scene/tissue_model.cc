@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/surface/carriers.h>
-#include <morula/simulation/tissue_model.h>
+#include <morula/scene/tissue_model.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -53,6 +53,9 @@ namespace Morula
   TissueModel<dim>::TissueModel(const Scene &scene, SceneEffects<dim> &&effects)
     : scene(scene)
     , tables(effects.tables())
+    , all_effects(effects.all())
+    , types(effects.development.types)
+    , sees_neighbours(effects.development.neighbours.has_value())
     , material(scene.material)
     , boundary_conditions(std::move(effects.conditions), scene.nitsche)
     , development(std::move(effects.development),

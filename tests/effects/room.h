@@ -13,7 +13,6 @@
 #include <morula/effects/elastic_volumes.h>
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/expected_cells.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/fields/field_equation.h>
 #include <morula/effects/fields/keep_positive.h>

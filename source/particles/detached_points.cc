@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace Morula
@@ -23,20 +24,23 @@ namespace Morula
      *  cells move that are much smaller than the grid. */
     constexpr double least_reach = 0.25;
 
-    /** Whether a cell of this rank, and of this side if one is given, in the
-     * grid cell of @p x or a neighbouring one, is at most @p near away. */
+    /** The squared distance to the nearest cell of this rank in the grid cell
+     *  of @p x and those around it, among those of a side if one is given;
+     *  infinity if there is none. The search ends at the first cell that is as
+     *  near as @p enough, also squared. */
     template <int dim>
-    bool
-    has_cell_near(const Point<dim>  &x,
-                  const Side<dim>   *side,
-                  const Tissue<dim> &tissue,
-                  const double       near)
+    double
+    distance_square_here(const Point<dim>  &x,
+                         const Side<dim>   *side,
+                         const Tissue<dim> &tissue,
+                         const double       enough)
     {
       // Most boundary points have a cell in their own grid cell. So this is
       // looked at first, and the neighbours only if it holds none.
-      const GridBox<dim> &box   = tissue.grid().box();
-      const auto         &store = tissue.cells();
-      const auto          is_in = [&](const unsigned int number) {
+      const GridBox<dim> &box      = tissue.grid().box();
+      const auto         &store    = tissue.cells();
+      double              shortest = std::numeric_limits<double>::infinity();
+      const auto          look_at  = [&](const unsigned int number) {
         auto cell = std::lower_bound(store.grid_cells().begin(),
                                      store.grid_cells().end(),
                                      number,
@@ -45,20 +49,42 @@ namespace Morula
                                      });
         for (; cell != store.grid_cells().end() && cell->number == number;
              ++cell)
-          for (unsigned int p = cell->begin; p < cell->end; ++p)
-            if (x.distance_square(store.position(p)) <= near * near &&
-                (side == nullptr || (side->body == store.body(p) &&
-                                     side->has(x, store.position(p)))))
-              return true;
-        return false;
+          for (unsigned int p = cell->begin; p < cell->end && shortest > enough;
+               ++p)
+            if (side == nullptr || (side->body == store.body(p) &&
+                                    side->has(x, store.position(p))))
+              shortest =
+                std::min(shortest, x.distance_square(store.position(p)));
       };
       const GridIndex<dim> index = box.locate(x);
-      if (is_in(box.number(index)))
-        return true;
-      bool found = false;
-      box.for_neighbors(index, 1, [&](const unsigned int number, const auto &) {
-        found = found || is_in(number);
-      });
+      look_at(box.number(index));
+      if (shortest > enough)
+        box.for_neighbors(index,
+                          1,
+                          [&](const unsigned int number, const auto &) {
+                            if (shortest > enough)
+                              look_at(number);
+                          });
+      return shortest;
+    }
+
+    /** The numbers of those points of this rank that have none of its cells
+     *  within @p near (µm), which is at most a grid spacing. Other ranks may
+     *  have one. This is far cheaper than to find the nearest ones. */
+    template <int dim>
+    std::vector<unsigned int>
+    points_without_cell(const std::vector<Point<dim>> &points,
+                        const Tissue<dim>             &tissue,
+                        const double                   near,
+                        const std::vector<Side<dim>>  &sides)
+    {
+      std::vector<unsigned int> found;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        if (distance_square_here(points[p],
+                                 sides.empty() ? nullptr : &sides[p],
+                                 tissue,
+                                 near * near) > near * near)
+          found.push_back(p);
       return found;
     }
 
@@ -157,18 +183,53 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>> &points,
-                      const Tissue<dim>             &tissue,
-                      const double                   near,
-                      const std::vector<Side<dim>>  &sides)
+  double
+  largest_distance(const Tissue<dim> &tissue)
   {
-    std::vector<unsigned int> found;
+    // The first pass knows the cells of this rank only, and each point only
+    // until it has a cell nearer than the largest distance so far. The nearest
+    // cells of all ranks are then asked for by the few points that may be the
+    // farthest ones. Where another rank's cell was nearer than the first pass
+    // knew, the answers are a lower bound, and the points beyond it are asked.
+    const std::vector<Point<dim>> points = tissue.boundary_points().positions();
+    const std::vector<Side<dim>>  sides  = tissue.boundary_points().sides();
+    const Cells<dim>             &cells  = tissue.cells();
+    const MPI_Comm                comm   = tissue.communicator();
+    const double                  h      = tissue.grid().box().spacing();
+    double                        square = 0.;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (!has_cell_near(
-            points[p], sides.empty() ? nullptr : &sides[p], tissue, near))
-        found.push_back(p);
-    return found;
+      square =
+        std::max(square,
+                 distance_square_here(points[p],
+                                      sides.empty() ? nullptr : &sides[p],
+                                      tissue,
+                                      square));
+    // Several cells may be equally near but for rounding, and the lowest id
+    // counts then: points that are farthest but for rounding are asked as well.
+    constexpr double equal   = 1. - 1e-8;
+    double           largest = Utilities::MPI::max(std::sqrt(square), comm);
+    double           near    = std::numeric_limits<double>::infinity();
+    while (largest < near)
+      {
+        // points_without_cell() looks no farther than a grid spacing.
+        near = std::min(equal * largest, h);
+        const auto [queries, of_queries] =
+          selected(points_without_cell(points, tissue, near, sides),
+                   points,
+                   sides);
+        const auto nearest = nearest_values(
+          queries,
+          cells,
+          [&cells](const unsigned int p) { return cells.position(p); },
+          Ties::lowest_id,
+          tissue.grid(),
+          of_queries);
+        largest = 0.;
+        for (std::size_t k = 0; k < queries.size(); ++k)
+          largest = std::max(largest, queries[k].distance(nearest[k]));
+        largest = Utilities::MPI::max(largest, comm);
+      }
+    return largest;
   }
 
   template <int dim>
@@ -300,7 +361,7 @@ namespace Morula
     return n;
   }
 
-  MORULA_INSTANTIATE(points_without_cell);
+  MORULA_INSTANTIATE(largest_distance);
   MORULA_INSTANTIATE(surface_reach);
   MORULA_INSTANTIATE(detached_points);
   MORULA_INSTANTIATE(pull_back_detached_points);

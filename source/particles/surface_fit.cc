@@ -3,75 +3,12 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/nearest.h>
 #include <morula/particles/surface_fit.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-
 namespace Morula
 {
-  namespace
-  {
-    /** The largest distance from these points to the cells nearest to them, µm.
-     *  Collective. */
-    template <int dim>
-    double
-    largest_distance_of(const std::vector<Point<dim>> &points,
-                        const std::vector<Side<dim>>  &sides,
-                        const Tissue<dim>             &tissue)
-    {
-      const Cells<dim> &cells = tissue.cells();
-      // The nearest cell may belong to another rank.
-      const auto nearest = nearest_values(
-        points,
-        cells,
-        [&cells](const unsigned int p) { return cells.position(p); },
-        Ties::lowest_id,
-        tissue.grid(),
-        sides);
-      double largest = 0.;
-      for (std::size_t k = 0; k < points.size(); ++k)
-        largest = std::max(largest, points[k].distance(nearest[k]));
-      return Utilities::MPI::max(largest, tissue.communicator());
-    }
-
-    /**
-     * The largest distance from a boundary point to its nearest cell, µm. Only
-     * the points that have no cell of their rank within some distance are asked
-     * for theirs; this distance is halved until one of them is as far away. All
-     * others are nearer then, whatever the ranks. Collective.
-     */
-    template <int dim>
-    double
-    largest_distance(const Tissue<dim> &tissue)
-    {
-      const std::vector<Point<dim>> points =
-        tissue.boundary_points().positions();
-      const std::vector<Side<dim>> sides   = tissue.boundary_points().sides();
-      const double                 h       = tissue.grid().box().spacing();
-      double                       near    = 0.5 * h;
-      double                       largest = 0.;
-      do
-        {
-          near = near > h / 64. ? 0.5 * near : 0.; // then these are all points
-          std::vector<Point<dim>> far;
-          std::vector<Side<dim>>  of_far;
-          for (const unsigned int p :
-               points_without_cell(points, tissue, near, sides))
-            {
-              far.push_back(points[p]);
-              if (!sides.empty())
-                of_far.push_back(sides[p]);
-            }
-          largest = largest_distance_of(far, of_far, tissue);
-      } while (near > 0. && largest < near);
-      return largest;
-    }
-  } // namespace
-
-
   template <int dim>
   SurfaceFit
   surface_fit(const Tissue<dim> &tissue)

@@ -2,20 +2,15 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/grid/point_bins.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/gap_watch.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <iterator>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <vector>
 
@@ -47,75 +42,58 @@ namespace Morula
              way * m < -least_cosine * length && n * m < -least_cosine;
     }
 
-    /** The box of all places that a point at @p x with the normal @p n may face
-     *  within a distance: that of a cone around the normal. */
+    /** A boundary point that may be one side of a gap. */
     template <int dim>
-    BoundingBox<dim>
-    box_of_view(const Point<dim>     &x,
-                const Tensor<1, dim> &n,
-                const double          reach)
+    struct SidePoint
     {
-      // Of the directions in the cone, the one that goes farthest along an axis
-      // is the axis itself or stands on the rim.
-      const auto farthest = [](const double cosine) {
-        if (cosine >= least_cosine)
-          return 1.;
-        const auto sine = [](const double c) {
-          return std::sqrt(std::max(0., 1. - c * c));
-        };
-        return std::max(0.,
-                        cosine * least_cosine +
-                          sine(cosine) * sine(least_cosine));
-      };
-      // Rounding must not leave out a point on the rim.
-      const double margin = 1e-9 * reach;
-      Point<dim>   lower, upper;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lower[d] = x[d] - reach * farthest(-n[d]) - margin;
-          upper[d] = x[d] + reach * farthest(n[d]) + margin;
-        }
-      return BoundingBox<dim>({lower, upper});
+      Point<dim>     x; // µm
+      Tensor<1, dim> n; // outward unit normal
+      unsigned int   body;
+    };
+
+    /** The unknowns of a grid cell of this rank, or null if it is another
+     *  rank's. */
+    template <int dim>
+    const std::vector<unsigned int> *
+    unknowns_at(const SidePoint<dim> &point, const SplineSpace<dim> &space)
+    {
+      const auto key =
+        std::make_pair(space.box().number(space.box().locate(point.x)),
+                       point.body);
+      const auto found =
+        std::lower_bound(space.grid_cells().begin(),
+                         space.grid_cells().end(),
+                         key,
+                         [](const auto &grid_cell, const auto &key) {
+                           return std::make_pair(grid_cell.number,
+                                                 grid_cell.part) < key;
+                         });
+      return found != space.grid_cells().end() && found->number == key.first &&
+                 found->part == key.second ?
+               &found->unknowns :
+               nullptr;
     }
 
-    /** A grid cell, by its number, and one of the bodies in it. */
-    using Entry = std::pair<unsigned int, unsigned int>;
-
-    /** The unknowns of this rank's grid cells and bodies, sorted to be
-     * intersected. */
+    /** Whether splines reach from one point to the other. */
     template <int dim>
-    class Unknowns
+    bool
+    stick(const SidePoint<dim>   &one,
+          const SidePoint<dim>   &other,
+          const SplineSpace<dim> &space)
     {
-    public:
-      explicit Unknowns(const SplineSpace<dim> &space)
-      {
-        for (const auto &grid_cell : space.grid_cells())
-          {
-            auto &list = of[{grid_cell.number, grid_cell.part}] =
-              grid_cell.unknowns;
-            std::sort(list.begin(), list.end());
-          }
-      }
-
-      bool
-      has(const Entry &entry) const
-      {
-        return of.count(entry) > 0;
-      }
-
-      bool
-      are_shared(const Entry &one, const Entry &other) const
-      {
-        std::vector<unsigned int> both;
-        const auto               &a = of.at(one), &b = of.at(other);
-        std::set_intersection(
-          a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
-        return !both.empty();
-      }
-
-    private:
-      std::map<Entry, std::vector<unsigned int>> of;
-    };
+      // That two points are of one piece does not say that they stick together,
+      // since the splines between them may be parted. The unknowns of a grid
+      // cell are known to its owner only: where the other point is on another
+      // rank, only a gap below one grid spacing counts.
+      const auto *const here  = unknowns_at(one, space);
+      const auto *const there = unknowns_at(other, space);
+      if (here == nullptr || there == nullptr)
+        return one.x.distance(other.x) < space.box().spacing();
+      return std::find_first_of(here->begin(),
+                                here->end(),
+                                there->begin(),
+                                there->end()) != here->end();
+    }
   } // namespace
 
 
@@ -123,81 +101,51 @@ namespace Morula
   std::optional<Gap<dim>>
   narrowest_gap(const Tissue<dim> &tissue, const SplineSpace<dim> &space)
   {
-    // Each rank looks around its own boundary points, at those of other ranks
-    // as well, and finds its nearest pair; then the nearest of all ranks
-    // counts. That two points are of one piece does not say that they stick
-    // together, since the splines between them may be parted. So the unknowns
-    // of both grid cells are compared. All points are those of the
-    // configuration at t.
+    // Each rank looks around its own boundary points, at those of all ranks
+    // within two grid cells, and finds its nearest pair; then the nearest of
+    // all ranks counts. All points are those of the configuration at t.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
-    const GridBox<dim>        &box   = space.box();
-    const double               h     = box.spacing();
     const MPI_Comm             comm  = tissue.communicator();
-    std::vector<Point<dim>>    queries;
-    for (unsigned int p = 0; p < store.size(); ++p)
-      queries.push_back(store.position(p));
-    const auto normal = [&](const unsigned int p, std::vector<double> &list) {
+    const unsigned int         rank  = Utilities::MPI::this_mpi_process(comm);
+    const auto append = [&](const unsigned int p, std::vector<double> &list) {
       const Tensor<1, dim> area = store.area_vector(p);
       append_flat(list, Tensor<1, dim>(area / area.norm()));
       list.push_back(store.body(p));
     };
-    // Each rank gets the points of all ranks that lie within two grid cells of
-    // its own, with their normals. An R-tree over them finds the few that are
-    // near one point.
-    const PointList<dim> near = near_points(queries,
+    const PointList<dim> near = near_points(store.positions(),
                                             store,
-                                            {dim + 1, normal, Ties::lowest_id},
+                                            {dim + 1, append, Ties::lowest_id},
                                             tissue.grid(),
                                             static_cast<int>(widest));
-    const auto           tree = pack_rtree_of_indices(near.positions);
-    const Unknowns<dim>  unknowns(space);
-
+    const PointBins<dim> bins(tissue.grid().box(), near.positions);
+    const auto           side = [&](const unsigned int i) {
+      return SidePoint<dim>{near.positions[i],
+                            near.template value<Tensor<1, dim>>(i),
+                            static_cast<unsigned int>(near.row(i)[dim])};
+    };
     // The place and the width stand in one array of numbers, so that ranks can
     // exchange it.
     std::array<double, dim + 1> best;
     best.fill(0.);
-    best[dim] = std::numeric_limits<double>::max();
-    for (unsigned int p = 0; p < store.size(); ++p)
+    best[dim]          = std::numeric_limits<double>::max();
+    const double reach = widest * space.box().spacing();
+    for (unsigned int i = 0; i < near.size(); ++i)
       {
-        const Point<dim>    x = queries[p];
-        std::vector<double> numbers;
-        normal(p, numbers);
-        const auto         n    = Flat<Tensor<1, dim>>::read(numbers.data());
-        const unsigned int body = store.body(p);
-        const Entry        here{box.number(box.locate(x)), body};
-        const auto         faces = [&](const auto i) {
-          const Point<dim> &y     = near.positions[i];
-          const double      width = x.distance(y);
+        const SidePoint<dim> one   = side(i);
+        const auto           visit = [&](const unsigned int j) {
+          const SidePoint<dim> other = side(j);
+          const double         width = one.x.distance(other.x);
           // Bodies with splines of their own do not stick together.
-          if (near.row(i)[dim] != body ||
-              width >= std::min(widest * h, best[dim]) || width == 0. ||
-              !face(x, n, y, near.template value<Tensor<1, dim>>(i)))
-            return false;
-          const Entry there{box.number(box.locate(y)), body};
-          // The unknowns of a grid cell are known to its owner only. Where the
-          // other point is on another rank, only a gap below one grid spacing
-          // counts.
-          return unknowns.has(here) && unknowns.has(there) ?
-                           unknowns.are_shared(here, there) :
-                           width < h;
+          if (other.body != one.body || width >= best[dim] ||
+              !face(one.x, one.n, other.x, other.n) ||
+              !stick(one, other, space))
+            return;
+          for (unsigned int d = 0; d < dim; ++d)
+            best[d] = 0.5 * (one.x[d] + other.x[d]);
+          best[dim] = width;
         };
-        namespace bgi = boost::geometry::index;
-        for (auto found =
-               tree.qbegin(bgi::intersects(box_of_view(x, n, widest * h)) &&
-                           bgi::satisfies(faces));
-             found != tree.qend();
-             ++found)
-          {
-            // The search excludes pairs that are farther than the best one when
-            // it comes to them. The best one may have changed since then.
-            const Point<dim> &y     = near.positions[*found];
-            const double      width = x.distance(y);
-            if (width >= best[dim])
-              continue;
-            for (unsigned int d = 0; d < dim; ++d)
-              best[d] = 0.5 * (x[d] + y[d]);
-            best[dim] = width;
-          }
+        if (tissue.grid().owner(space.box().locate(one.x)) == rank)
+          bins.visit_within(one.x, std::min(reach, best[dim]), visit);
       }
     // Equal widths, as in a symmetric tissue, are told apart by the place: all
     // ranks choose the same gap.
@@ -226,10 +174,13 @@ namespace Morula
                       const SplineSpace<dim> &space,
                       const double            t)
   {
-    // Without a surface, or when the user knows, no rank searches. Both are the
-    // same on all ranks, so that none waits in the search.
-    if (has_told || Utilities::MPI::sum<double>(tissue.boundary_points().size(),
-                                                tissue.communicator()) == 0.)
+    // A gap closes in many steps, so that not each of them has to search.
+    // Without a surface, or when the user knows, no rank searches. All this is
+    // the same on all ranks, so that none waits in the search.
+    constexpr unsigned int every = 10;
+    if (has_told || n_looks++ % every != 0 ||
+        Utilities::MPI::sum<double>(tissue.boundary_points().size(),
+                                    tissue.communicator()) == 0.)
       return;
     const auto gap = narrowest_gap(tissue, space);
     if (!gap)

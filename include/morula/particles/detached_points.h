@@ -11,20 +11,11 @@
 
 namespace Morula
 {
-  /**
-   * The numbers of those points that have no cell of this rank within @p near
-   * (µm), which is at most a grid spacing. Other ranks may have one. The points
-   * are on this rank. Most boundary points have a cell near in their own grid
-   * cell, so that this is far cheaper than to find the nearest ones.
-   * @param sides of the points, where they have some: only cells of the same
-   *        side count
-   */
+  /** The largest distance from a boundary point to its nearest cell, on the
+   *  point's side where it has one, µm. Collective. */
   template <int dim>
-  std::vector<unsigned int>
-  points_without_cell(const std::vector<Point<dim>> &points,
-                      const Tissue<dim>             &tissue,
-                      const double                   near,
-                      const std::vector<Side<dim>>  &sides);
+  double
+  largest_distance(const Tissue<dim> &tissue);
 
   /**
    * How far a cell's part of the tissue reaches, µm: 1.5 times its present

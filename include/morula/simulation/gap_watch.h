@@ -41,7 +41,8 @@ namespace Morula
   public:
     explicit GapWatch(const Announce &announce);
 
-    /** Looks at the tissue at @p t (day) before a step. Collective. */
+    /** Looks at the tissue at @p t (day) before every tenth step, the first one
+     *  included. Collective. */
     void
     look(const Tissue<dim>      &tissue,
          const SplineSpace<dim> &space,
@@ -50,6 +51,7 @@ namespace Morula
   private:
     const Announce announce;
     bool           has_told = false;
+    unsigned int   n_looks  = 0;
   };
 } // namespace Morula
 

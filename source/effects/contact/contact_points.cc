@@ -29,16 +29,6 @@ namespace Morula
      *  overlap, in units of h. */
     constexpr double small_overlap = 0.1;
 
-    /** What ranks tell each other of a boundary point: its area vector, body,
-     *  part, spacing, pressure, and position in the store. */
-    template <int dim>
-    using PointMessage = std::tuple<Tensor<1, dim>,
-                                    unsigned int,
-                                    unsigned int,
-                                    double,
-                                    double,
-                                    unsigned int>;
-
     /** Value and gradient weights of the unknowns of a point at @p x. */
     template <int dim>
     void
@@ -68,6 +58,94 @@ namespace Morula
           for (unsigned int s = 0; s < m; ++s)
             add(s, a, grid_cell.weights[a * m + s]);
     }
+
+    /** The boundary points of all ranks within @p reach (µm) of this rank's,
+     * and some more, without their unknowns. Collective. */
+    template <int dim>
+    std::vector<ContactPoint<dim>>
+    points_around(const Tissue<dim> &tissue, const double reach)
+    {
+      // Ranks tell each other a point's area vector, body, part, spacing,
+      // pressure, and position in the store.
+      using Message                    = std::tuple<Tensor<1, dim>,
+                                                    unsigned int,
+                                                    unsigned int,
+                                                    double,
+                                                    double,
+                                                    unsigned int>;
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      const GridBox<dim>        &box   = tissue.grid().box();
+      const auto append = [&](const unsigned int p, std::vector<double> &list) {
+        append_flat(list,
+                    Message(store.area_vector(p),
+                            store.body(p),
+                            store.part(p),
+                            store[p].spacing(),
+                            store.get(store.columns().contact_pressure, p),
+                            p));
+      };
+      const PointList<dim> near =
+        near_points(store.positions(),
+                    store,
+                    {Flat<Message>::n, append, Ties::lowest_id},
+                    tissue.grid(),
+                    static_cast<int>(std::ceil(reach / box.spacing())));
+      std::vector<ContactPoint<dim>> points;
+      for (unsigned int i = 0; i < near.size(); ++i)
+        {
+          const auto [area, body, part, spacing, pressure, p] =
+            near.template value<Message>(i);
+          const GridIndex<dim> index = box.locate(near.positions[i]);
+          points.push_back({near.ids[i],
+                            body,
+                            part,
+                            near.positions[i],
+                            area,
+                            spacing,
+                            pressure,
+                            tissue.grid().owner(index),
+                            p,
+                            box.number(index),
+                            {},
+                            {},
+                            {}});
+        }
+      return points;
+    }
+
+    /** Whether two points whose outward unit normals are @p n and @p m may come
+     *  into contact in the step. */
+    template <int dim>
+    bool
+    may_touch(const ContactPoint<dim> &a,
+              const Tensor<1, dim>    &n,
+              const ContactPoint<dim> &b,
+              const Tensor<1, dim>    &m,
+              const Tissue<dim>       &tissue)
+    {
+      // Points of one body with a gap between them may meet. The sides of a
+      // sheet, or of an edge, overlap for ever, which is no contact: bonds
+      // connect them. They also connect the sides of a fold at its end, which
+      // have contact if they had it before. What overlaps without a pressure is
+      // looked at only where points stand before each other, since the search
+      // along bonds takes long.
+      if (a.body != b.body || !tissue.boundary_points().has_parts())
+        return a.body != b.body;
+      const double         h        = tissue.grid().box().spacing();
+      const Tensor<1, dim> across   = 0.5 * (m - n);
+      const Tensor<1, dim> distance = a.x - b.x;
+      const double         gap      = across * distance;
+      if (gap >= 0. ||
+          (a.pressure > 0. && b.pressure > 0. && gap > -small_overlap * h))
+        return true;
+      const double beside =
+        (distance - gap / across.norm_square() * across).norm();
+      return gap > -2. * ContactPoints<dim>::deepest_pair * h &&
+             beside <
+               ContactPoints<dim>::kernel * std::max(a.spacing, b.spacing) +
+                 short_slide * h &&
+             !tissue.parting().are_connected(a.id, b.id);
+    }
   } // namespace
 
 
@@ -95,101 +173,46 @@ namespace Morula
   {
     // Each rank gets the boundary points of all ranks around its own. Of each
     // pair the point with the lower id looks.
-    // The points that occur in pairs get numbers: this rank's first, each
-    // group by id, so that nothing depends on the order of a search.
-    const BoundaryPoints<dim> &store = tissue.boundary_points();
-    const GridBox<dim>        &box   = tissue.grid().box();
-    const unsigned int         rank =
+    const unsigned int rank =
       Utilities::MPI::this_mpi_process(tissue.communicator());
-    const auto message = [&](const unsigned int p, std::vector<double> &list) {
-      append_flat(list,
-                  PointMessage<dim>(store.area_vector(p),
-                                    store.body(p),
-                                    store.part(p),
-                                    store[p].spacing(),
-                                    store.get(store.columns().contact_pressure,
-                                              p),
-                                    p));
-    };
-    const PointList<dim> near =
-      near_points(store.positions(),
-                  store,
-                  {Flat<PointMessage<dim>>::n, message, Ties::lowest_id},
-                  tissue.grid(),
-                  static_cast<int>(std::ceil(reach / box.spacing())));
-    const PointBins<dim>           bins(box, near.positions);
-    std::vector<PointMessage<dim>> messages;
-    std::vector<Tensor<1, dim>>    n; // outward unit normals
-    for (unsigned int i = 0; i < near.size(); ++i)
+    const std::vector<ContactPoint<dim>> near = points_around(tissue, reach);
+    std::vector<Point<dim>>              positions;
+    std::vector<Tensor<1, dim>>          n; // outward unit normals
+    for (const ContactPoint<dim> &point : near)
       {
-        messages.push_back(near.template value<PointMessage<dim>>(i));
-        const Tensor<1, dim> &area = std::get<0>(messages.back());
-        n.push_back(area / area.norm());
+        positions.push_back(point.x);
+        n.push_back(point.area / point.area.norm());
       }
-
-    // Points of one body with a gap between them may meet. The sides of a
-    // sheet, or of an edge, overlap for ever, which is no contact: bonds
-    // connect them. They also connect the sides of a fold at its end, which
-    // have contact if they had it before. What overlaps without a pressure is
-    // looked at only where points stand before each other, since the search
-    // along bonds takes long.
-    const auto may_touch = [&](const unsigned int i, const unsigned int j) {
-      const auto &[area, body, part, spacing, pressure, p] = messages[i];
-      const auto &[other_area,
-                   other_body,
-                   other_part,
-                   other_spacing,
-                   other_pressure,
-                   q]                                      = messages[j];
-      if (other_body != body || !store.has_parts())
-        return other_body != body;
-      const Tensor<1, dim> across   = 0.5 * (n[j] - n[i]);
-      const Tensor<1, dim> distance = near.positions[i] - near.positions[j];
-      const double         gap      = across * distance;
-      if (gap >= 0. || (pressure > 0. && other_pressure > 0. &&
-                        gap > -small_overlap * box.spacing()))
-        return true;
-      const double beside =
-        (distance - gap / across.norm_square() * across).norm();
-      return gap > -2. * deepest_pair * box.spacing() &&
-             beside < kernel * std::max(spacing, other_spacing) +
-                        short_slide * box.spacing() &&
-             !tissue.parting().are_connected(near.ids[i], near.ids[j]);
-    };
-    // Places in `near` of the two points of each pair.
-    std::vector<ContactPair> found;
+    const PointBins<dim>     bins(tissue.grid().box(), positions);
+    std::vector<ContactPair> found; // places in `near`
     for (unsigned int i = 0; i < near.size(); ++i)
-      if (tissue.grid().owner(box.locate(near.positions[i])) == rank)
-        bins.visit_within(near.positions[i], reach, [&](const unsigned int j) {
-          if (near.ids[j] > near.ids[i] && n[i] * n[j] < may_face &&
-              may_touch(i, j))
+      if (near[i].owner == rank)
+        bins.visit_within(positions[i], reach, [&](const unsigned int j) {
+          if (near[j].id > near[i].id && n[i] * n[j] < may_face &&
+              may_touch(near[i], n[i], near[j], n[j], tissue))
             found.emplace_back(i, j);
         });
+    number_points(near, found, rank);
+  }
+
+
+  template <int dim>
+  void
+  ContactPoints<dim>::number_points(const std::vector<ContactPoint<dim>> &near,
+                                    const std::vector<ContactPair>       &found,
+                                    const unsigned int                    rank)
+  {
+    // This rank's points come first, each group by id, and pairs by the ids of
+    // their points, so that nothing depends on the order of a search.
     std::map<std::pair<bool, types::particle_index>, unsigned int> places;
     for (const auto &[i, j] : found)
       for (const unsigned int k : {i, j})
-        places[{tissue.grid().owner(box.locate(near.positions[k])) != rank,
-                near.ids[k]}] = k;
+        places[{near[k].owner != rank, near[k].id}] = k;
     std::map<unsigned int, unsigned int> number; // by place in `near`
     for (const auto &[key, k] : places)
       {
-        const auto [area, body, part, spacing, pressure, p] =
-          near.template value<PointMessage<dim>>(k);
-        number[k]                  = points_.size();
-        const GridIndex<dim> index = box.locate(near.positions[k]);
-        points_.push_back({near.ids[k],
-                           body,
-                           part,
-                           near.positions[k],
-                           area,
-                           spacing,
-                           pressure,
-                           tissue.grid().owner(index),
-                           p,
-                           box.number(index),
-                           {},
-                           {},
-                           {}});
+        number[k] = points_.size();
+        points_.push_back(near[k]);
       }
     for (const auto &[i, j] : found)
       pairs_.emplace_back(number.at(i), number.at(j));

@@ -117,6 +117,13 @@ namespace Morula
     void
     find_pairs(const Tissue<dim> &tissue, const double reach);
 
+    /** Keeps the points that occur in pairs, and the pairs by their numbers.
+     *  @param found pairs of places in @p near, in any order */
+    void
+    number_points(const std::vector<ContactPoint<dim>> &near,
+                  const std::vector<ContactPair>       &found,
+                  const unsigned int                    rank);
+
     /** Sets the unknowns of all points. Collective. */
     void
     find_unknowns(const Tissue<dim> &tissue, SplineSpace<dim> &space);

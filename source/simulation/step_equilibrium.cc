@@ -91,95 +91,25 @@ namespace Morula
   {
     // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
     // turn by turn (5.6), and reads the forces out of the terms. The parts of
-    // effects come before the terms, which may keep references to them, and
-    // begin after them, before the first residual needs them. What may meet has
-    // a term between grid cells, and a weak drag, which decides where pieces go
-    // that nothing else holds (4.8f). The report is
-    // completed in both outcomes, as the diagnosis of a failed step reads it.
-    const double             stiffness = attempt.typical_stiffness;
-    const AttemptAtStep<dim> of_parts{tissue,
-                                      space,
-                                      model.material,
-                                      attempt.growth,
-                                      attempt.t,
-                                      attempt.t_next,
-                                      stiffness,
-                                      !attempt.halve_first,
-                                      model.scene.solver.kernel,
-                                      model.scene.solver.newton_tolerance,
-                                      attempt.kept,
-                                      timer,
-                                      comm};
-    Parts parts = model.boundary_conditions.parts_of_step(of_parts);
-    InteractionInStep<dim> *meeting = nullptr;
-    if (may_meet())
-      {
-        auto part = encounters->part_of_step(of_parts);
-        meeting   = part.get();
-        parts.push_back(std::move(part));
-      }
-    TermList        list      = terms(attempt, points, parts);
-    Enclosure<dim> *enclosure = nullptr;
-    bool            is_exact  = false;
-    for (const auto &part : parts)
-      {
-        if (enclosure == nullptr)
-          enclosure = part->enclosure();
-        is_exact = is_exact || part->is_exact();
-      }
-    if (meeting != nullptr || attempt.drag > 1.)
-      {
-        const TimerOutput::Scope section(timer, model.interaction->name);
-        auto                     drag = weak_drag(stiffness);
-        drag->set_strength(attempt.drag);
-        if (meeting != nullptr)
-          meeting->take_drag(*drag, attempt.drag == 1.);
-        list.push_back(std::move(drag));
-      }
+    // effects come before the terms, which may keep references to them.
+    const Parts          parts = this->parts(attempt);
+    const TermList       list  = terms(attempt, points, parts);
     MomentumBalance<dim> balance(space,
                                  list,
                                  timer,
                                  comm,
-                                 enclosure,
-                                 meeting != nullptr ? &meeting->pairs() :
-                                                      nullptr);
+                                 parts.enclosure,
+                                 parts.meeting != nullptr ?
+                                   &parts.meeting->pairs() :
+                                   nullptr);
     const LinearProblem  linear =
-      balance.linear_problem(stiffness, inertia(), tissue.cells().size());
+      balance.linear_problem(attempt.typical_stiffness,
+                             inertia(),
+                             tissue.cells().size());
     estimate_condition(balance, linear, condition);
     Solution solution{start(attempt).value_or(balance.rest()), {}, {}};
-    // The participants hold their quantities fixed while Newton's method runs
-    // and renew them at its end.
-    std::vector<TurnParticipant *> participants;
-    for (const auto &part : parts)
-      {
-        part->begin(balance, solution.u);
-        participants.push_back(part.get());
-      }
-    Equilibrium::Evaluation evaluation;
-    const std::size_t       n_traced = report.trace.size();
-    try
-      {
-        evaluation = balance_in_turns(
-          balance,
-          participants,
-          [&]() {
-            return find(attempt, is_exact, balance, linear, solution.u, report);
-          },
-          solution.u,
-          report);
-        share_extremes(balance, n_traced, report);
-      }
-    catch (const StepFailed &failure)
-      {
-        share_extremes(balance, n_traced, report);
-        // The failed state is evaluated once more: its energy and smallest J_e
-        // are signs of what went wrong.
-        Equilibrium::Vector R(solution.u);
-        report.failed_at            = balance.residual(solution.u, R);
-        report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
-        throw StepFailed(failure.what() +
-                         (". " + balance.describe(solution.u)));
-      }
+    const Equilibrium::Evaluation evaluation =
+      find(attempt, parts, balance, linear, solution.u, report);
     const DisplacementField<dim> displacement(space, solution.u, comm);
     if (encounters != nullptr && !encounters->any())
       encounters->check(displacement);
@@ -187,10 +117,7 @@ namespace Morula
       throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
                        "so that the step is too long for its contact");
     report.proximal_paths += attempt.drag > 1.;
-    // The next step sees what belongs to the equilibrium that was found last.
-    for (const auto &part : parts)
-      part->keep(solution.kept);
-    solution.forces = forces(attempt, list, parts, meeting, solution);
+    read_out(attempt, list, parts, solution);
     if (model.boundary_conditions.has_dirichlet())
       check_gap(balance.extremes(evaluation),
                 model.scene.solver.largest_gap,
@@ -200,13 +127,96 @@ namespace Morula
 
 
   template <int dim>
+  typename StepEquilibrium<dim>::Parts
+  StepEquilibrium<dim>::parts(const Attempt &attempt) const
+  {
+    // The conditions' parts come in the order of the scene, then what may meet.
+    const AttemptAtStep<dim> of_parts{tissue,
+                                      space,
+                                      model.material,
+                                      attempt.growth,
+                                      attempt.t,
+                                      attempt.t_next,
+                                      attempt.typical_stiffness,
+                                      !attempt.halve_first,
+                                      model.scene.solver.kernel,
+                                      model.scene.solver.newton_tolerance,
+                                      attempt.kept,
+                                      timer,
+                                      comm};
+    Parts                    parts;
+    parts.list = model.boundary_conditions.parts_of_step(of_parts);
+    if (may_meet())
+      {
+        auto part     = encounters->part_of_step(of_parts);
+        parts.meeting = part.get();
+        parts.list.push_back(std::move(part));
+      }
+    for (const auto &part : parts.list)
+      {
+        if (parts.enclosure == nullptr)
+          parts.enclosure = part->enclosure();
+        parts.is_exact = parts.is_exact || part->is_exact();
+      }
+    return parts;
+  }
+
+
+  template <int dim>
   Equilibrium::Evaluation
   StepEquilibrium<dim>::find(const Attempt        &attempt,
-                             const bool            is_exact,
+                             const Parts          &parts,
                              MomentumBalance<dim> &balance,
                              const LinearProblem  &linear,
                              Equilibrium::Vector  &u,
                              NewtonReport         &report) const
+  {
+    // The participants hold their quantities fixed while Newton's method runs
+    // and renew them at its end. They begin before the first residual needs
+    // them. The report is completed in both outcomes, as the diagnosis of a
+    // failed step reads it.
+    std::vector<TurnParticipant *> participants;
+    for (const auto &part : parts.list)
+      {
+        part->begin(balance, u);
+        participants.push_back(part.get());
+      }
+    const std::size_t n_traced = report.trace.size();
+    try
+      {
+        const Equilibrium::Evaluation evaluation = balance_in_turns(
+          balance,
+          participants,
+          [&]() {
+            return find_in_turn(
+              attempt, parts.is_exact, balance, linear, u, report);
+          },
+          u,
+          report);
+        share_extremes(balance, n_traced, report);
+        return evaluation;
+      }
+    catch (const StepFailed &failure)
+      {
+        share_extremes(balance, n_traced, report);
+        // The failed state is evaluated once more: its energy and smallest J_e
+        // are signs of what went wrong.
+        Equilibrium::Vector R(u);
+        report.failed_at            = balance.residual(u, R);
+        report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
+        throw StepFailed(failure.what() + (". " + balance.describe(u)));
+      }
+  }
+
+
+  template <int dim>
+  Equilibrium::Evaluation
+  StepEquilibrium<dim>::find_in_turn(const Attempt        &attempt,
+                                     const bool            is_exact,
+                                     MomentumBalance<dim> &balance,
+                                     const LinearProblem  &linear,
+                                     Equilibrium::Vector  &u,
+                                     NewtonReport         &report) const
   {
     // A step that is plainly too long is halved, since that is cheaper than a
     // path and as good. All other failures have a path to their equilibrium, as
@@ -241,20 +251,22 @@ namespace Morula
 
 
   template <int dim>
-  SurfaceForces<dim>
-  StepEquilibrium<dim>::forces(const Attempt                &attempt,
-                               const TermList               &list,
-                               const Parts                  &parts,
-                               const InteractionInStep<dim> *meeting,
-                               const Solution               &solution) const
+  void
+  StepEquilibrium<dim>::read_out(const Attempt  &attempt,
+                                 const TermList &list,
+                                 const Parts    &parts,
+                                 Solution       &solution) const
   {
+    // The next step sees what belongs to the equilibrium that was found last.
     // The terms of conditions that load are made anew, since each of them gets
     // a row of its own. The other terms are found in the list in the order in
     // which terms() has added them: the stress of the cells, the forces on
     // cells, the held points.
+    for (const auto &part : parts.list)
+      part->keep(solution.kept);
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     if (conditions.list().empty() && encounters == nullptr)
-      return {};
+      return;
     const TimerOutput::Scope section(timer, "forces");
     ForceSums<dim>           sums(tissue, space, solution.u, comm);
     for (std::size_t f = 0; f < model.forces.size(); ++f)
@@ -268,12 +280,13 @@ namespace Morula
         points.youngs_modulus    = attempt.typical_stiffness;
         sums.add_loads(conditions, points, attempt.t_next);
       }
-    for (const auto &part : parts)
+    for (const auto &part : parts.list)
       if (const auto force = part->force())
         sums.add_part(*force);
-    if (meeting != nullptr)
-      sums.add_between(model.interaction->name, meeting->forces(solution.u));
-    return sums.result();
+    if (parts.meeting != nullptr)
+      sums.add_between(model.interaction->name,
+                       parts.meeting->forces(solution.u));
+    solution.forces = sums.result();
   }
 
 
@@ -320,9 +333,10 @@ namespace Morula
   {
     // The list has the terms of doc/theory.md (2.1) that the scene calls for:
     // the stress of the cells first, then forces on cells, held points (4.2) or
-    // (4.6a), and loads. forces() relies on this order. All loads are taken at
-    // t + dt, as the equilibrium is that of the step's end, while readers of
-    // cells see the state at t.
+    // (4.6a), and loads. read_out() relies on this order. All loads are taken
+    // at t + dt, as the equilibrium is that of the step's end, while readers of
+    // cells see the state at t. Where something may meet, a weak drag decides
+    // where pieces go that nothing else holds (4.8f).
     const double t = attempt.t_next;
     TermList     list;
     list.push_back(internal_force(points,
@@ -342,7 +356,7 @@ namespace Morula
                                   attempt.t,
                                   t);
       });
-    for (const auto &part : parts)
+    for (const auto &part : parts.list)
       if (auto term = part->term())
         list.push_back(std::move(term));
     if (model.boundary_conditions.has_dirichlet() &&
@@ -357,6 +371,15 @@ namespace Morula
                             model.scene.solver.kernel);
       });
     add_loads(attempt, list);
+    if (parts.meeting != nullptr || attempt.drag > 1.)
+      {
+        const TimerOutput::Scope section(timer, model.interaction->name);
+        auto                     drag = weak_drag(attempt.typical_stiffness);
+        drag->set_strength(attempt.drag);
+        if (parts.meeting != nullptr)
+          parts.meeting->take_drag(*drag, attempt.drag == 1.);
+        list.push_back(std::move(drag));
+      }
     return list;
   }
 

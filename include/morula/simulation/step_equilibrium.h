@@ -78,29 +78,48 @@ namespace Morula
   private:
     using TermList = typename MomentumBalance<dim>::TermList;
     using MassList = std::vector<typename RigidModes<dim>::Mass>;
-    using Parts    = std::vector<std::unique_ptr<PartOfStep<dim>>>;
+
+    /** The parts that effects have in an attempt. */
+    struct Parts
+    {
+      std::vector<std::unique_ptr<PartOfStep<dim>>> list;
+      /** Those of the list that have something of their own, or null. */
+      InteractionInStep<dim> *meeting   = nullptr;
+      Enclosure<dim>         *enclosure = nullptr;
+      /** As PartOfStep::is_exact() of any part. */
+      bool is_exact = false;
+    };
 
     Solution
     balance(const Attempt                    &attempt,
             const MaterialPoints<dim>        &points,
             NewtonReport                     &report,
             std::optional<ConditionEstimate> &condition) const;
-    /** Newton's method from u on, and a proximal path where it fails.
-     *  @param is_exact as PartOfStep::is_exact() of any part */
+    Parts
+    parts(const Attempt &attempt) const;
+    /** The equilibrium, turn by turn, from u on. Collective. */
     Equilibrium::Evaluation
     find(const Attempt        &attempt,
-         const bool            is_exact,
+         const Parts          &parts,
          MomentumBalance<dim> &balance,
          const LinearProblem  &linear,
          Equilibrium::Vector  &u,
          NewtonReport         &report) const;
-    /** The forces on the surface, if conditions act on it. Collective. */
-    SurfaceForces<dim>
-    forces(const Attempt                &attempt,
-           const TermList               &list,
-           const Parts                  &parts,
-           const InteractionInStep<dim> *meeting,
-           const Solution               &solution) const;
+    /** Newton's method from u on, and a proximal path where it fails. */
+    Equilibrium::Evaluation
+    find_in_turn(const Attempt        &attempt,
+                 const bool            is_exact,
+                 MomentumBalance<dim> &balance,
+                 const LinearProblem  &linear,
+                 Equilibrium::Vector  &u,
+                 NewtonReport         &report) const;
+    /** What the step keeps, and the forces on the surface, if conditions act on
+     *  it. Collective. */
+    void
+    read_out(const Attempt  &attempt,
+             const TermList &list,
+             const Parts    &parts,
+             Solution       &solution) const;
     /** Where Newton's iterations begin; nothing if they begin at u = 0. */
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const;

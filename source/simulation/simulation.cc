@@ -52,12 +52,38 @@ namespace Morula
   {
     // A step has three parts. Up to solve_step() the tissue does not move: the
     // configuration at t has its splines and its steady fields, and the
-    // displacement is sought on them. commit() moves the tissue to t + dt,
-    // after which a failure can no longer be answered by half the step. What
-    // follows acts on the moved tissue: divisions come before deaths, so that
-    // daughters can die, and the surface follows last, as both change what it
-    // has to enclose. Most of these calls are collective, so that all ranks
-    // make all of them.
+    // displacement is sought on them. move() brings the tissue to t + dt, after
+    // which a failure can no longer be answered by half the step. rearrange()
+    // acts on the moved tissue. Most of these calls are collective, so that all
+    // ranks make all of them.
+    begin_step();
+    // Encounters change the places of unknowns, so that they come before all
+    // that keeps these.
+    SplineSpace<dim>                      space      = splines();
+    const auto                            encounters = this->encounters(space);
+    const std::optional<SplineSpace<dim>> unparted =
+      splines_of_equations(space);
+    const SplineSpace<dim> &of_equations = unparted ? *unparted : space;
+    watch(space);
+    // The fields of t = 0 are known already: begin() needs them for the first
+    // row of statistics.csv.
+    if (run_state.n_steps > 1)
+      settle_equations(of_equations);
+    for_moments(&Moments<dim>::before, time_steps.time(), 0.);
+    // The length of the step has to be known before growth is computed for it,
+    // but after the fields, as growth may depend on them.
+    adapt_step();
+    const auto solution = solve_step(space, encounters.get());
+    move(space, of_equations, solution);
+    rearrange(space);
+    complete_row();
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::begin_step()
+  {
     row                       = StatisticsRow();
     newton_report             = NewtonReport();
     newton_report.wants_trace = model.scene.output.newton_trace;
@@ -67,34 +93,32 @@ namespace Morula
     ++run_state.n_steps;
     for (const auto &equation : equations)
       equation->begin_step();
+  }
 
-    // Encounters change the places of unknowns, so that they come before all
-    // that keeps these.
-    SplineSpace<dim>                      space   = splines();
-    const auto                            meeting = encounters(space);
-    const std::optional<SplineSpace<dim>> apart   = splines_of_equations(space);
-    const SplineSpace<dim>               &of_equations = apart ? *apart : space;
+
+  template <int dim>
+  void
+  Simulation<dim>::watch(const SplineSpace<dim> &space)
+  {
     // Where folds have contact, tissue that comes near does not stick.
-    if (!tissue.cells().has_parts())
-      {
-        pieces.look(space, tissue.grid(), time_steps.time());
-        gaps.look(tissue, space, time_steps.time());
-      }
-    // The fields of t = 0 are known already: begin() needs them for the first
-    // row of statistics.csv.
-    if (run_state.n_steps > 1)
-      settle_equations(of_equations);
-    for_moments(&Moments<dim>::before, time_steps.time(), 0.);
-    // The length of the step has to be known before growth is computed for it,
-    // but after the fields, as growth may depend on them.
-    adapt_step();
-    const auto solution = solve_step(space, meeting.get());
-    warn_of_turn(DisplacementField<dim>(space, solution.u, comm));
-    const bool is_slow = run_state.drag > 1.;
+    if (tissue.cells().has_parts())
+      return;
+    pieces.look(space, tissue.grid(), time_steps.time());
+    gaps.look(tissue, space, time_steps.time());
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::move(const SplineSpace<dim> &space,
+                        const SplineSpace<dim> &of_equations,
+                        const typename StepEquilibrium<dim>::Solution &solution)
+  {
+    const DisplacementField<dim> displacement(space, solution.u, comm);
+    const bool                   is_slow = run_state.drag > 1.;
+    warn_of_turn(displacement);
     if (is_slow)
-      let_go(tissue,
-             DisplacementField<dim>(space, solution.u, comm),
-             run_state.drag);
+      let_go(tissue, displacement, run_state.drag);
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
@@ -112,9 +136,17 @@ namespace Morula
         const TimerOutput::Scope section(timer, "strays");
         pull_back_detached_points(tissue);
       }
-
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept(is_slow);
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::rearrange(const SplineSpace<dim> &space)
+  {
+    // Divisions come before deaths, so that daughters can die, and the surface
+    // follows last, as both change what it has to enclose.
     divide();
     // A new surface may need the points that leave with dead cells, to know
     // which conditions its patches had.
@@ -126,8 +158,8 @@ namespace Morula
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
     for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
-    complete_row();
   }
+
 
   template <int dim>
   void

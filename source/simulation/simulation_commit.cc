@@ -139,7 +139,6 @@ namespace Morula
       give_up(reason + ".");
 
     const double t = time_steps.time(), t_next = time_steps.next();
-    const bool   dilutes  = !model.densities.empty();
     const bool   may_fail = std::any_of(model.equations.begin(),
                                       model.equations.end(),
                                       [](const auto &named) {
@@ -150,33 +149,8 @@ namespace Morula
     // are kept to go back.
     const Rows before = may_fail ? rows_of(tissue) : Rows();
     model.development.commit(tissue, growth_of_step, t, t_next);
-    std::vector<double> missed_flow(cells.positions.size(), 0.);
-    for (unsigned int p = 0; p < cells.positions.size(); ++p)
-      {
-        const CellView<dim, double> cell   = tissue.cell(p);
-        const double                volume = dilutes ? cell.volume() : 0.;
-        // F is carried on by doc/theory.md (1.1).
-        Tensor<2, dim> F      = cells.motions[p].f * cell.F();
-        double         factor = 1.;
-        // The energy knows the volume of a grid cell, not that of each of its
-        // cells. Where that is so, det F_e of the cell becomes what its grid
-        // cell has, e^ϑ of doc/theory.md (2.6) or (2.8). The shape is that of f
-        // F.
-        if (!volumes.empty())
-          factor =
-            std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
-                     1. / dim);
-        F *= factor;
-        cell.set(cell.columns().deformation, F);
-        const Tensor<2, dim> f = factor * cells.motions[p].f;
-        // The forecast of this step's motion is compared with the motion before
-        // remember_motion() overwrites what it was made from.
-        missed_flow[p] =
-          model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
-        model.development.remember_motion(cell, f);
-        if (dilutes)
-          model.dilute(cell, cell.volume() / volume);
-      }
+    const std::vector<double> missed_flow =
+      deform_cells(cells.motions, volumes);
     // The concentrations are diluted before the equation is solved: a value
     // that is held at the surface would otherwise be too low by what grows in a
     // step (doc/theory.md, section 11.4).
@@ -210,6 +184,44 @@ namespace Morula
     events         = std::move(growth_of_step.events);
     growth_of_step = {};
     tissue.move(cells.positions, surface.positions);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  Simulation<dim>::deform_cells(const std::vector<PointMotion<dim>> &motions,
+                                const std::vector<double>           &volumes)
+  {
+    const double        t = time_steps.time(), t_next = time_steps.next();
+    const bool          dilutes = !model.densities.empty();
+    std::vector<double> missed_flow(motions.size(), 0.);
+    for (unsigned int p = 0; p < motions.size(); ++p)
+      {
+        const CellView<dim, double> cell   = tissue.cell(p);
+        const double                volume = dilutes ? cell.volume() : 0.;
+        // F is carried on by doc/theory.md (1.1).
+        Tensor<2, dim> F      = motions[p].f * cell.F();
+        double         factor = 1.;
+        // The energy knows the volume of a grid cell, not that of each of its
+        // cells. Where that is so, det F_e of the cell becomes what its grid
+        // cell has, e^ϑ of doc/theory.md (2.6) or (2.8). The shape is that of f
+        // F.
+        if (!volumes.empty())
+          factor =
+            std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
+                     1. / dim);
+        F *= factor;
+        cell.set(cell.columns().deformation, F);
+        const Tensor<2, dim> f = factor * motions[p].f;
+        // The forecast of this step's motion is compared with the motion before
+        // remember_motion() overwrites what it was made from.
+        missed_flow[p] =
+          model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
+        model.development.remember_motion(cell, f);
+        if (dilutes)
+          model.dilute(cell, cell.volume() / volume);
+      }
+    return missed_flow;
   }
 
   template class Simulation<2>;

@@ -5,6 +5,7 @@
 #define morula_simulation_simulation_h
 
 #include <morula/effects/equation.h>
+#include <morula/mechanics/point_motions.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/simulation/condition_watch.h>
@@ -109,6 +110,20 @@ namespace Morula
 
     void
     step();
+    void
+    begin_step();
+    /** Warns of tissue that is about to stick to other tissue. Collective. */
+    void
+    watch(const SplineSpace<dim> &space);
+    /** Moves the tissue to the end of the step. Collective. */
+    void
+    move(const SplineSpace<dim>                        &space,
+         const SplineSpace<dim>                        &of_equations,
+         const typename StepEquilibrium<dim>::Solution &solution);
+    /** Divisions, deaths, exchanges of places and the surface at the end of the
+     *  step. Collective. */
+    void
+    rearrange(const SplineSpace<dim> &space);
     /** With Time/Tolerance: makes the step as long as the error of the last one
      *  allows. Collective. */
     void
@@ -142,6 +157,13 @@ namespace Morula
     commit(const SplineSpace<dim>                        &space,
            const SplineSpace<dim>                        &of_equations,
            const typename StepEquilibrium<dim>::Solution &solution);
+    /** Deforms the cells at the end of the step by their motions.
+     *  @param volumes  det F_e of each cell where its grid cell has one, else
+     *                  empty
+     *  @return what the forecast of flow has missed, by cell */
+    std::vector<double>
+    deform_cells(const std::vector<PointMotion<dim>> &motions,
+                 const std::vector<double>           &volumes);
     void
     divide();
     void

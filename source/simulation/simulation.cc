@@ -3,20 +3,16 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
-#include <morula/effects/division/divide.h>
-#include <morula/effects/fate/removal.h>
-#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/mechanics/drag.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/slow_steps.h>
-#include <morula/simulation/step_supports.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 // One step.
 
@@ -30,18 +26,51 @@ namespace Morula
     constexpr unsigned int most_plain_halves = 3;
 
 
-    /** Whether some cells were killed by a condition in this step and are gone
-     *  already. Local to the rank. */
-    bool
-    cuts(const std::vector<CellEvent> &events)
+    /**
+     * What holds the pieces of this rank in a step from @p t to @p t_next
+     * (day): fixed and slip points, and cells with friction that is not too
+     * weak to decide where a free piece goes. Not collective.
+     * @throws InputError if an expression has no value
+     */
+    template <int dim>
+    std::vector<typename RigidModes<dim>::Support>
+    step_supports(const TissueModel<dim> &model,
+                  const Tissue<dim>      &tissue,
+                  const SplineSpace<dim> &space,
+                  const double            t,
+                  const double            t_next)
     {
-      std::set<types::particle_index> killed;
-      for (const CellEvent &event : events)
-        if (event.at_once)
-          killed.insert(event.id);
-      return std::any_of(events.begin(), events.end(), [&](const auto &event) {
-        return event.kind == CellEvent::removal && killed.count(event.id) > 0;
-      });
+      // Held points come first, then cells with friction, each with its weight
+      // in the matrix S of doc/theory.md (4.9) and section 4.4. Friction holds
+      // all directions (M = I). If ζh²/(E Δt) is below the least drag rounding
+      // would decide where a free piece goes; it then counts as none. Each rank
+      // lists what lies in its own grid cells; RigidModes adds the lists up.
+      auto         list = supports(model.boundary_conditions, tissue, space);
+      const double h    = space.box().spacing();
+      const Cells<dim>      &cells  = tissue.cells();
+      const CellReader<dim> &reader = model.development.reader(t);
+      for (const auto &named : model.forces)
+        {
+          const std::vector<double> friction =
+            named.effect->friction(tissue, reader, t);
+          // The list is empty for a force without friction.
+          if (friction.empty())
+            continue;
+          for (const auto &grid_cell : cells.grid_cells())
+            for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+              {
+                const double stiffness =
+                  youngs_modulus(present_cell(tissue, p, reader).lame());
+                const double strength =
+                  friction[p] * h * h / ((t_next - t) * stiffness);
+                if (strength >= Drag<dim>::least)
+                  list.push_back({space.piece(grid_cell.number, grid_cell.part),
+                                  cells.position(p),
+                                  Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                                  strength * cells.initial_volume(p) / h});
+              }
+        }
+      return list;
     }
   } // namespace
 
@@ -138,26 +167,6 @@ namespace Morula
       }
     row.dt = time_steps.next() - time_steps.time();
     time_steps.accept(is_slow);
-  }
-
-
-  template <int dim>
-  void
-  Simulation<dim>::rearrange(const SplineSpace<dim> &space)
-  {
-    // Divisions come before deaths, so that daughters can die, and the surface
-    // follows last, as both change what it has to enclose.
-    divide();
-    // A new surface may need the points that leave with dead cells, to know
-    // which conditions its patches had.
-    const PointList<dim> former = surface.before_losses(tissue);
-    remove_the_dead();
-    for_moments(&Moments<dim>::rearrange, time_steps.time(), row.dt);
-    count(space);
-    follow_surface(space, former);
-    renew_carriers(tissue);
-    for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
-    for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
   }
 
 
@@ -376,100 +385,6 @@ namespace Morula
         if (!has_begun)
           throw std::runtime_error(reason);
         give_up(reason);
-      }
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::divide()
-  {
-    row.dividing = 0;
-    if (!model.development.divides())
-      return;
-    const TimerOutput::Scope section(timer, "division");
-    // Each rank lists its own cells that are due. divide() communicates, as
-    // daughters are placed between cells of other ranks and get ids in an order
-    // of all ranks' events; so it is called on all ranks if any has a cell that
-    // is due. A daughter that divides by size may be due again in the same
-    // step: rounds go on until no cell is.
-    const double t = time_steps.time();
-    while (true)
-      {
-        const std::vector<unsigned int> due =
-          cells_due(tissue, model.development, t);
-        const auto n = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
-        if (n == 0)
-          return;
-        row.dividing += n;
-        const Divisions<dim> divisions =
-          Morula::divide(tissue, model.development, due, t, run_state.next_id);
-        births.insert(births.end(),
-                      divisions.births.begin(),
-                      divisions.births.end());
-        events.insert(events.end(),
-                      divisions.events.begin(),
-                      divisions.events.end());
-      }
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::remove_the_dead()
-  {
-    if (!model.development.is_mortal())
-      return;
-    // The boundary points are counted before and after the removal: those of
-    // lost tissue go with it, and a large loss opens the surface. A cut also
-    // changes what the next step has to balance, so that its length is chosen
-    // anew.
-    const TimerOutput::Scope section(timer, "removal");
-    const auto               n_points = [&]() {
-      return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
-                                                comm);
-    };
-    lost_conditions.begin(tissue);
-    const std::uint64_t          n_before = n_points();
-    const std::vector<CellEvent> removals = remove_dead_cells(tissue,
-                                                              model.development,
-                                                              time_steps.time(),
-                                                              model.densities);
-    events.insert(events.end(), removals.begin(), removals.end());
-    // A cut surface stays open unless the scene renews it. What it encloses
-    // is no measure any more.
-    const std::uint64_t n_left = n_points();
-    if (n_left < n_before)
-      lost_conditions.look(tissue, time_steps.time());
-    if (surface.is_cut(n_before, n_left))
-      run_state.enclosed_share.reset();
-    // The events are those of this rank's cells. The length of a step is the
-    // same on all ranks.
-    if (Utilities::MPI::logical_or(cuts(events), comm))
-      time_steps.begin_anew();
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::follow_surface(const SplineSpace<dim> &space,
-                                  const PointList<dim>   &former)
-  {
-    try
-      {
-        surface.follow(tissue,
-                       space,
-                       former,
-                       run_state.enclosed_share,
-                       time_steps.time(),
-                       row.dt);
-      }
-    catch (const SurfaceTorn &error)
-      {
-        // The tissue has moved already, so the step counts and gets its row.
-        // The next one could not be done without a surface. give_up() takes one
-        // off the count of steps, which is therefore raised first.
-        complete_row();
-        write_rows();
-        ++run_state.n_steps;
-        give_up(error.what() + std::string("."));
       }
   }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/division/divide.h>
 #include <morula/effects/elastic_volumes.h>
+#include <morula/effects/fate/removal.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/point_motions.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
@@ -11,6 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+
+// How the tissue changes at the end of a step.
 
 namespace Morula
 {
@@ -93,6 +99,21 @@ namespace Morula
           std::copy(next, next + row.size(), row.begin());
           next += row.size();
         }
+    }
+
+
+    /** Whether some cells were killed by a condition in this step and are gone
+     *  already. Local to the rank. */
+    bool
+    cuts(const std::vector<CellEvent> &events)
+    {
+      std::set<types::particle_index> killed;
+      for (const CellEvent &event : events)
+        if (event.at_once)
+          killed.insert(event.id);
+      return std::any_of(events.begin(), events.end(), [&](const auto &event) {
+        return event.kind == CellEvent::removal && killed.count(event.id) > 0;
+      });
     }
   } // namespace
 
@@ -223,6 +244,121 @@ namespace Morula
       }
     return missed_flow;
   }
+
+  template <int dim>
+  void
+  Simulation<dim>::rearrange(const SplineSpace<dim> &space)
+  {
+    // Divisions come before deaths, so that daughters can die, and the surface
+    // follows last, as both change what it has to enclose.
+    divide();
+    // A new surface may need the points that leave with dead cells, to know
+    // which conditions its patches had.
+    const PointList<dim> former = surface.before_losses(tissue);
+    remove_the_dead();
+    for_moments(&Moments<dim>::rearrange, time_steps.time(), row.dt);
+    count(space);
+    follow_surface(space, former);
+    renew_carriers(tissue);
+    for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
+    for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::divide()
+  {
+    row.dividing = 0;
+    if (!model.development.divides())
+      return;
+    const TimerOutput::Scope section(timer, "division");
+    // Each rank lists its own cells that are due. divide() communicates, as
+    // daughters are placed between cells of other ranks and get ids in an order
+    // of all ranks' events; so it is called on all ranks if any has a cell that
+    // is due. A daughter that divides by size may be due again in the same
+    // step: rounds go on until no cell is.
+    const double t = time_steps.time();
+    while (true)
+      {
+        const std::vector<unsigned int> due =
+          cells_due(tissue, model.development, t);
+        const auto n = Utilities::MPI::sum<std::uint64_t>(due.size(), comm);
+        if (n == 0)
+          return;
+        row.dividing += n;
+        const Divisions<dim> divisions =
+          Morula::divide(tissue, model.development, due, t, run_state.next_id);
+        births.insert(births.end(),
+                      divisions.births.begin(),
+                      divisions.births.end());
+        events.insert(events.end(),
+                      divisions.events.begin(),
+                      divisions.events.end());
+      }
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::remove_the_dead()
+  {
+    if (!model.development.is_mortal())
+      return;
+    // The boundary points are counted before and after the removal: those of
+    // lost tissue go with it, and a large loss opens the surface. A cut also
+    // changes what the next step has to balance, so that its length is chosen
+    // anew.
+    const TimerOutput::Scope section(timer, "removal");
+    const auto               n_points = [&]() {
+      return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
+                                                comm);
+    };
+    lost_conditions.begin(tissue);
+    const std::uint64_t          n_before = n_points();
+    const std::vector<CellEvent> removals = remove_dead_cells(tissue,
+                                                              model.development,
+                                                              time_steps.time(),
+                                                              model.densities);
+    events.insert(events.end(), removals.begin(), removals.end());
+    // A cut surface stays open unless the scene renews it. What it encloses
+    // is no measure any more.
+    const std::uint64_t n_left = n_points();
+    if (n_left < n_before)
+      lost_conditions.look(tissue, time_steps.time());
+    if (surface.is_cut(n_before, n_left))
+      run_state.enclosed_share.reset();
+    // The events are those of this rank's cells. The length of a step is the
+    // same on all ranks.
+    if (Utilities::MPI::logical_or(cuts(events), comm))
+      time_steps.begin_anew();
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::follow_surface(const SplineSpace<dim> &space,
+                                  const PointList<dim>   &former)
+  {
+    try
+      {
+        surface.follow(tissue,
+                       space,
+                       former,
+                       run_state.enclosed_share,
+                       time_steps.time(),
+                       row.dt);
+      }
+    catch (const SurfaceTorn &error)
+      {
+        // The tissue has moved already, so the step counts and gets its row.
+        // The next one could not be done without a surface. give_up() takes one
+        // off the count of steps, which is therefore raised first.
+        complete_row();
+        write_rows();
+        ++run_state.n_steps;
+        give_up(error.what() + std::string("."));
+      }
+  }
+
 
   template class Simulation<2>;
   template class Simulation<3>;

@@ -8,15 +8,13 @@
 #include <morula/mechanics/point_motions.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
-#include <morula/simulation/condition_watch.h>
 #include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
-#include <morula/simulation/gap_watch.h>
-#include <morula/simulation/piece_warnings.h>
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/run_state.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/simulation/stop_signals.h>
+#include <morula/simulation/watches.h>
 
 #include <deal.II/base/timer.h>
 

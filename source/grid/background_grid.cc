@@ -1,15 +1,145 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/grid/background_grid.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 #include <deal.II/grid/grid_generator.h>
 
 #include <algorithm>
+#include <limits>
+#include <map>
 
 namespace Morula
 {
+  namespace
+  {
+    /** The key of a rank without leaves lies behind the keys of all leaves. */
+    constexpr std::uint64_t no_leaf = std::numeric_limits<std::uint64_t>::max();
+  } // namespace
+
+  template <int dim>
+  GridOwners<dim>::GridOwners(
+    const parallel::distributed::Triangulation<dim> &tria,
+    const GridBox<dim>                              &box,
+    const Trees                                     &trees)
+    : trees(trees)
+  {
+    // Each rank contributes the key of its lowest leaf. Keys follow the order
+    // in which p4est numbers the leaves, and ranks have consecutive parts of
+    // these. So one sorted list of first keys, which all ranks gather, tells
+    // every owner.
+    const MPI_Comm comm = tria.get_communicator();
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    // p4est may number the two trees in the other order.
+    second_tree_first =
+      tria.get_p4est_tree_to_coarse_cell_permutation()[0] == 1;
+    Tensor<1, dim> half;
+    for (unsigned int d = 0; d < dim; ++d)
+      // Half a grid cell inwards from a vertex: rounding does not matter there.
+      half[d] = box.spacing() / 2;
+    std::uint64_t lowest = no_leaf;
+    for (const auto &leaf : tria.active_cell_iterators())
+      if (leaf->is_locally_owned())
+        lowest = std::min(lowest, key(box.locate(leaf->vertex(0) + half)));
+    first_keys = Utilities::MPI::all_gather(comm, lowest);
+    // A rank without leaves begins where the next one begins, which then owns
+    // the leaves from there on.
+    for (std::size_t rank = first_keys.size() - 1; rank-- > 0;)
+      if (first_keys[rank] == no_leaf)
+        first_keys[rank] = first_keys[rank + 1];
+  }
+
+  template <int dim>
+  unsigned int
+  GridOwners<dim>::operator()(const GridIndex<dim> &grid_cell) const
+  {
+    if (first_keys.empty())
+      return 0;
+    // The owner is the last rank whose first key is not behind that of the grid
+    // cell.
+    return std::upper_bound(first_keys.begin(),
+                            first_keys.end(),
+                            key(grid_cell)) -
+           first_keys.begin() - 1;
+  }
+
+  template <int dim>
+  std::uint64_t
+  GridOwners<dim>::key(GridIndex<dim> grid_cell) const
+  {
+    // Coordinates in the trees, then in one of them; the tree is the highest
+    // digit of the key.
+    for (unsigned int d = 0; d < dim; ++d)
+      grid_cell[d] -= trees.first[d];
+    const bool second = (grid_cell[trees.split] >> trees.n_levels) != 0;
+    if (second)
+      grid_cell[trees.split] -= 1 << trees.n_levels;
+    // Morton order: the bits of the coordinates in turn, the highest ones
+    // first.
+    std::uint64_t key = second != second_tree_first;
+    for (int level = trees.n_levels - 1; level >= 0; --level)
+      for (int d = dim - 1; d >= 0; --d)
+        key = (key << 1) | ((grid_cell[d] >> level) & 1);
+    return key;
+  }
+
+
+  namespace
+  {
+    /** One count for each grid cell, in order. */
+    GridCellCounts
+    merged(GridCellCounts counts)
+    {
+      // Counts of a grid cell may come from several ranks and several times
+      // from one. Sorted, they are neighbours.
+      std::sort(counts.begin(),
+                counts.end(),
+                [](const GridCellCount &a, const GridCellCount &b) {
+                  return a.number < b.number;
+                });
+      GridCellCounts result;
+      for (const GridCellCount &count : counts)
+        if (result.empty() || result.back().number != count.number)
+          result.push_back(count);
+        else
+          result.back().n += count.n;
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  GridCellCounts
+  sum_at_owners(const GridCellCounts  &counts,
+                const GridBox<dim>    &box,
+                const GridOwners<dim> &owners,
+                const MPI_Comm         comm)
+  {
+    // On one rank there is nobody to ask. Else each count goes to the owner of
+    // its grid cell, as two numbers.
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return merged(counts);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    GridCellCounts     own;
+    std::map<unsigned int, std::vector<unsigned int>> numbers_and_counts;
+    for (const GridCellCount &count : counts)
+      if (const unsigned int owner = owners(box.index(count.number));
+          owner == rank)
+        own.push_back(count);
+      else
+        for (const unsigned int value : {count.number, count.n})
+          numbers_and_counts[owner].push_back(value);
+    for (const auto &[sender, list] :
+         Utilities::MPI::some_to_some(comm, numbers_and_counts))
+      for (std::size_t i = 0; i < list.size(); i += 2)
+        own.push_back({list[i], list[i + 1]});
+    return merged(std::move(own));
+  }
+
+
   namespace
   {
     /** The smallest number k with 2^k >= n. */
@@ -260,6 +390,9 @@ namespace Morula
              CellIterator(tria.end());
   }
 
+  template class GridOwners<2>;
+  template class GridOwners<3>;
+  MORULA_INSTANTIATE(sum_at_owners);
   template class BackgroundGrid<2>;
   template class BackgroundGrid<3>;
 } // namespace Morula

@@ -5,16 +5,90 @@
 #define morula_grid_background_grid_h
 
 #include <morula/grid/grid_box.h>
-#include <morula/grid/grid_cell_counts.h>
-#include <morula/grid/grid_owners.h>
 #include <morula/grid/grid_parameters.h>
 
 #include <deal.II/distributed/tria.h>
 
+#include <mpi.h>
+
+#include <cstdint>
 #include <vector>
 
 namespace Morula
 {
+  /**
+   * Which rank owns which grid cell, without a table of the grid cells. The
+   * ranks share the leaves of the octrees in the order of the trees (Morton
+   * order). So the first leaf of every rank says who owns any grid cell: one
+   * number a rank, however many grid cells there are.
+   */
+  template <int dim>
+  class GridOwners
+  {
+  public:
+    /** Two octrees of grid cells, which follow one another in one direction. */
+    struct Trees
+    {
+      GridIndex<dim> first; // the grid cell with the smallest coordinates
+      unsigned int   split; // the direction from the first tree to the second
+      int            n_levels; // a tree has 2^n_levels grid cells per direction
+    };
+
+    /** All grid cells belong to rank 0. */
+    GridOwners() = default;
+
+    /**
+     * Gathers the first leaves of all ranks. Collective.
+     * @param tria leaves of @p trees, distributed over the ranks
+     * @param box  has the same grid lines
+     */
+    GridOwners(const parallel::distributed::Triangulation<dim> &tria,
+               const GridBox<dim>                              &box,
+               const Trees                                     &trees);
+
+    /** Rank that owns a grid cell of the trees. */
+    unsigned int
+    operator()(const GridIndex<dim> &grid_cell) const;
+
+  private:
+    /** Place of a grid cell in the order of the trees' leaves. */
+    std::uint64_t
+    key(GridIndex<dim> grid_cell) const;
+
+    Trees                      trees{};
+    bool                       second_tree_first = false;
+    std::vector<std::uint64_t> first_keys; // by rank; empty on one rank
+  };
+
+  /** How many points a grid cell holds. */
+  struct GridCellCount
+  {
+    unsigned int number; // of the grid cell in the box
+    unsigned int n;
+
+    bool
+    operator==(const GridCellCount &other) const
+    {
+      return number == other.number && n == other.n;
+    }
+  };
+
+  /** Counts of grid cells, in the order of their numbers. Grid cells that are
+   *  not among them hold nothing. */
+  using GridCellCounts = std::vector<GridCellCount>;
+
+  /**
+   * The counts of this rank's grid cells, summed over all ranks. Collective.
+   * @param counts of any grid cells of the box, in any order; a grid cell may
+   *   be among them several times
+   */
+  template <int dim>
+  GridCellCounts
+  sum_at_owners(const GridCellCounts  &counts,
+                const GridBox<dim>    &box,
+                const GridOwners<dim> &owners,
+                const MPI_Comm         comm);
+
   /**
    * The background grid: a Cartesian `parallel::distributed::Triangulation`
    * around the tissue. The ranks share it by the number of points in each grid

@@ -6,14 +6,217 @@
 
 #include <morula/base/send_records.h>
 #include <morula/grid/background_grid.h>
-#include <morula/grid/grid_boxes.h>
+#include <morula/grid/grid_box.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
 
 namespace Morula
 {
+  /** Grid cells from one to another in each direction, both included; none if
+   *  the last lies before the first. */
+  template <int dim>
+  struct GridRange
+  {
+    GridIndex<dim> first, last;
+
+    /** Whether there is no grid cell in it. */
+    bool
+    empty() const;
+
+    /** Whether the grid cell is one of them. */
+    bool
+    contains(const GridIndex<dim> &index) const;
+
+    /** Makes it the smallest that holds the other one, too. */
+    void
+    unite(const GridRange &other);
+
+    /** The range, with @p rings more grid cells on all sides but inside of @p
+     *  box. */
+    GridRange
+    grown(const int rings, const GridBox<dim> &box) const;
+
+    /** Layers of grid cells between the two; 0 if they touch, less if they
+     *  have grid cells in common. */
+    int
+    gap(const GridRange &other) const;
+  };
+
+  /**
+   * Ranges that hold all of these, where more than @p gap layers lie between
+   * any two. There are at most 32, as whoever looks for a grid cell looks into
+   * each of them: of more, those with less than 2, 4, 8, ... gaps between them
+   * share one.
+   */
+  template <int dim>
+  std::vector<GridRange<dim>>
+  separated(const std::vector<GridRange<dim>> &ranges, int gap);
+
+  /**
+   * The grid cells of some boxes of the background grid. No two boxes touch: so
+   * the neighbours of a grid cell are in its own box, or in none. Tables have
+   * one entry for each of these grid cells, by its number: these run box by
+   * box, and in a box as those of GridBox do.
+   */
+  template <int dim>
+  class GridBoxes
+  {
+  public:
+    GridBoxes() = default;
+
+    /** One box. */
+    explicit GridBoxes(const GridBox<dim> &box)
+      : lines(box)
+      , boxes_(1, box)
+      , begins{0, box.size()}
+    {}
+
+    /** @param ranges in @p whole, which do not touch; none is empty */
+    GridBoxes(const std::vector<GridRange<dim>> &ranges,
+              const GridBox<dim>                &whole)
+      : lines(whole)
+      , begins(1, 0)
+    {
+      for (const GridRange<dim> &range : ranges)
+        {
+          GridIndex<dim> n;
+          for (unsigned int d = 0; d < dim; ++d)
+            n[d] = range.last[d] - range.first[d] + 1;
+          boxes_.emplace_back(range.first,
+                              n,
+                              whole.spacing(),
+                              whole.corner(GridIndex<dim>{}));
+          begins.push_back(begins.back() + boxes_.back().size());
+        }
+    }
+
+    /** Number of grid cells. */
+    unsigned int
+    size() const
+    {
+      return begins.back();
+    }
+
+    const std::vector<GridBox<dim>> &
+    boxes() const
+    {
+      return boxes_;
+    }
+
+    /** Number of the first grid cell of a box. */
+    unsigned int
+    begin(const unsigned int box) const
+    {
+      return begins[box];
+    }
+
+    double
+    spacing() const
+    {
+      return lines.spacing();
+    }
+
+    /** See GridBox. */
+    GridIndex<dim>
+    locate(const Point<dim> &x) const
+    {
+      return lines.locate(x);
+    }
+
+    /** See GridBox. */
+    Point<dim>
+    center(const GridIndex<dim> &index) const
+    {
+      return lines.center(index);
+    }
+
+    /** See GridBox. */
+    Point<dim>
+    corner(const GridIndex<dim> &index) const
+    {
+      return lines.corner(index);
+    }
+
+    /** Whether a grid cell is in one of the boxes. */
+    bool
+    contains(const GridIndex<dim> &index) const
+    {
+      return std::any_of(boxes_.begin(),
+                         boxes_.end(),
+                         [&](const GridBox<dim> &box) {
+                           return box.contains(index);
+                         });
+    }
+
+    /** Number of a grid cell that is in one of the boxes. */
+    unsigned int
+    number(const GridIndex<dim> &index) const
+    {
+      const unsigned int k = box_with(index);
+      return begins[k] + boxes_[k].number(index);
+    }
+
+    /** The coordinates of a grid cell from its number; inverse of number(). */
+    GridIndex<dim>
+    index(const unsigned int number) const
+    {
+      unsigned int k = 0;
+      while (number >= begins[k + 1])
+        ++k;
+      return boxes_[k].index(number - begins[k]);
+    }
+
+    /** Calls @p visit(number, index) for all grid cells whose coordinates
+     *  differ by at most @p radius from those of @p center, in the order of
+     *  their numbers. */
+    template <typename Visitor>
+    void
+    for_neighbors(const GridIndex<dim> &center,
+                  const int             radius,
+                  const Visitor        &visit) const
+    {
+      for (unsigned int k = 0; k < boxes_.size(); ++k)
+        boxes_[k].for_neighbors(center, radius, shifted(k, visit));
+    }
+
+    /** Calls @p visit(number, index) for all grid cells of the range, in the
+     *  order of their numbers. */
+    template <typename Visitor>
+    void
+    for_range(const GridRange<dim> &range, const Visitor &visit) const
+    {
+      for (unsigned int k = 0; k < boxes_.size(); ++k)
+        boxes_[k].for_overlap(range.first, range.last, shifted(k, visit));
+    }
+
+  private:
+    unsigned int
+    box_with(const GridIndex<dim> &index) const
+    {
+      unsigned int k = 0;
+      while (k + 1 < boxes_.size() && !boxes_[k].contains(index))
+        ++k;
+      return k;
+    }
+
+    template <typename Visitor>
+    auto
+    shifted(const unsigned int box, const Visitor &visit) const
+    {
+      return [&visit, begin = begins[box]](const unsigned int    number,
+                                           const GridIndex<dim> &index) {
+        visit(begin + number, index);
+      };
+    }
+
+    GridBox<dim>              lines; // any box of the grid
+    std::vector<GridBox<dim>> boxes_;
+    std::vector<unsigned int> begins{0}; // of each box, and the end
+  };
+
   /**
    * The part of the grid that a rank knows: the grid cells that its points
    * reach, those of others' points that it owns, and some rings around them.

@@ -4,8 +4,8 @@
 #ifndef morula_grid_occupancy_h
 #define morula_grid_occupancy_h
 
+#include <morula/grid/grid_contents.h>
 #include <morula/grid/shared_points.h>
-#include <morula/grid/tissue_rows.h>
 
 #include <cstdint>
 #include <utility>
@@ -13,6 +13,71 @@
 
 namespace Morula
 {
+  /**
+   * How thick the tissue is, from the connected rows of grid cells with tissue
+   * along each coordinate. A row's thickness is its volume divided by its
+   * cross-section, the smallest rectangle around its tissue; a row of eight
+   * grid cells or more is not thin along itself, so that no rank must know all
+   * of it.
+   *
+   * Grid cells at the edge of a window have rows that are cut off. Everything
+   * here is what one rank finds in GridWindow::inner(reach) of the window, but
+   * for thickness(), which needs eight rings.
+   */
+  template <int dim>
+  class TissueRows
+  {
+  public:
+    static constexpr int reach = 4;
+
+    TissueRows() = default;
+
+    explicit TissueRows(const GridContents<dim> &contents);
+
+    /** Smallest thickness of a grid cell's rows in units of h, at most 1. */
+    float
+    least_thickness(const unsigned int number) const
+    {
+      return thicknesses[number];
+    }
+
+    /** The largest of these among the grid cell and its neighbours with
+     *  tissue, so that the tip of a large body is not thin. */
+    float
+    thickness(const unsigned int       number,
+              const GridContents<dim> &contents) const;
+
+    /** Number of directions in which the grid cell's row is shorter than
+     *  1.5 h. */
+    unsigned int
+    n_thin(const unsigned int number) const
+    {
+      return n_thin_[number];
+    }
+
+    /** See Occupancy. */
+    bool
+    is_thin(const unsigned int number, const GridContents<dim> &contents) const;
+
+    /** See Occupancy. */
+    bool
+    is_inner_candidate(const unsigned int number) const
+    {
+      return candidates[number];
+    }
+
+  private:
+    void
+    measure(const std::vector<unsigned int> &row,
+            const unsigned int               direction,
+            const GridContents<dim>         &contents);
+
+    std::vector<float> thicknesses; // of rows, in h, at most 1
+    std::vector<float> lengths;     // of rows, in h; 2 where no row is thin
+    std::vector<char>  n_thin_;     // number of directions with a thin row
+    std::vector<char>  candidates;  // see is_inner_candidate()
+  };
+
   /**
    * How full the grid cells are, over all ranks. Each particle's volume is
    * spread over an axis-parallel cube of side V^(1/dim) around it. Counting
@@ -124,7 +189,7 @@ namespace Morula
     double
     fill(const unsigned int number) const
     {
-      return contents.volume(number) / GridCellContents<dim>::resolution;
+      return contents.volume(number) / GridContents<dim>::resolution;
     }
 
     /**
@@ -224,7 +289,7 @@ namespace Morula
     unsigned int              points_per_cell;
     bool                      share_points;
     bool                      subdivides_ = false;
-    GridCellContents<dim>     contents;
+    GridContents<dim>         contents;
     TissueRows<dim>           rows;
     std::vector<unsigned int> crowded_; // of all ranks, by number in the grid
   };

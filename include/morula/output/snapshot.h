@@ -4,7 +4,7 @@
 #ifndef morula_output_snapshot_h
 #define morula_output_snapshot_h
 
-#include <morula/grid/grid_cell_counts.h>
+#include <morula/grid/background_grid.h>
 #include <morula/particles/columns.h>
 #include <morula/particles/point_list.h>
 

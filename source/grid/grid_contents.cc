@@ -1,13 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/grid_cell_contents.h>
+#include <morula/grid/grid_contents.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace Morula
 {
+  template <int dim>
+  GridNodes<dim>::GridNodes(const GridWindow<dim>    &window,
+                            const SharedParting<dim> &parting)
+    : boxes(window.boxes())
+    , whole(window.whole())
+    , parting_(parting)
+  {
+    // Without a contested grid cell there are no tables at all. Otherwise the
+    // further parts of the window's grid cells get nodes in the order in which
+    // the parting has them, those of one grid cell behind each other.
+    if (parting_ == nullptr || parting_->is_trivial())
+      return;
+    first_further.assign(boxes.size(), 0);
+    near_contest.assign(boxes.size(), 0);
+    for (const auto &[number, part] : parting_->further_parts())
+      if (const GridIndex<dim> index = whole.index(number);
+          boxes.contains(index))
+        {
+          const unsigned int here = boxes.number(index);
+          if (part == 1)
+            first_further[here] = size();
+          further.push_back({here, part});
+        }
+    for (unsigned int number = 0; number < boxes.size(); ++number)
+      if (parting_->is_contested(whole.number(boxes.index(number))))
+        boxes.for_neighbors(boxes.index(number),
+                            1,
+                            [&](const unsigned int neighbor, const auto &) {
+                              near_contest[neighbor] = 1;
+                            });
+    find_linked();
+  }
+
+
+  template <int dim>
+  void
+  GridNodes<dim>::find_linked()
+  {
+    // Each spline asks for the links of its support, and supports overlap: so
+    // links are looked up once for each node.
+    first_linked.assign(1, 0);
+    for (unsigned int node = 0; node < size(); ++node)
+      {
+        if (near_contest[grid_cell(node)])
+          boxes.for_neighbors(
+            index(node), 1, [&](const unsigned int number, const auto &) {
+              for_parts(number, [&](const unsigned int other) {
+                if (are_linked(node, other))
+                  linked.push_back(other);
+              });
+            });
+        first_linked.push_back(linked.size());
+      }
+  }
+
+
   namespace
   {
     /** Points so near to a grid line are on it, in units of h: that is what
@@ -16,8 +72,8 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  GridCellContents<dim>::GridCellContents(const GridWindow<dim>    &window,
-                                          const SharedParting<dim> &parting)
+  GridContents<dim>::GridContents(const GridWindow<dim>    &window,
+                                  const SharedParting<dim> &parting)
     : window_(window)
     , nodes_(window, parting)
   {
@@ -26,7 +82,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::clear()
+  GridContents<dim>::clear()
   {
     volumes.assign(nodes_.size(), 0);
     counts.assign(nodes_.size(), Counts{});
@@ -35,8 +91,8 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::add_particle(const ParticleDomain<dim>  &domain,
-                                      const types::particle_index id)
+  GridContents<dim>::add_particle(const ParticleDomain<dim>  &domain,
+                                  const types::particle_index id)
   {
     const Point<dim> lower = domain.lower(), upper = domain.upper();
     const double     h = boxes().spacing();
@@ -69,8 +125,8 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::add_boundary_point(const Point<dim>  &x,
-                                            const unsigned int part)
+  GridContents<dim>::add_boundary_point(const Point<dim>  &x,
+                                        const unsigned int part)
   {
     ++counts[nodes_.node(boxes().locate(x), part)][boundary];
   }
@@ -79,8 +135,8 @@ namespace Morula
   // box of the width of rounding.
   template <int dim>
   void
-  GridCellContents<dim>::add_quadrature_point(const Point<dim>           &x,
-                                              const types::particle_index id)
+  GridContents<dim>::add_quadrature_point(const Point<dim>           &x,
+                                          const types::particle_index id)
   {
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
@@ -96,7 +152,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::sum(const BackgroundGrid<dim> &grid)
+  GridContents<dim>::sum(const BackgroundGrid<dim> &grid)
   {
     // Owners add up what all ranks have counted, then tell all ranks in whose
     // windows their grid cells lie.
@@ -105,7 +161,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
+  GridContents<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
   {
     // As for the other sums, in two passes: counts go to the owners, who add
     // them up, and from there to all windows. Only the quadrature points travel
@@ -139,7 +195,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
+  GridContents<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
   {
     const unsigned int rank =
       Utilities::MPI::this_mpi_process(grid.communicator());
@@ -156,7 +212,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::spread(const std::vector<Record> &list)
+  GridContents<dim>::spread(const std::vector<Record> &list)
   {
     // Own grid cells come first, since find_own() takes all that is in the
     // tables by then for this rank's. Only after that come those of others.
@@ -172,7 +228,7 @@ namespace Morula
    *  other ranks are added afterwards. */
   template <int dim>
   void
-  GridCellContents<dim>::find_own()
+  GridContents<dim>::find_own()
   {
     own_.clear();
     for (unsigned int node = 0; node < nodes_.size(); ++node)
@@ -182,7 +238,7 @@ namespace Morula
 
   template <int dim>
   bool
-  GridCellContents<dim>::holds_something(const unsigned int node) const
+  GridContents<dim>::holds_something(const unsigned int node) const
   {
     return volumes[node] > 0 || active(node) ||
            std::any_of(reaches[node].begin(),
@@ -191,8 +247,8 @@ namespace Morula
   }
 
   template <int dim>
-  std::vector<typename GridCellContents<dim>::Record>
-  GridCellContents<dim>::records() const
+  std::vector<typename GridContents<dim>::Record>
+  GridContents<dim>::records() const
   {
     std::vector<Record> list;
     for (unsigned int node = 0; node < nodes_.size(); ++node)
@@ -202,8 +258,8 @@ namespace Morula
   }
 
   template <int dim>
-  typename GridCellContents<dim>::Record
-  GridCellContents<dim>::record(const unsigned int node) const
+  typename GridContents<dim>::Record
+  GridContents<dim>::record(const unsigned int node) const
   {
     return {window_.whole().number(nodes_.index(node)),
             nodes_.part(node),
@@ -214,7 +270,7 @@ namespace Morula
 
   template <int dim>
   void
-  GridCellContents<dim>::add(const Record &record)
+  GridContents<dim>::add(const Record &record)
   {
     // Records carry the number in the grid's box, tables are by node.
     const unsigned int node =
@@ -226,6 +282,8 @@ namespace Morula
       reaches[node][k] = std::max(reaches[node][k], record.reaches[k]);
   }
 
-  template class GridCellContents<2>;
-  template class GridCellContents<3>;
+  template class GridNodes<2>;
+  template class GridNodes<3>;
+  template class GridContents<2>;
+  template class GridContents<3>;
 } // namespace Morula

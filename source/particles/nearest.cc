@@ -2,19 +2,20 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/grid/point_bins.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
-#include <iterator>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 namespace Morula
 {
@@ -80,43 +81,52 @@ namespace Morula
       return list;
     }
 
-    /** Positions of the nearest points in the list, by id, and their distance.
-     *  Distances that differ by rounding only count as equal. */
-    template <int dim, typename Tree>
+    /** The largest of some numbers of grid cells. */
+    template <typename Numbers>
+    int
+    largest_of(const Numbers &n)
+    {
+      return *std::max_element(n.begin(), n.end());
+    }
+
+    /** Positions of the nearest points in the list, by id, and their distance:
+     *  none, and infinity, if no point counts. Distances that differ by
+     *  rounding only count as equal; else the choice would depend on the frame.
+     *  @param side of the query, if only points on it count */
+    template <int dim>
     std::pair<std::vector<unsigned int>, double>
     nearest(const Point<dim>     &query,
             const PointList<dim> &list,
-            const Tree           &tree,
+            const PointBins<dim> &bins,
+            const GridBox<dim>   &box,
             const Side<dim>      &side = {})
     {
-      // A lattice can have 2^dim points at the same distance. Twice as many are
-      // looked at, so that all of them are found also beside a few nearer ones.
-      constexpr unsigned int n_ties   = 2 << dim;
-      double                 shortest = std::numeric_limits<double>::infinity();
+      // Mostly the nearest point is within a grid spacing or two; only else the
+      // whole list is looked at. Then all that are equally near are collected.
+      // The order by id makes the sum of a mean independent of ranks.
+      constexpr double equal    = 1. + 1e-9;
+      const double     h        = box.spacing();
+      double           shortest = std::numeric_limits<double>::infinity();
+      const auto       counts   = [&](const unsigned int i) {
+        return side.n.norm_square() == 0. || side.has(query, list.positions[i]);
+      };
+      const auto look_at = [&](const unsigned int i) {
+        if (counts(i))
+          shortest = std::min(shortest, query.distance(list.positions[i]));
+      };
+      for (double radius = 0.5 * h; shortest > radius && radius <= 2. * h;
+           radius *= 2.)
+        bins.visit_within(query, radius, look_at);
+      if (std::isinf(shortest))
+        for (unsigned int i = 0; i < list.size(); ++i)
+          look_at(i);
       std::vector<unsigned int> found;
-      namespace bgi = boost::geometry::index;
-      if (side.n.norm_square() == 0.)
-        tree.query(bgi::nearest(query, n_ties), std::back_inserter(found));
-      else
-        tree.query(bgi::nearest(query, n_ties) &&
-                     bgi::satisfies([&](const unsigned int i) {
-                       return side.has(query, list.positions[i]);
-                     }),
-                   std::back_inserter(found));
-      for (const unsigned int i : found)
-        shortest = std::min(shortest, query.distance(list.positions[i]));
-      found.erase(std::remove_if(found.begin(),
-                                 found.end(),
-                                 [&](const unsigned int i) {
-                                   return query.distance(list.positions[i]) >
-                                          // Distances that differ by rounding
-                                          // only count as equal; else the
-                                          // choice would depend on the frame.
-                                          // The order by id makes the sum of a
-                                          // mean independent of ranks.
-                                          shortest * (1. + 1e-9);
-                                 }),
-                  found.end());
+      if (std::isfinite(shortest))
+        bins.visit_within(query, shortest * equal * equal, [&](const auto i) {
+          if (counts(i) &&
+              query.distance(list.positions[i]) <= shortest * equal)
+            found.push_back(i);
+        });
       std::sort(found.begin(),
                 found.end(),
                 [&](const unsigned int i, const unsigned int j) {
@@ -174,6 +184,34 @@ namespace Morula
 
   namespace
   {
+    /** Points of one body, to be searched. */
+    template <int dim>
+    struct PointsOfBody
+    {
+      PointList<dim>                list;
+      std::optional<PointBins<dim>> bins;
+    };
+
+    /** Points by their body, which is the first number of each. */
+    template <int dim>
+    std::map<unsigned int, PointsOfBody<dim>>
+    by_body(const PointList<dim> &list, const GridBox<dim> &box)
+    {
+      const unsigned int                        n = list.n_numbers - 1;
+      std::map<unsigned int, PointsOfBody<dim>> bodies;
+      for (unsigned int i = 0; i < list.size(); ++i)
+        {
+          PointList<dim> &one = bodies[list.row(i)[0]].list;
+          one.n_numbers       = n;
+          one.add(list.ids[i],
+                  list.positions[i],
+                  ArrayView<const double>(list.row(i).data() + 1, n));
+        }
+      for (auto &[body, points] : bodies)
+        points.bins.emplace(box, points.list.positions);
+      return bodies;
+    }
+
     /** nearest_numbers() among points of the same side. */
     template <int dim>
     std::vector<double>
@@ -183,76 +221,59 @@ namespace Morula
                     const NearestQuery            &wanted,
                     const BackgroundGrid<dim>     &grid)
     {
-      // The points come with their body in front of what is wanted. Each body
-      // has a tree of its own. The radius doubles as in nearest_numbers(); if
-      // even the whole box holds no point of a query's body, that body is gone,
-      // and the nearest of all points counts. So does the nearest of the body
-      // where none is behind a surface within a few grid cells: such a surface
-      // has lost its tissue.
-      constexpr int near_enough = 4;
-      NearestQuery  with_body{wanted.n + 1,
-                             [&](const unsigned int   p,
-                                 std::vector<double> &numbers) {
-                               numbers.push_back(points.body(p));
-                               wanted.append(p, numbers);
-                             },
-                             wanted.ties};
-      int           largest = 0;
-      for (const int n : grid.box().n())
-        largest = std::max(largest, n);
+      // The points come with their body in front of what is wanted. The radius
+      // doubles as in nearest_numbers(); if even the whole box holds no point
+      // of a query's body, that body is gone, and the nearest of all points
+      // counts. So does the nearest of the body where none is behind a surface
+      // within a few grid cells: such a surface has lost its tissue.
+      constexpr int       near_enough = 4;
+      const GridBox<dim> &box         = grid.box();
+      const NearestQuery  with_body{wanted.n + 1,
+                                   [&](const unsigned int   p,
+                                       std::vector<double> &numbers) {
+                                     numbers.push_back(points.body(p));
+                                     wanted.append(p, numbers);
+                                   },
+                                   wanted.ties};
+      const auto          look = [&](const Point<dim>        &query,
+                            const PointsOfBody<dim> &body,
+                            const Side<dim>         &side = {}) {
+        return nearest(query, body.list, *body.bins, box, side);
+      };
       for (int radius = 1;; radius *= 2)
         {
-          const PointList<dim> list =
-            near_points(queries, points, with_body, grid, radius);
-          std::map<unsigned int, PointList<dim>> lists; // by body
-          for (unsigned int i = 0; i < list.size(); ++i)
-            lists.emplace(list.row(i)[0], wanted.n)
-              .first->second.add(list.ids[i],
-                                 list.positions[i],
-                                 ArrayView<const double>(list.row(i).data() + 1,
-                                                         wanted.n));
-          const bool          everywhere_looked = radius > 2 * largest;
-          double              farthest          = 0.;
+          const std::map<unsigned int, PointsOfBody<dim>> bodies =
+            by_body(near_points(queries, points, with_body, grid, radius), box);
+          const bool everywhere_looked = radius > 2 * largest_of(box.n());
+          double     farthest          = 0.;
           std::vector<double> numbers;
-          using Tree = decltype(pack_rtree_of_indices(list.positions));
-          std::map<unsigned int, Tree> trees;
-          for (const auto &[body, one] : lists)
-            trees.emplace(body, pack_rtree_of_indices(one.positions));
           for (std::size_t q = 0; q < queries.size(); ++q)
             {
-              auto tree = trees.find(sides[q].body);
-              for (auto other = trees.begin();
-                   everywhere_looked && trees.count(sides[q].body) == 0 &&
-                   other != trees.end();
-                   ++other)
-                if (tree == trees.end() ||
-                    nearest(queries[q], lists.at(other->first), other->second)
-                        .second <
-                      nearest(queries[q], lists.at(tree->first), tree->second)
-                        .second)
-                  tree = other;
-              if (tree == trees.end())
-                {
-                  farthest = std::numeric_limits<double>::infinity();
-                  break;
-                }
-              const PointList<dim> &one = lists.at(tree->first);
-              auto [found, distance] =
-                nearest(queries[q], one, tree->second, sides[q]);
-              if (found.empty() && radius >= near_enough)
+              auto body = bodies.find(sides[q].body);
+              if (body == bodies.end() && everywhere_looked)
+                body =
+                  std::min_element(bodies.begin(),
+                                   bodies.end(),
+                                   [&](const auto &a, auto &b) {
+                                     return look(queries[q], a.second).second <
+                                            look(queries[q], b.second).second;
+                                   });
+              std::vector<unsigned int> found;
+              double distance = std::numeric_limits<double>::infinity();
+              if (body != bodies.end())
                 std::tie(found, distance) =
-                  nearest(queries[q], one, tree->second);
-              if (found.empty())
-                {
-                  farthest = std::numeric_limits<double>::infinity();
-                  break;
-                }
+                  look(queries[q], body->second, sides[q]);
+              if (body != bodies.end() && found.empty() &&
+                  radius >= near_enough)
+                std::tie(found, distance) = look(queries[q], body->second);
               farthest = std::max(farthest, distance);
-              append_wanted(found, one, wanted.ties, numbers);
+              if (found.empty())
+                break;
+              append_wanted(found, body->second.list, wanted.ties, numbers);
             }
-          const double sure = radius * grid.box().spacing();
-          if (Utilities::MPI::max(farthest, grid.communicator()) <= sure ||
-              everywhere_looked)
+          if (everywhere_looked ||
+              Utilities::MPI::max(farthest, grid.communicator()) <=
+                radius * box.spacing())
             return numbers;
         }
     }
@@ -273,20 +294,17 @@ namespace Morula
     // every query of every rank has found a point that is nearer than all that
     // may lie outside of the list. Mostly the first radius does. Ranks go on
     // together, since each pass is collective.
-    const GridBox<dim> &box     = grid.box();
-    int                 largest = 0;
-    for (const int n : box.n())
-      largest = std::max(largest, n);
+    const GridBox<dim> &box = grid.box();
     for (int radius = 1;; radius *= 2)
       {
         const PointList<dim> list =
           near_points(queries, points, wanted, grid, radius);
-        const auto          tree = pack_rtree_of_indices(list.positions);
-        std::vector<double> numbers;
-        double              farthest = 0.;
+        const PointBins<dim> bins(box, list.positions);
+        std::vector<double>  numbers;
+        double               farthest = 0.;
         for (const Point<dim> &query : queries)
           {
-            const auto [found, distance] = nearest(query, list, tree);
+            const auto [found, distance] = nearest(query, list, bins, box);
             farthest                     = std::max(farthest, distance);
             if (!found.empty())
               append_wanted(found, list, wanted.ties, numbers);
@@ -298,7 +316,8 @@ namespace Morula
           return numbers;
         // Nothing in the box is farther than its diagonal, so there is no point
         // at all.
-        AssertThrow(radius <= 2 * largest, ExcMessage("There are no cells."));
+        AssertThrow(radius <= 2 * largest_of(box.n()),
+                    ExcMessage("There are no cells."));
       }
   }
 

@@ -6,7 +6,6 @@
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/mechanics/drag.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/slow_steps.h>
 

@@ -6,6 +6,7 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/point_motions.h>
+#include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 

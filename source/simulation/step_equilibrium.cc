@@ -91,18 +91,20 @@ namespace Morula
   {
     // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
     // turn by turn (5.6), and reads the forces out of the terms. The parts of
-    // effects come before the terms, which may keep references to them.
-    const Parts          parts = this->parts(attempt);
-    const TermList       list  = terms(attempt, points, parts);
-    MomentumBalance<dim> balance(space,
+    // effects keep references to the attempt, and come before the terms, which
+    // may keep references to them.
+    const AttemptAtStep<dim> of_parts = at_step(attempt);
+    const Parts              parts    = this->parts(of_parts);
+    const TermList           list     = terms(attempt, points, parts);
+    MomentumBalance<dim>     balance(space,
                                  list,
                                  timer,
                                  comm,
                                  parts.enclosure,
                                  parts.meeting != nullptr ?
-                                   &parts.meeting->pairs() :
-                                   nullptr);
-    const LinearProblem  linear =
+                                       &parts.meeting->pairs() :
+                                       nullptr);
+    const LinearProblem      linear =
       balance.linear_problem(attempt.typical_stiffness,
                              inertia(),
                              tissue.cells().size());
@@ -127,28 +129,35 @@ namespace Morula
 
 
   template <int dim>
+  AttemptAtStep<dim>
+  StepEquilibrium<dim>::at_step(const Attempt &attempt) const
+  {
+    return {tissue,
+            space,
+            model.material,
+            attempt.growth,
+            attempt.t,
+            attempt.t_next,
+            attempt.typical_stiffness,
+            !attempt.halve_first,
+            model.scene.solver.kernel,
+            model.scene.solver.newton_tolerance,
+            attempt.kept,
+            timer,
+            comm};
+  }
+
+
+  template <int dim>
   typename StepEquilibrium<dim>::Parts
-  StepEquilibrium<dim>::parts(const Attempt &attempt) const
+  StepEquilibrium<dim>::parts(const AttemptAtStep<dim> &attempt) const
   {
     // The conditions' parts come in the order of the scene, then what may meet.
-    const AttemptAtStep<dim> of_parts{tissue,
-                                      space,
-                                      model.material,
-                                      attempt.growth,
-                                      attempt.t,
-                                      attempt.t_next,
-                                      attempt.typical_stiffness,
-                                      !attempt.halve_first,
-                                      model.scene.solver.kernel,
-                                      model.scene.solver.newton_tolerance,
-                                      attempt.kept,
-                                      timer,
-                                      comm};
-    Parts                    parts;
-    parts.list = model.boundary_conditions.parts_of_step(of_parts);
+    Parts parts;
+    parts.list = model.boundary_conditions.parts_of_step(attempt);
     if (may_meet())
       {
-        auto part     = encounters->part_of_step(of_parts);
+        auto part     = encounters->part_of_step(attempt);
         parts.meeting = part.get();
         parts.list.push_back(std::move(part));
       }

@@ -95,8 +95,12 @@ namespace Morula
             const MaterialPoints<dim>        &points,
             NewtonReport                     &report,
             std::optional<ConditionEstimate> &condition) const;
+    /** The attempt as effects see it. */
+    AttemptAtStep<dim>
+    at_step(const Attempt &attempt) const;
+    /** Keeps references to the attempt. */
     Parts
-    parts(const Attempt &attempt) const;
+    parts(const AttemptAtStep<dim> &attempt) const;
     /** The equilibrium, turn by turn, from u on. Collective. */
     Equilibrium::Evaluation
     find(const Attempt        &attempt,

@@ -19,6 +19,36 @@ namespace Morula
     /** Points that are deeper in each other than this, in units of h, are those
      *  of a sheet's two faces. */
     constexpr double behind_another = 0.1;
+
+    /** Bodies in couples of this rank, the lower number first. */
+    using Couples = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    /** What each body becomes part of, by the couples of all ranks.
+     *  Collective. */
+    std::map<unsigned int, unsigned int>
+    joined(Couples couples, const MPI_Comm comm)
+    {
+      // All ranks learn all couples and join them alike: the lower number wins,
+      // and couples are followed to their end, as three may meet at once.
+      std::sort(couples.begin(), couples.end());
+      couples.erase(std::unique(couples.begin(), couples.end()), couples.end());
+      std::map<unsigned int, unsigned int> into;
+      const auto                           root = [&](unsigned int body) {
+        while (into.count(body) > 0)
+          body = into.at(body);
+        return body;
+      };
+      for (const Couples &list : Utilities::MPI::all_gather(comm, couples))
+        for (const auto &[one, other] : list)
+          {
+            const unsigned int a = root(one), b = root(other);
+            if (a != b)
+              into[std::max(a, b)] = std::min(a, b);
+          }
+      for (auto &[body, target] : into)
+        target = root(target);
+      return into;
+    }
   } // namespace
 
 
@@ -43,10 +73,7 @@ namespace Morula
   find_fusion(const Tissue<dim> &tissue, const double time)
   {
     // Points that have been touched long enough look for such points in front
-    // of them within half a grid spacing, also on other ranks. All ranks learn
-    // all couples of bodies and join them alike: the lower number wins, and
-    // couples are gone through until nothing changes, as three may meet at
-    // once.
+    // of them within half a grid spacing, also on other ranks.
     const BoundaryPoints<dim> &store = tissue.boundary_points();
     std::vector<Point<dim>>    queries;
     std::vector<unsigned int>  old;
@@ -66,7 +93,7 @@ namespace Morula
     const NearTree<dim> tree(near.positions);
     const double        h = tissue.grid().box().spacing();
     Fusion              fusion;
-    std::vector<std::pair<unsigned int, unsigned int>> couples;
+    Couples             couples;
     for (std::size_t k = 0; k < old.size(); ++k)
       {
         const unsigned int   body = store.body(old[k]);
@@ -91,30 +118,7 @@ namespace Morula
         if (met)
           fusion.points.push_back(old[k]);
       }
-    std::sort(couples.begin(), couples.end());
-    couples.erase(std::unique(couples.begin(), couples.end()), couples.end());
-    std::vector<unsigned int> mine;
-    for (const auto &[a, b] : couples)
-      {
-        mine.push_back(a);
-        mine.push_back(b);
-      }
-    std::map<unsigned int, unsigned int> &into = fusion.into;
-    const auto                            root = [&](unsigned int body) {
-      while (into.count(body) > 0)
-        body = into.at(body);
-      return body;
-    };
-    for (const auto &list :
-         Utilities::MPI::all_gather(tissue.communicator(), mine))
-      for (std::size_t k = 0; k < list.size(); k += 2)
-        {
-          const unsigned int a = root(list[k]), b = root(list[k + 1]);
-          if (a != b)
-            into[std::max(a, b)] = std::min(a, b);
-        }
-    for (auto &[body, target] : into)
-      target = root(target);
+    fusion.into = joined(couples, tissue.communicator());
     return fusion;
   }
 

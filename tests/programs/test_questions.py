@@ -44,7 +44,7 @@ def test_bodies_near_each_other(runs):
 @pytest.mark.parametrize("offset, ranks", [(OFFSETS[0], 1), (OFFSETS[2], 2)])
 def test_hole_that_closes(runs, offset, ranks):
     run = runs.run("hole", {
-        "Dimension": 2, "Time/End time": 0.9, "Time/Step": 0.05, "Tissue/Radius": 200,
+        "Dimension": 2, "Time/End time": 0.9, "Time/Step": 0.025, "Tissue/Radius": 200,
         "Tissue/Inner radius": 80, "Tissue/Cell spacing": 4, "Tissue/Surface cells": "trimmed",
         "Grid/Spacing": 20, "Grid/Offset": offset, "Material/Poisson's ratio": 0.3,
         WHERE + "Fixed where": "X^2 + Y^2 > 190^2",

@@ -263,7 +263,7 @@ namespace Morula
     for (unsigned int d = 0; d < 3; ++d)
       values[d] = place[d];
     values[static_cast<unsigned int>(Variable::t)] = t;
-    return evaluate(values, component);
+    return value(values, component);
   }
 
 

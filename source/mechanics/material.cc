@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/mechanics/material.h>
-
-#include <limits>
-#include <sstream>
 
 namespace Morula
 {
@@ -108,38 +104,11 @@ namespace Morula
   {
     // What depends on a cell's state or on time cannot be judged from a place:
     // those values are checked where cells are evaluated.
-    const auto require = [&X](const ExpressionKey &key,
-                              const double         smallest,
-                              const double         largest,
-                              const std::string   &allowed,
-                              const std::string   &unit,
-                              const std::string   &remedy) {
-      const Expression &expression = key.expression(dim);
-      if (expression.depends_on_state() || expression.depends_on_time())
-        return;
-      const double value = expression.value(X, 0.);
-      if (value > smallest && value < largest)
-        return;
-      std::ostringstream place;
-      place << "It is " << value << unit << " at (" << X << ") um. " << remedy
-            << " all over the tissue.";
-      throw InputError(expression.key(),
-                       expression.text(),
-                       allowed,
-                       place.str());
-    };
-    require(material.youngs_modulus,
-            0.,
-            std::numeric_limits<double>::infinity(),
-            "a value > 0 kPa",
-            " kPa",
-            "Make it positive");
-    require(material.poissons_ratio,
-            -1.,
-            0.5,
-            "a number > -1 and < 0.5",
-            "",
-            "Keep it in this range");
+    for (const ExpressionKey *key :
+         {&material.youngs_modulus, &material.poissons_ratio})
+      if (const Expression &expression = key->expression(dim);
+          !expression.depends_on_state() && !expression.depends_on_time())
+        expression.value(X, 0.);
   }
 
 

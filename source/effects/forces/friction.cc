@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/rest_of_scene.h>
 #include <morula/mechanics/drag.h>
 
-#include <deal.II/base/numbers.h>
-
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -83,20 +79,10 @@ namespace Morula
   {
     if (coefficient.depends_on_state())
       return;
-    // A value of an expression is not tested against the rule of its key, so
-    // the sign is tested here. The end time is one sample: a coefficient that
-    // falls with time is smallest there.
+    // The end time is one sample: a coefficient that falls with time is
+    // smallest there.
     for (const Point<dim> &X : scene.founders)
-      if (const double value = coefficient.value(X, scene.end_time); value < 0.)
-        {
-          std::ostringstream remedy;
-          remedy << "It is " << value << " at the cell from (" << X
-                 << ") um at End time. 0 is no friction.";
-          throw InputError(coefficient.key(),
-                           coefficient.text(),
-                           "a value >= 0 kPa day/um^2",
-                           remedy.str());
-        }
+      coefficient.value(X, scene.end_time);
   }
 
 

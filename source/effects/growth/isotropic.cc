@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
-
-#include <sstream>
 
 namespace Morula
 {
@@ -40,27 +37,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  IsotropicGrowth<dim>::checked(const double      value,
-                                const Point<dim> &X,
-                                const double      t) const
-  {
-    // A stretch that is not positive would turn the cell inside out. NaN fails
-    // the comparison and is refused, too.
-    if (value > 0.)
-      return value;
-    std::ostringstream place;
-    place << "It is " << value << " at the cell from (" << X
-          << ") um, t = " << t
-          << " day. Choose a stretch that stays positive until End time.";
-    throw InputError(theta.key(),
-                     theta.text(),
-                     "a value > 0 (a ratio of lengths)",
-                     place.str());
-  }
-
-
-  template <int dim>
   Tensor<2, dim>
   IsotropicGrowth<dim>::growth(const GrowingCell<dim> &cell,
                                const double /*t0*/,
@@ -69,14 +45,11 @@ namespace Morula
     // This is doc/theory.md (6.1): a function of the end of the step alone, so
     // growth has no error in time.
     const Tensor<2, dim> I(unit_symmetric_tensor<dim>());
-    const Point<dim>    &X = cell.founder_position;
     if (!theta.depends_on_state())
-      return stretch(X, t1) * I;
+      return stretch(cell.founder_position, t1) * I;
     // An estimate before the run has no cells with a state; it counts on no
     // growth.
-    return cell.present == nullptr ?
-             I :
-             checked(cell.present->value(theta, t1), X, t1) * I;
+    return cell.present == nullptr ? I : cell.present->value(theta, t1) * I;
   }
 
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/rest_of_scene.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/surface_tension.h>
-
-#include <sstream>
 
 namespace Morula
 {
@@ -68,24 +65,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  SurfaceTension<dim>::value(const Point<dim> &X, const double t) const
-  {
-    // The sign is tested here, with place and time in the message.
-    const double gamma = tension.value(X, t);
-    if (gamma >= 0.)
-      return gamma;
-    std::ostringstream place;
-    place << "It is " << gamma << " at (" << X << ") um, t = " << t << " day. "
-          << remedy;
-    throw InputError(tension.key(),
-                     tension.text(),
-                     "a value >= 0 kPa um",
-                     place.str());
-  }
-
-
-  template <int dim>
   std::unique_ptr<Term<dim>>
   SurfaceTension<dim>::term(const LoadedPoints<dim> &points,
                             const double             t) const
@@ -93,7 +72,7 @@ namespace Morula
     using Load = typename AreaTerm<dim>::Load;
     return std::make_unique<SurfaceEnergy<dim>>(
       points, this->template loads<Load>(points, [&](const auto &point) {
-        return Load{value(point.X, t), point.area};
+        return Load{tension.value(point.X, t), point.area};
       }));
   }
 
@@ -102,7 +81,7 @@ namespace Morula
   void
   SurfaceTension<dim>::check_at(const Point<dim> &X, const double t) const
   {
-    value(X, t);
+    tension.value(X, t);
   }
 
 

@@ -48,7 +48,7 @@ namespace Morula
     double
     stretch(const Point<dim> &X, const double t) const
     {
-      return checked(theta.value(X, t), X, t);
+      return theta.value(X, t);
     }
 
     Tensor<2, dim>
@@ -60,10 +60,6 @@ namespace Morula
     review(const Preview<dim> &scene, Review &review) const override;
 
   private:
-    /** Refuses a stretch that is not positive. */
-    double
-    checked(const double value, const Point<dim> &X, const double t) const;
-
     Expression theta;
   };
 } // namespace Morula

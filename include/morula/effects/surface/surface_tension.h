@@ -54,10 +54,6 @@ namespace Morula
     void
     check_at(const Point<dim> &X, const double t) const override;
 
-    /** γ at a point that the tension acts on, kPa µm. @throws InputError */
-    double
-    value(const Point<dim> &X, const double t) const;
-
     const Expression tension;
   };
 } // namespace Morula

@@ -268,9 +268,9 @@ namespace Morula
 
 
   void
-  Expression::set_rule(const ExpressionRule &new_rule)
+  Expression::set_rule(const Rule<double> &new_rule)
   {
-    rule = std::make_shared<const ExpressionRule>(new_rule);
+    rule = std::make_shared<const Rule<double>>(new_rule);
   }
 
 

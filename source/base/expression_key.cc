@@ -90,7 +90,7 @@ namespace Morula
   }
 
 
-  ExpressionKey::ExpressionKey(const std::string &path,
+  ExpressionKey::ExpressionKey(const KeyPath     &path,
                                const std::string &default_text,
                                const std::string &documentation,
                                const Evaluated    evaluated,
@@ -102,34 +102,14 @@ namespace Morula
   {}
 
 
-  ExpressionKey &
-  ExpressionKey::require(const std::function<bool(const double)> &holds,
-                         const std::string                       &allowed,
-                         const std::string                       &remedy)
+  ExpressionKey::ExpressionKey(const KeyPath      &path,
+                               const std::string  &default_text,
+                               const std::string  &documentation,
+                               const Evaluated     evaluated,
+                               const Rule<double> &rule)
+    : ExpressionKey(path, default_text, documentation, evaluated)
   {
-    rule = {holds, allowed, remedy};
-    // What was parsed belongs to the old rule.
-    parsed.reset();
-    return *this;
-  }
-
-
-  ExpressionKey &
-  ExpressionKey::positive(const std::string &unit, const std::string &remedy)
-  {
-    return require([](const double value) { return value > 0.; },
-                   "a value > 0 " + unit,
-                   remedy);
-  }
-
-
-  ExpressionKey &
-  ExpressionKey::not_negative(const std::string &unit,
-                              const std::string &remedy)
-  {
-    return require([](const double value) { return value >= 0.; },
-                   "a value >= 0 " + unit,
-                   remedy);
+    this->rule = rule;
   }
 
 

@@ -13,13 +13,17 @@
 
 namespace Morula
 {
-  AnyKey::AnyKey(const std::string &path,
+  AnyKey::AnyKey(const KeyPath     &path,
                  const std::string &default_text,
                  const std::string &documentation)
-    : path_(path)
+    : path_(path.path)
     , default_text_(default_text)
     , documentation_(documentation)
-  {}
+  {
+    if (path.keys != nullptr)
+      path.keys->offsets.push_back(reinterpret_cast<char *>(this) -
+                                   reinterpret_cast<char *>(path.keys));
+  }
 
 
   void
@@ -96,98 +100,6 @@ namespace Morula
       return list;
     }
 
-    // One set of functions for each type of value.
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<std::string> &limits)
-    {
-      if (limits.words.empty())
-        return std::make_unique<Patterns::Anything>();
-      return std::make_unique<Patterns::Selection>(limits.words);
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<double> &limits)
-    {
-      return std::make_unique<Patterns::Double>(limits.smallest);
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<unsigned int> &limits)
-    {
-      return std::make_unique<Patterns::Integer>(limits.smallest,
-                                                 limits.largest);
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<bool> &)
-    {
-      return std::make_unique<Patterns::Bool>();
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<std::vector<double>> &limits)
-    {
-      return std::make_unique<Patterns::List>(Patterns::Double(),
-                                              limits.fewest,
-                                              limits.most);
-    }
-
-    std::unique_ptr<Patterns::PatternBase>
-    pattern_of(const Limits<std::vector<std::string>> &limits)
-    {
-      return std::make_unique<Patterns::List>(Patterns::Selection(limits.words),
-                                              1);
-    }
-
-    std::string
-    phrase_of(const Limits<std::string> &limits)
-    {
-      return limits.words.empty() ?
-               "" :
-               "any one of " + boost::join(words_of(limits.words), ", ");
-    }
-
-    std::string
-    phrase_of(const Limits<double> &limits)
-    {
-      return limits.smallest == Patterns::Double::min_double_value ?
-               "a number" :
-               "a number >= " + as_text(limits.smallest);
-    }
-
-    std::string
-    phrase_of(const Limits<unsigned int> &limits)
-    {
-      return limits.largest == Patterns::Integer::max_int_value ?
-               "an integer >= " + std::to_string(limits.smallest) :
-               "an integer from " + std::to_string(limits.smallest) + " to " +
-                 std::to_string(limits.largest);
-    }
-
-    std::string
-    phrase_of(const Limits<bool> &)
-    {
-      return "a boolean value (true or false)";
-    }
-
-    std::string
-    phrase_of(const Limits<std::vector<double>> &limits)
-    {
-      const std::string n = limits.most == Patterns::List::max_int_value ?
-                              "" :
-                              " of " + std::to_string(limits.fewest) + " to " +
-                                std::to_string(limits.most) + " elements";
-      return "a list" + n + " separated by commas, each a number";
-    }
-
-    std::string
-    phrase_of(const Limits<std::vector<std::string>> &limits)
-    {
-      return "a list separated by commas, each any one of " +
-             boost::join(words_of(limits.words), ", ");
-    }
-
     template <typename T>
     std::string
     to_text(const T &value)
@@ -201,25 +113,27 @@ namespace Morula
 
 
   template <typename T>
-  Key<T>::Key(const std::string &path,
+  Key<T>::Key(const KeyPath     &path,
               const T           &default_value,
               const std::string &documentation,
-              const Limits<T>   &limits)
+              const Limits      &limits,
+              const Rule<T>     &rule)
     : AnyKey(path, to_text(default_value), documentation)
     , value_(default_value)
     , assigned(default_value)
     , text_(default_text())
     , limits(limits)
-  {}
+  {
+    if (rule.holds)
+      require(rule);
+  }
 
 
   template <typename T>
   Key<T> &
-  Key<T>::require(const std::function<bool(const T &)> &rule,
-                  const std::string                    &allowed,
-                  const std::string                    &remedy)
+  Key<T>::require(const Rule<T> &rule)
   {
-    rules.push_back({rule, allowed, remedy});
+    rules.push_back(rule);
     return *this;
   }
 
@@ -288,7 +202,21 @@ namespace Morula
   std::unique_ptr<Patterns::PatternBase>
   Key<T>::pattern() const
   {
-    return pattern_of(limits);
+    using namespace Patterns;
+    if constexpr (std::is_same<T, double>::value)
+      return std::make_unique<Double>(limits.smallest, limits.largest);
+    else if constexpr (std::is_same<T, unsigned int>::value)
+      return std::make_unique<Integer>(limits.fewest(), limits.most());
+    else if constexpr (std::is_same<T, bool>::value)
+      return std::make_unique<Bool>();
+    else if constexpr (std::is_same<T, std::vector<double>>::value)
+      return std::make_unique<List>(Double(), limits.fewest(), limits.most());
+    else if constexpr (std::is_same<T, std::vector<std::string>>::value)
+      return std::make_unique<List>(Selection(limits.words), 1);
+    else if (limits.words.empty())
+      return std::make_unique<Anything>();
+    else
+      return std::make_unique<Selection>(limits.words);
   }
 
 
@@ -296,7 +224,29 @@ namespace Morula
   std::string
   Key<T>::allowed() const
   {
-    return phrase_of(limits);
+    const std::string words = boost::join(words_of(limits.words), ", ");
+    const std::string bounds =
+      std::to_string(limits.fewest()) + " to " + std::to_string(limits.most());
+    if constexpr (std::is_same<T, double>::value)
+      return limits.smallest == -Limits::unlimited ?
+               "a number" :
+               "a number >= " + as_text(limits.smallest);
+    else if constexpr (std::is_same<T, unsigned int>::value)
+      return limits.largest == Limits::unlimited ?
+               "an integer >= " + std::to_string(limits.fewest()) :
+               "an integer from " + bounds;
+    else if constexpr (std::is_same<T, bool>::value)
+      return "a boolean value (true or false)";
+    else if constexpr (std::is_same<T, std::vector<double>>::value)
+      return "a list" +
+             (limits.largest == Limits::unlimited ?
+                "" :
+                " of " + bounds + " elements") +
+             " separated by commas, each a number";
+    else if constexpr (std::is_same<T, std::vector<std::string>>::value)
+      return "a list separated by commas, each any one of " + words;
+    else
+      return words.empty() ? "" : "any one of " + words;
   }
 
 
@@ -327,7 +277,7 @@ namespace Morula
   void
   Key<T>::check(const unsigned int) const
   {
-    for (const Rule &rule : rules)
+    for (const Rule<T> &rule : rules)
       if (!rule.holds(value_))
         refuse(rule.allowed, rule.remedy);
   }
@@ -347,6 +297,17 @@ namespace Morula
   template class Key<std::string>;
   template class Key<std::vector<double>>;
   template class Key<std::vector<std::string>>;
+
+
+  KeyList
+  Keys::list()
+  {
+    KeyList keys;
+    for (const std::ptrdiff_t offset : offsets)
+      keys.push_back(
+        reinterpret_cast<AnyKey *>(reinterpret_cast<char *>(this) + offset));
+    return keys;
+  }
 
 
   std::vector<const AnyKey *>

@@ -12,41 +12,6 @@ namespace Morula
   } // namespace
 
 
-  TimeParameters::TimeParameters()
-    : end_time("Time/End time",
-               1.,
-               "Time at which the run ends; > 0. Units: day.")
-    , step(step_path,
-           0.05,
-           "Time step; > 0. Steps end at its multiples. Units: day.")
-    , smallest_step("Time/Smallest step",
-                    1e-4,
-                    "A step that fails is halved; the run gives up below "
-                    "this; > 0. Units: day.")
-    , stop_at_cells("Time/Stop at cells",
-                    0,
-                    "End early at the first step end with at least so many "
-                    "cells; 0: never.")
-    , tolerance("Time/Tolerance",
-                0.,
-                "What a step may miss of growth and flow, as a share of the "
-                "tissue's volume (step_error in statistics.csv): steps are "
-                "Step/2^k, as long as this allows, and short at the start and "
-                "after a cut. Not negative; 0: all steps are Step long.")
-  {
-    const auto is_positive = [](const double t) { return t > 0.; };
-    end_time.require(is_positive,
-                     "a number of days > 0",
-                     "Choose a later end.");
-    step.require(is_positive,
-                 "a number of days > 0",
-                 "Choose a positive step.");
-    tolerance.require([](const double share) { return share >= 0.; },
-                      "a number >= 0",
-                      "0 keeps all steps as long as Step.");
-  }
-
-
   void
   TimeParameters::check() const
   {

@@ -47,7 +47,7 @@ namespace Morula
   void
   DirectionKey::check(const unsigned int dim) const
   {
-    if (empty())
+    if (value().empty())
       return;
     if (dim == 2)
       unit_vector<2>(path(), value());

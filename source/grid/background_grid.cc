@@ -230,7 +230,7 @@ namespace Morula
     , tria(comm)
   {
     for (unsigned int d = 0; d < dim; ++d)
-      offset[d] = parameters.offset[d];
+      offset[d] = parameters.offset.value()[d];
     box_ = GridBox<dim>({}, {}, h, offset);
   }
 

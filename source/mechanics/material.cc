@@ -7,57 +7,12 @@
 namespace Morula
 {
   MaterialParameters::MaterialParameters(const Materials &materials)
-    : youngs_modulus("Material/Young's modulus",
-                     "1.0",
-                     "E; > 0. A number or an expression of X, Y, Z (the "
-                     "cell's initial position, um), or of what the cell is. "
-                     "Units: kPa.",
-                     Evaluated::property)
-    , poissons_ratio("Material/Poisson's ratio",
-                     "0.4",
-                     "nu; -1 < nu < 0.5. A number or an expression, like E.",
-                     Evaluated::property)
-    , energy_per("Material/Energy per",
-                 "initial volume",
-                 "The volume that the elastic energy is counted per: the "
-                 "initial volume, halved at every division, or the volume "
-                 "grown without stress.",
-                 {"initial volume|grown volume"})
-    , volumetric_strain(
-        "Material/Volumetric strain",
-        "pointwise",
-        "The elastic volume change in the volumetric part of the energy (that "
-        "with lambda, or kappa): each cell's own, its mean over the cells "
-        "of a grid cell, or that of the sum of their volumes. Projected or "
-        "pooled, tissue does not lock as Poisson's ratio approaches 0.5; "
-        "choose one of them above about 0.47. Pooled, cells that grow or "
-        "shrink do not press those beside them in their grid cell.",
-        {"pointwise|projected|pooled"})
-    , law("Material/Law",
-          "neo-Hookean",
-          "The elastic energy as a function of the elastic deformation: the "
-          "paper's, or the one whose shear part does not depend on the volume. "
-          "The same at small strains.",
-          {materials.names().front()})
-    , on_transition(
-        "Material/On transition",
-        "keep strain",
-        "What a cell has of its elastic strain when it changes its "
-        "type, and so perhaps its stiffness: all, so that its stress "
-        "changes, or nothing, so that it is free of stress as it "
-        "stands.",
-        {"keep strain|forget stress"})
-    , materials(materials)
+    : materials(materials)
   {
-    // All further laws of the list, also those that a program has added, are
-    // allowed words.
-    const std::vector<std::string> names = materials.names();
-    for (std::size_t i = 1; i < names.size(); ++i)
-      law.add_word(names[i]);
-    youngs_modulus.positive("kPa", "Choose a positive stiffness.");
-    poissons_ratio.require([](const double nu) { return nu > -1. && nu < 0.5; },
-                           "a number > -1 and < 0.5",
-                           "Nearly incompressible tissue is 0.49 or 0.499.");
+    // All laws of the list, also those that a program has added, are allowed
+    // words.
+    for (const std::string &name : materials.names())
+      law.add_word(name);
   }
 
 
@@ -84,19 +39,6 @@ namespace Morula
     AssertThrow(material != nullptr, ExcMessage("No material " + law));
     return material;
   }
-
-
-  KeyList
-  MaterialParameters::list()
-  {
-    return {&youngs_modulus,
-            &poissons_ratio,
-            &energy_per,
-            &volumetric_strain,
-            &law,
-            &on_transition};
-  }
-
 
   template <int dim>
   void

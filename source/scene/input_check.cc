@@ -20,7 +20,7 @@ namespace Morula
     {
       // Far from the origin, places have too few digits within a grid cell. The
       // negated comparison refuses NaN as well.
-      for (const double x : place)
+      for (const double x : place.value())
         if (!(std::abs(x) <= farthest_place * h))
           place.refuse("at most " + as_text(farthest_place) +
                          " grid spacings from the origin, " +
@@ -33,7 +33,7 @@ namespace Morula
     {
       grid.check_each(dim);
       refuse_far_away(grid.offset, grid.spacing);
-      if (grid.offset.size() < dim)
+      if (grid.offset->size() < dim)
         grid.offset.refuse(std::to_string(dim) + " numbers in um",
                            "Write one for each direction.");
     }
@@ -210,7 +210,7 @@ namespace Morula
                            division.axis,
                            {});
           for (const CellTypeKeys &type : scene.cell_types.types)
-            if (!type.division_axis.empty())
+            if (!type.division_axis->empty())
               type.division_axis.refuse("nothing, as no cell proliferates",
                                         remedy + ", or remove this key.");
           return;

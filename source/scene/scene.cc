@@ -291,7 +291,7 @@ namespace Morula
     scene.apply_types();
     scene.file = file;
     find_files(scene);
-    if (scene.output_directory.empty())
+    if (scene.output_directory->empty())
       scene.output_directory =
         (std::filesystem::path("output") / std::filesystem::path(file).stem())
           .string();

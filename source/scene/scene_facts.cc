@@ -33,7 +33,7 @@ namespace Morula
     if (growth_law != "none")
       return growth_law;
     for (const CellTypeKeys &type : cell_types.types)
-      if (!type.growth_law.empty() && type.growth_law != "none")
+      if (!type.growth_law->empty() && type.growth_law != "none")
         return type.growth_law;
     return "none";
   }
@@ -56,7 +56,7 @@ namespace Morula
   Scene::division_axis(const unsigned int type) const
   {
     const bool has_own =
-      cell_types.is_on() && !cell_types.types[type].division_axis.empty();
+      cell_types.is_on() && !cell_types.types[type].division_axis->empty();
     return has_own ? cell_types.types[type].division_axis.value() :
                      division_axis();
   }
@@ -77,7 +77,7 @@ namespace Morula
   bool
   Scene::grows(const unsigned int type) const
   {
-    if (!cell_types.is_on() || cell_types.types[type].growth_law.empty())
+    if (!cell_types.is_on() || cell_types.types[type].growth_law->empty())
       return growth_law != "none";
     return cell_types.types[type].growth_law != "none";
   }

@@ -60,7 +60,7 @@ namespace Morula
         smallest = tissue.radius - tissue.inner_radius;
       for (unsigned int d = 0; d < dim; ++d)
         if (tissue.has_size(d))
-          smallest = std::min(smallest, tissue.size[d]);
+          smallest = std::min(smallest, tissue.size.value()[d]);
       if (!tissue.is_from_file())
         return smallest;
 

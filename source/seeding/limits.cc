@@ -90,10 +90,14 @@ namespace Morula
         "cell deforms as a whole.");
     if (tissue.has_radius())
       refuse_long(tissue.radius, 2. * tissue.radius, tissue.radius, h);
-    for (unsigned int d = 0; d < std::min<std::size_t>(dim, tissue.size.size());
+    for (unsigned int d = 0;
+         d < std::min<std::size_t>(dim, tissue.size->size());
          ++d)
       if (tissue.has_size(d))
-        refuse_long(tissue.size, tissue.size[d], tissue.size[d], h);
+        refuse_long(tissue.size,
+                    tissue.size.value()[d],
+                    tissue.size.value()[d],
+                    h);
   }
 
 

@@ -195,9 +195,9 @@ namespace Morula
   bool
   RunFiles<dim>::has_format(const std::string &format) const
   {
-    return std::find(scene.output.formats.begin(),
-                     scene.output.formats.end(),
-                     format) != scene.output.formats.end();
+    return std::find(scene.output.formats->begin(),
+                     scene.output.formats->end(),
+                     format) != scene.output.formats->end();
   }
 
   template <int dim>

@@ -4,6 +4,7 @@
 #ifndef morula_base_expression_h
 #define morula_base_expression_h
 
+#include <morula/base/rule.h>
 #include <morula/base/variable.h>
 
 #include <deal.II/base/numbers.h>
@@ -22,16 +23,6 @@ namespace Morula
   using namespace dealii;
 
   class ExpressionParser;
-
-  /** A condition on the values of an expression. */
-  struct ExpressionRule
-  {
-    std::function<bool(const double)> holds;
-    /** A noun phrase. */
-    std::string allowed;
-    /** A full sentence. */
-    std::string remedy;
-  };
 
   /**
    * A user's muParser expression, with one or more components separated by ';'.
@@ -92,7 +83,7 @@ namespace Morula
 
     /** Sets the rule that values for cells must obey. */
     void
-    set_rule(const ExpressionRule &rule);
+    set_rule(const Rule<double> &rule);
 
     /** The value of one component with these values of the variables in used().
      *  @throws InputError if it is not finite, or not what the rule says */
@@ -190,13 +181,13 @@ namespace Morula
     double
     evaluate(const VariableValues &values, const unsigned int component) const;
 
-    std::shared_ptr<const Vocabulary>     vocabulary_;
-    std::string                           key_;
-    std::string                           text_;
-    std::vector<double>                   constants; // empty: ask the parsers
-    std::vector<Variable>                 used_;
-    std::map<unsigned int, Expression>    of_types;
-    std::shared_ptr<const ExpressionRule> rule;
+    std::shared_ptr<const Vocabulary>   vocabulary_;
+    std::string                         key_;
+    std::string                         text_;
+    std::vector<double>                 constants; // empty: ask the parsers
+    std::vector<Variable>               used_;
+    std::map<unsigned int, Expression>  of_types;
+    std::shared_ptr<const Rule<double>> rule;
     /** One for each component. */
     std::vector<std::shared_ptr<const ExpressionParser>> parsers;
   };

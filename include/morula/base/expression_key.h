@@ -7,7 +7,6 @@
 #include <morula/base/expression.h>
 #include <morula/base/key.h>
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,26 +50,19 @@ namespace Morula
      * @param n_components 1, or 3 for a vector: in 2-D its third component may
      *        be missing
      */
-    ExpressionKey(const std::string &path,
+    ExpressionKey(const KeyPath     &path,
                   const std::string &default_text,
                   const std::string &documentation,
                   const Evaluated    evaluated,
                   const unsigned int n_components = 1);
 
-    /** Refuses values <= 0: plain numbers at once, others when they occur.
-     *  @param unit e.g. "kPa", for the message */
-    ExpressionKey &
-    positive(const std::string &unit, const std::string &remedy);
-
-    /** Refuses values < 0. */
-    ExpressionKey &
-    not_negative(const std::string &unit, const std::string &remedy);
-
-    /** Refuses values for which the rule does not hold. */
-    ExpressionKey &
-    require(const std::function<bool(const double)> &rule,
-            const std::string                       &allowed,
-            const std::string                       &remedy);
+    /** @param rule for all its values: plain numbers are refused at once,
+     * others when they occur */
+    ExpressionKey(const KeyPath      &path,
+                  const std::string  &default_text,
+                  const std::string  &documentation,
+                  const Evaluated     evaluated,
+                  const Rule<double> &rule);
 
     /** Names the symbol that --explain uses. */
     ExpressionKey &
@@ -213,7 +205,7 @@ namespace Morula
     std::vector<std::string>      fields;
     /** Path and text, by the type's number. */
     std::map<unsigned int, std::pair<std::string, std::string>> of_types;
-    std::optional<ExpressionRule>                               rule;
+    std::optional<Rule<double>>                                 rule;
     bool                                                        commas = false;
 
     // The value, parsed: made of text_ alone.

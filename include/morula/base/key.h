@@ -4,20 +4,52 @@
 #ifndef morula_base_key_h
 #define morula_base_key_h
 
+#include <morula/base/rule.h>
+
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
-#include <functional>
+#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Morula
 {
   using namespace dealii;
+
+  class AnyKey;
+  struct Keys;
+
+  /** Keys in the order of their declaration. */
+  using KeyList = std::vector<AnyKey *>;
+
+  /** The path of a key, and the section or effect of which it is a member:
+   *  {this, "Path"} registers it there. */
+  struct KeyPath
+  {
+    /** Of a key by itself. */
+    KeyPath(const std::string &path)
+      : path(path)
+    {}
+
+    KeyPath(const char *const path)
+      : path(path)
+    {}
+
+    /** @param path full, or relative to the section that place_in() names */
+    KeyPath(Keys *const keys, const std::string &path)
+      : keys(keys)
+      , path(path)
+    {}
+
+    Keys       *keys = nullptr;
+    std::string path;
+  };
 
   /**
    * One key of a .prm file, with all that is known about it. Copies are
@@ -171,7 +203,7 @@ namespace Morula
     }
 
   protected:
-    AnyKey(const std::string &path,
+    AnyKey(const KeyPath     &path,
            const std::string &default_text,
            const std::string &documentation);
     AnyKey(const AnyKey &) = default;
@@ -190,45 +222,36 @@ namespace Morula
     std::vector<std::vector<std::string>> needed_;
   };
 
-  /** What deal.II's pattern of a key admits; one for each type of value. */
-  template <typename T>
-  struct Limits;
+  /** What deal.II's pattern of a key admits, by the type of its value. */
+  struct Limits
+  {
+    Limits(const std::string &words = "")
+      : words(words)
+    {}
 
-  /** Any text, or one of some words. */
-  template <>
-  struct Limits<std::string>
-  {
-    std::string words = {}; // "first|second"; empty: any text
-  };
-  /** Numbers not below the smallest. */
-  template <>
-  struct Limits<double>
-  {
-    double smallest = Patterns::Double::min_double_value;
-  };
-  /** Integers from the smallest to the largest. */
-  template <>
-  struct Limits<unsigned int>
-  {
-    int smallest = 0;
-    int largest  = Patterns::Integer::max_int_value;
-  };
-  /** True and false; there is nothing to limit. */
-  template <>
-  struct Limits<bool>
-  {};
-  /** Lists of numbers, from the fewest to the most. */
-  template <>
-  struct Limits<std::vector<double>>
-  {
-    unsigned int fewest = 0;
-    unsigned int most   = Patterns::List::max_int_value;
-  };
-  /** Lists of at least one word; the words as in Limits<std::string>. */
-  template <>
-  struct Limits<std::vector<std::string>>
-  {
-    std::string words = {};
+    Limits(const double smallest, const double largest = unlimited)
+      : smallest(smallest)
+      , largest(largest)
+    {}
+
+    static constexpr double unlimited = std::numeric_limits<double>::max();
+
+    /** The limits as integers, of which none is negative. */
+    int
+    fewest() const
+    {
+      return std::max(smallest, 0.);
+    }
+    int
+    most() const
+    {
+      return std::min<double>(largest, std::numeric_limits<int>::max());
+    }
+
+    /** Of text, or of each entry of a list: "first|second"; empty: any. */
+    std::string words;
+    /** Of a number, or of the length of a list of numbers. */
+    double smallest = -unlimited, largest = unlimited;
   };
 
   /**
@@ -239,11 +262,12 @@ namespace Morula
   class Key : public AnyKey
   {
   public:
-    /** @param path full, or relative to the section that place_in() names */
-    Key(const std::string &path,
+    /** @param rule that check() enforces */
+    Key(const KeyPath     &path,
         const T           &default_value,
         const std::string &documentation,
-        const Limits<T>   &limits = {});
+        const Limits      &limits = {},
+        const Rule<T>     &rule   = {});
 
     const T &
     value() const
@@ -273,14 +297,6 @@ namespace Morula
 
     template <typename Other>
     Key &
-    operator*=(const Other &other)
-    {
-      value_ *= other;
-      return *this;
-    }
-
-    template <typename Other>
-    Key &
     operator/=(const Other &other)
     {
       value_ /= other;
@@ -293,49 +309,9 @@ namespace Morula
       return &value_;
     }
 
-    // Templates, since most types have no such functions.
-
-    template <typename Value = T>
-    auto
-    operator[](const std::size_t i) const
-      -> decltype(std::declval<const Value &>()[i])
-    {
-      return value_[i];
-    }
-
-    template <typename Value = T>
-    auto
-    begin() const -> decltype(std::declval<const Value &>().begin())
-    {
-      return value_.begin();
-    }
-
-    template <typename Value = T>
-    auto
-    end() const -> decltype(std::declval<const Value &>().end())
-    {
-      return value_.end();
-    }
-
-    template <typename Value = T>
-    auto
-    size() const -> decltype(std::declval<const Value &>().size())
-    {
-      return value_.size();
-    }
-
-    template <typename Value = T>
-    auto
-    empty() const -> decltype(std::declval<const Value &>().empty())
-    {
-      return value_.empty();
-    }
-
     /** Adds a rule that check() enforces. */
     Key &
-    require(const std::function<bool(const T &)> &rule,
-            const std::string                    &allowed,
-            const std::string                    &remedy);
+    require(const Rule<T> &rule);
 
     /** Sets the text that the key gets from a value of `Method`. */
     Key &
@@ -379,20 +355,14 @@ namespace Morula
     shown() const override;
 
   private:
-    struct Rule
-    {
-      std::function<bool(const T &)> holds;
-      std::string                    allowed, remedy;
-    };
-
-    T                 value_;
-    T                 assigned; // the value of text_
-    std::string       text_;
-    Limits<T>         limits;
-    std::vector<Rule> rules;
+    T                    value_;
+    T                    assigned; // the value of text_
+    std::string          text_;
+    Limits               limits;
+    std::vector<Rule<T>> rules;
   };
 
-  // Numbers compare by the conversion to T; these types need operators.
+  // Numbers compare by the conversion to T; text needs operators.
 
   /** Compares the values. */
   inline bool
@@ -401,26 +371,9 @@ namespace Morula
     return key.value() == value;
   }
   inline bool
-  operator==(const std::string &value, const Key<std::string> &key)
-  {
-    return key.value() == value;
-  }
-  inline bool
   operator!=(const Key<std::string> &key, const std::string &value)
   {
     return key.value() != value;
-  }
-  inline bool
-  operator==(const Key<std::vector<double>> &key,
-             const std::vector<double>      &value)
-  {
-    return key.value() == value;
-  }
-  inline bool
-  operator==(const Key<std::vector<std::string>> &key,
-             const std::vector<std::string>      &value)
-  {
-    return key.value() == value;
   }
 
   /** Joins text with that of a key. */
@@ -435,17 +388,14 @@ namespace Morula
     return key.value() + text;
   }
 
-  /** Keys in the order of their declaration. */
-  using KeyList = std::vector<AnyKey *>;
-
   /** Some keys that belong together: a section of the scene, or an effect. */
   struct Keys
   {
     virtual ~Keys() = default;
 
-    /** The keys in their order. */
+    /** The keys in their order: the members that were made with this. */
     virtual KeyList
-    list() = 0;
+    list();
 
     /** The keys in their order. */
     std::vector<const AnyKey *>
@@ -464,6 +414,13 @@ namespace Morula
     Keys(const Keys &) = default;
     Keys &
     operator=(const Keys &) = default;
+
+  private:
+    friend class AnyKey;
+
+    /** Where the keys stand in this object: offsets, in bytes, which hold for
+     *  copies as well. */
+    std::vector<std::ptrdiff_t> offsets;
   };
 
   /** Whether two values are equal, as text without blanks or as numbers. */

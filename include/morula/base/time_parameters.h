@@ -14,13 +14,39 @@ namespace Morula
   /** Section "Time". */
   struct TimeParameters : public Keys
   {
-    TimeParameters();
+    Key<double> end_time{{this, "Time/End time"},
+                         1.,
+                         "Time at which the run ends; > 0. Units: day.",
+                         {},
+                         positive("day", "Choose a later end.")};
 
-    Key<double>       end_time;      // day
-    Key<double>       step;          // day
-    Key<double>       smallest_step; // day
-    Key<unsigned int> stop_at_cells;
-    Key<double>       tolerance;
+    Key<double> step{{this, step_path},
+                     0.05,
+                     "Time step; > 0. Steps end at its multiples. Units: day.",
+                     {},
+                     positive("day", "Choose a positive step.")};
+
+    Key<double> smallest_step{
+      {this, "Time/Smallest step"},
+      1e-4,
+      "A step that fails is halved; the run gives up below "
+      "this; > 0. Units: day."};
+
+    Key<unsigned int> stop_at_cells{
+      {this, "Time/Stop at cells"},
+      0,
+      "End early at the first step end with at least so many "
+      "cells; 0: never."};
+
+    Key<double> tolerance{
+      {this, "Time/Tolerance"},
+      0.,
+      "What a step may miss of growth and flow, as a share of the "
+      "tissue's volume (step_error in statistics.csv): steps are "
+      "Step/2^k, as long as this allows, and short at the start and "
+      "after a cut. Not negative; 0: all steps are Step long.",
+      {},
+      not_negative("(a share)", "0 keeps all steps as long as Step.")};
 
     /** Path of the key that sets the step, for effects that refuse it. */
     static inline const std::string step_path = "Time/Step";
@@ -36,13 +62,6 @@ namespace Morula
      *  InputError */
     void
     check() const;
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&end_time, &step, &smallest_step, &stop_at_cells, &tolerance};
-    }
   };
 } // namespace Morula
 

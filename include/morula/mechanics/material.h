@@ -21,12 +21,58 @@ namespace Morula
     /** @param materials what the law can be */
     explicit MaterialParameters(const Materials &materials = Materials());
 
-    ExpressionKey    youngs_modulus; // kPa
-    ExpressionKey    poissons_ratio;
-    Key<std::string> energy_per;
-    Key<std::string> volumetric_strain;
-    Key<std::string> law;
-    Key<std::string> on_transition;
+    ExpressionKey youngs_modulus{
+      {this, "Material/Young's modulus"},
+      "1.0",
+      "E; > 0. A number or an expression of X, Y, Z (the "
+      "cell's initial position, um), or of what the cell is. "
+      "Units: kPa.",
+      Evaluated::property,
+      positive("kPa", "Choose a positive stiffness.")};
+
+    ExpressionKey poissons_ratio{
+      {this, "Material/Poisson's ratio"},
+      "0.4",
+      "nu; -1 < nu < 0.5. A number or an expression, like E.",
+      Evaluated::property,
+      {[](const double nu) { return nu > -1. && nu < 0.5; },
+       "a number > -1 and < 0.5",
+       "Nearly incompressible tissue is 0.49 or 0.499."}};
+
+    Key<std::string> energy_per{
+      {this, "Material/Energy per"},
+      "initial volume",
+      "The volume that the elastic energy is counted per: the "
+      "initial volume, halved at every division, or the volume "
+      "grown without stress.",
+      {"initial volume|grown volume"}};
+
+    Key<std::string> volumetric_strain{
+      {this, "Material/Volumetric strain"},
+      "pointwise",
+      "The elastic volume change in the volumetric part of the energy (that "
+      "with lambda, or kappa): each cell's own, its mean over the cells "
+      "of a grid cell, or that of the sum of their volumes. Projected or "
+      "pooled, tissue does not lock as Poisson's ratio approaches 0.5; "
+      "choose one of them above about 0.47. Pooled, cells that grow or "
+      "shrink do not press those beside them in their grid cell.",
+      {"pointwise|projected|pooled"}};
+
+    Key<std::string> law{
+      {this, "Material/Law"},
+      "neo-Hookean",
+      "The elastic energy as a function of the elastic deformation: the "
+      "paper's, or the one whose shear part does not depend on the volume. "
+      "The same at small strains."};
+
+    Key<std::string> on_transition{
+      {this, "Material/On transition"},
+      "keep strain",
+      "What a cell has of its elastic strain when it changes its "
+      "type, and so perhaps its stiffness: all, so that its stress "
+      "changes, or nothing, so that it is free of stress as it "
+      "stands.",
+      {"keep strain|forget stress"}};
     /** What the law can be. */
     Materials materials;
 
@@ -59,10 +105,6 @@ namespace Morula
     /** The material that `Law` names. @throws InputError if there is none */
     std::shared_ptr<const Material>
     chosen_material() const;
-
-    using Keys::list;
-    KeyList
-    list() override;
   };
 
   /** Lamé's constants, kPa. */

@@ -13,16 +13,56 @@ namespace Morula
   {
     OutputParameters();
 
-    Key<double>                   interval; // day
-    Key<std::vector<std::string>> formats;
-    Key<double>                   snapshot_interval; // day
-    Key<double>                   snapshot_minutes;
-    Key<bool>                     condition_estimate;
-    Key<bool>                     newton_trace;
+    Key<double> interval{{this, "Output/Interval"},
+                         0.25,
+                         "Time between two outputs of cells and surface; "
+                         "0: first and last only. Units: day.",
+                         {0.}};
 
-    using Keys::list;
-    KeyList
-    list() override;
+    Key<std::vector<std::string>> formats{
+      {this, "Output/Formats"},
+      {"vtu"},
+      "Files of cells and surface, one or more separated by "
+      "commas. None still writes statistics, timings and "
+      "lineage.",
+      {"vtu|csv|none"},
+      {[](const Words &words) {
+         return !words.empty() &&
+                (words.size() == 1 ||
+                 std::count(words.begin(), words.end(), "none") == 0);
+       },
+       "any of vtu, csv, or none alone",
+       "Remove 'none' or the others."}};
+
+    Key<double> snapshot_interval{
+      {this, "Output/Snapshot interval"},
+      0.,
+      "Time between two snapshots for --resume; 0: by the "
+      "clock and at the end only. Units: day.",
+      {0.}};
+
+    Key<double> snapshot_minutes{
+      {this, "Output/Snapshot minutes"},
+      15.,
+      "Time on the clock after which the next step is "
+      "followed by a snapshot for --resume; more where "
+      "snapshots would take more than a twentieth of the run. "
+      "0: none by the clock. Units: min.",
+      {0.}};
+
+    Key<bool> condition_estimate{
+      {this, "Output/Condition estimate"},
+      false,
+      "Whether condition.csv is to hold the extreme eigenvalues "
+      "of each step's first tangent, scaled to a unit "
+      "diagonal. Takes longer than the step itself."};
+
+    Key<bool> newton_trace{
+      {this, "Output/Newton trace"},
+      false,
+      "Whether newton.csv is to hold all states of Newton's "
+      "method: energy, residual, motion, curvature, smallest J "
+      "and where. Shows why a step takes long, or fails."};
   };
 } // namespace Morula
 

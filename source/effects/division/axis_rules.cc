@@ -37,14 +37,6 @@ namespace Morula
 
 
   FixedAxisParameters::FixedAxisParameters()
-    : axis("Proliferation/Cell cycle/Fixed axis",
-           "0, 0, 1",
-           "Direction of n_s for Division axis = fixed, in the reference "
-           "configuration, of any length but zero: 3 expressions separated by "
-           "';', or plain numbers separated by ','. 2-D: the first two "
-           "components.",
-           Evaluated::event,
-           3)
   {
     axis.admit_commas();
   }
@@ -111,16 +103,6 @@ namespace Morula
                                          cell.random)
       .value_or(cell.random);
   }
-
-
-  RadialAxisParameters::RadialAxisParameters()
-    : center("Proliferation/Cell cycle/Radial center",
-             "0; 0; 0",
-             "Point from which n_s points away for Division axis = radial. "
-             "Expressions; 2-D: the first two. Units: um.",
-             Evaluated::event,
-             3)
-  {}
 
 
   template <int dim>

@@ -95,17 +95,6 @@ namespace Morula
   }
 
 
-  CellTypesParameters::CellTypesParameters()
-    : names(
-        section_of_types + "Names",
-        "",
-        "Types of cells, separated by commas; the first is that of founders "
-        "for which no other one's Where holds. Each has a section of this "
-        "name, and expressions of cells may compare `type` with it. Empty: "
-        "all cells are alike.")
-  {}
-
-
   std::vector<std::string>
   CellTypesParameters::name_list() const
   {
@@ -249,7 +238,7 @@ namespace Morula
         const CellTypeKeys &type = types[i];
         type.check_each(scene.dim);
         daughters(i);
-        if (!type.growth_law.empty() && type.growth_law != "none" &&
+        if (!type.growth_law->empty() && type.growth_law != "none" &&
             type.growth_law != scene.growth_law)
           type.growth_law.refuse("none or " + scene.growth_law,
                                  "A scene has one law of growth: give its keys "

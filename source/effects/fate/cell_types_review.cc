@@ -105,7 +105,7 @@ namespace Morula
                       "no founder is of this type, and no transition or "
                       "division leads to it.",
                       "Say where it is by Where, or remove it.");
-        if (!types[i].daughters.empty() && !cells_divide)
+        if (!types[i].daughters->empty() && !cells_divide)
           review.warn(types[i].daughters.path(),
                       types[i].daughters.value(),
                       "no cell divides.",

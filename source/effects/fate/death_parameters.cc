@@ -6,50 +6,6 @@
 
 namespace Morula
 {
-  DeathParameters::DeathParameters()
-    : rate("Death/Rate",
-           "0",
-           "Rate at which cells die, an expression of their state; not "
-           "negative. Units: 1/day.",
-           Evaluated::step)
-    , when("Death/When",
-           "0",
-           "Cells for which this is > 0 at the beginning of a step die then, "
-           "those with Shrinking time = 0 at the end of one: an expression of "
-           "their state. E.g. abs(X) < 20 && t >= 1, for a cut.",
-           Evaluated::step)
-    , shrinking_time(
-        "Death/Shrinking time",
-        "0.36",
-        "How long a dead cell shrinks, linearly in its volume, until it is "
-        "removed; not negative. 0: it is removed at once, as in a cut. An "
-        "expression of the cell's state. Units: day.",
-        Evaluated::event)
-    , final_volume(
-        "Death/Final volume",
-        "0.05",
-        "Part of its volume at death that a cell has when it is removed; > 0 "
-        "and at most 1. An expression of the cell's state.",
-        Evaluated::event)
-    , keep_debris("Death/Keep debris",
-                  "false",
-                  "Where this is true, dead cells stay at their final volume. "
-                  "false, true, or an expression of the cell's state, which is "
-                  "true if it is > 0.",
-                  Evaluated::event)
-  {
-    // Rate and condition are evaluated in each step; all others once, at the
-    // death of a cell. A final volume of zero is refused, as F_g would be
-    // singular.
-    rate.not_negative("1/day", "0 lets cells live.");
-    shrinking_time.not_negative("day", "0 removes cells at once.");
-    final_volume.require(
-      [](const double part) { return part > 0. && part <= 1.; },
-      "a number > 0 and at most 1",
-      "It is the part of the cell's volume that is left.");
-  }
-
-
   bool
   DeathParameters::is_on() const
   {
@@ -90,12 +46,5 @@ namespace Morula
     // The text is what --explain says of death.
     return "rate = " + rate.text() + " /day, when = " + when.text() +
            ", shrinking time = " + shrinking_time.text() + " day";
-  }
-
-
-  KeyList
-  DeathParameters::list()
-  {
-    return {&rate, &when, &shrinking_time, &final_volume, &keep_debris};
   }
 } // namespace Morula

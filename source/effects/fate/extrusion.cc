@@ -7,19 +7,6 @@
 
 namespace Morula
 {
-  ExtrusionParameters::ExtrusionParameters()
-    : rate("Extrusion/Rate",
-           "0",
-           "Rate at which live cells leave the tissue with their volume, which "
-           "closes up behind them: an expression of their state, e.g. "
-           "5*ramp(pressure, 0.2, 0.5)*(present_depth < 10); not negative. "
-           "Units: 1/day.",
-           Evaluated::step)
-  {
-    rate.not_negative("1/day", "0 keeps cells in.");
-  }
-
-
   template <int dim>
   Extrusion<dim>::Extrusion(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)

@@ -34,87 +34,11 @@ namespace Morula
 
   FieldKeys::FieldKeys(const std::string &name)
     : name(name)
-    , time("Time",
-           "steady",
-           "steady: in each configuration the field has its steady state. "
-           "transient: it changes with time.",
-           {"steady|transient"})
-    , diffusion("Diffusion",
-                "",
-                "Diffusion coefficient D, an expression of the cells' state; > "
-                "0. Units: um^2/day.",
-                Evaluated::step)
-    , production(
-        "Production",
-        "0",
-        "What a cell makes of it per time and volume, an expression of "
-        "the cell's state; not negative. In the field's unit per day.",
-        Evaluated::step)
-    , consumption("Consumption",
-                  "0",
-                  "Rate k at which a cell uses it up, k times the field, an "
-                  "expression of the cell's state, which may read the field "
-                  "itself: 4e6/(0.5 + NAME) saturates; not negative. Units: "
-                  "1/day.",
-                  Evaluated::step)
-    , initial(
-        "Initial",
-        "0",
-        "The field at t = 0, at which a steady field is sought first; not "
-        "negative. An expression of X, Y, Z (um).",
-        Evaluated::founder)
-    , fixed_where(
-        "Fixed where",
-        "",
-        "At boundary points at which this is > 0 the field has Value; "
-        "empty: nowhere. An expression of X, Y, Z (um).",
-        Evaluated::founder)
-    , value("Value",
-            "0",
-            "The field at the fixed boundary points, and outside of the others "
-            "if there is a Transfer; not negative. An expression of X, Y, Z "
-            "(um), t (day).",
-            Evaluated::place)
-    , transfer("Transfer",
-               "",
-               "At boundary points that are not fixed -D dc/dn = Transfer (c - "
-               "Value); not negative; empty: nothing passes there. An "
-               "expression of X, Y, Z (um), t (day). Units: um/day.",
-               Evaluated::place)
-    , flux(
-        "Flux",
-        "",
-        "What comes in through the surface per time and area, D dc/dn, where "
-        "Flux where holds; not negative. An expression of X, Y, Z (um), t "
-        "(day). In the field's unit times um/day.",
-        Evaluated::place)
-    , flux_where(
-        "Flux where",
-        "",
-        "At boundary points at which this is > 0 and that are not fixed "
-        "the Flux comes in, besides what a Transfer lets pass; empty: "
-        "nowhere. An expression of X, Y, Z (um).",
-        Evaluated::founder)
-    , dilution("Dilution",
-               true,
-               "Whether a transient field becomes less where cells grow, so "
-               "that its amount stays. The steady state knows no dilution.")
-    , exchanged("Exchanged",
-                false,
-                "Whether a cell takes its amount of a transient field along "
-                "when it exchanges its place (Rearrangement), as what is "
-                "inside of cells; false: the amount stays at the place.")
   {
     // The keys stand in the section of the field's name.
     place_in(list(), "Fields/" + name);
-    diffusion.positive("um^2/day", "Oxygen has about 1.7e8.");
-    production.not_negative("a day", "What a cell uses up is Consumption.");
-    consumption.not_negative("1/day", "What a cell makes is Production.");
     for (ExpressionKey *key : {&initial, &value})
       key->not_negative("(a concentration)", "0 is none at all.");
-    transfer.not_negative("um/day", "0 lets nothing pass.");
-    flux.not_negative("um/day (times a concentration)",
-                      "What leaves the tissue does so by a Transfer.");
   }
 
 
@@ -172,34 +96,6 @@ namespace Morula
               flux_where.text();
     return text;
   }
-
-
-  KeyList
-  FieldKeys::list()
-  {
-    return {&time,
-            &diffusion,
-            &production,
-            &consumption,
-            &initial,
-            &fixed_where,
-            &value,
-            &transfer,
-            &flux,
-            &flux_where,
-            &dilution,
-            &exchanged};
-  }
-
-
-  FieldsParameters::FieldsParameters()
-    : names("Fields/Names",
-            "",
-            "Fields that diffuse through the tissue, separated by commas. Each "
-            "has a section of this name, and expressions of cells may have its "
-            "value at the cell as a variable. Empty: there are none.")
-  {}
-
 
   bool
   FieldsParameters::needs_surface() const

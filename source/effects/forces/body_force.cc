@@ -13,16 +13,6 @@
 
 namespace Morula
 {
-  BodyForceParameters::BodyForceParameters()
-    : force_density("Body force/Force density",
-                    "0; 0; 0",
-                    "Force per initial volume: an expression for each "
-                    "direction, separated by ';'. Units: kPa/um.",
-                    Evaluated::step,
-                    3)
-  {}
-
-
   template <int dim>
   BodyForce<dim>::BodyForce(const Parameters         &parameters,
                             const EffectSetting<dim> &setting)

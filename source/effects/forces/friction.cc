@@ -10,19 +10,6 @@
 
 namespace Morula
 {
-  FrictionParameters::FrictionParameters()
-    : coefficient("Friction/Coefficient",
-                  "0",
-                  "Friction of cells, also inside of the tissue, with "
-                  "surroundings that stand still: the force on a cell per "
-                  "initial volume is minus this times its velocity; >= 0. An "
-                  "expression. Units: kPa day/um^2.",
-                  Evaluated::step)
-  {
-    coefficient.not_negative("kPa day/um^2", "0 is no friction.");
-  }
-
-
   bool
   FrictionParameters::is_on() const
   {

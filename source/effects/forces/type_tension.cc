@@ -22,12 +22,6 @@
 namespace Morula
 {
   TypeTensionParameters::TypeTensionParameters()
-    : force(
-        "Tension/Force",
-        true,
-        "Whether the tensions between types pull at the tissue. false: only "
-        "Rearrangement knows them, as where the grid is too coarse for "
-        "them.")
   {
     force.needs({"Rearrangement/Diffusion"});
   }

@@ -10,14 +10,8 @@
 namespace Morula
 {
   IsotropicGrowthParameters::IsotropicGrowthParameters()
-    : stretch("Growth/Isotropic/Stretch",
-              "1",
-              "Growth stretch theta(X, Y, Z, t), an expression; > 0. "
-              "F_g = theta I; theta = 1 is the initial size.",
-              Evaluated::step)
   {
-    stretch.symbol("theta").positive("(a ratio of lengths)",
-                                     "1 is the initial size.");
+    stretch.symbol("theta");
   }
 
 

@@ -48,27 +48,7 @@ namespace Morula
 
 
   RelaxationParameters::RelaxationParameters()
-    : time(
-        "Material/Relaxation time",
-        "0",
-        "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
-        "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
-        "day.",
-        Evaluated::step)
-    , yield_stress("Material/Yield stress",
-                   "0",
-                   "The von Mises stress up to which nothing relaxes; >= 0. "
-                   "Units: kPa.",
-                   Evaluated::step)
-    , passes("Material/Relaxation passes",
-             1,
-             "Into how many parts the relaxation of a step with a "
-             "Yield stress is cut. More are more exact where tissue "
-             "is held, and less so under a load.",
-             {1, 10000})
   {
-    time.not_negative("day", "0 is elastic tissue.");
-    yield_stress.not_negative("kPa", "With 0 any shear stress relaxes.");
     yield_stress.needs({time.path()});
     passes.needs({yield_stress.path()});
   }

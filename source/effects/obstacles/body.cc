@@ -165,12 +165,12 @@ namespace Morula
     Point<dim>
     place(const Key<std::vector<double>> &key)
     {
-      if (key.size() < dim)
+      if (key->size() < dim)
         key.refuse(std::to_string(dim) + " numbers in um",
                    "Write one for each direction.");
       Point<dim> result;
       for (unsigned int d = 0; d < dim; ++d)
-        result[d] = key[d];
+        result[d] = key.value()[d];
       return result;
     }
 
@@ -178,7 +178,7 @@ namespace Morula
     Tensor<1, dim>
     direction(const DirectionKey &key, const std::string &shape)
     {
-      if (key.empty())
+      if (key->empty())
         key.refuse("a direction, as Shape = " + shape,
                    "Write for example 0, 1, 0.");
       return unit_vector<dim>(key.path(), key.value());
@@ -231,7 +231,7 @@ namespace Morula
     if constexpr (dim == 3)
       if (shape == "mesh")
         {
-          if (keys.surface_mesh.empty())
+          if (keys.surface_mesh->empty())
             keys.surface_mesh.refuse("a file, as Shape = mesh",
                                      "Name the file, or choose another Shape.");
           return std::make_unique<MeshBody>(center, keys.surface_mesh);

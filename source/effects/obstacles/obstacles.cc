@@ -46,7 +46,7 @@ namespace Morula
         least = 2. * keys.radius;
       if (keys.shape == "box")
         for (unsigned int d = 0; d < dim; ++d)
-          least = std::min(least, keys.size[d]);
+          least = std::min(least, keys.size.value()[d]);
       return least;
     }
 

@@ -31,42 +31,6 @@ namespace Morula
   } // namespace
 
 
-  RearrangementParameters::RearrangementParameters()
-    : diffusion("Rearrangement/Diffusion",
-                "0",
-                "Diffusion coefficient of a cell among equal ones, which "
-                "exchanges its place with neighbours; of two that differ the "
-                "harmonic mean counts. An expression; 0: the cell keeps its "
-                "place. Units: um^2/day.",
-                Evaluated::step)
-    , energy("Rearrangement/Fluctuation energy",
-             0.,
-             "T in the probability 1/(1 + exp(E/T)) that an exchange is made "
-             "which changes the energy of adhesion (Cell types/NAME/Tension) "
-             "by E; 0: never one that raises it. In 3-D times um. Units: kPa "
-             "um^2.",
-             {0.})
-    , shear_released("Rearrangement/Shear released",
-                     1.,
-                     "Part of the elastic shear that each exchange takes from "
-                     "both places: 1 is a liquid as long as cells exchange "
-                     "places.",
-                     {0.})
-    , drive(
-        "Rearrangement/Drive",
-        "0; 0; 0",
-        "Force with which a cell looks for exchanges along it; none acts on "
-        "the tissue. An expression. In 3-D times um. Units: kPa um.",
-        Evaluated::step,
-        3)
-  {
-    diffusion.not_negative("um^2/day", "0 lets the cell keep its place.");
-    shear_released.require([](const double q) { return q <= 1.; },
-                           "a number from 0 to 1",
-                           "1 releases all shear at the two places.");
-  }
-
-
   void
   RearrangementParameters::check_with(const RestOfScene &scene) const
   {

@@ -67,7 +67,7 @@ namespace Morula
   }
 
 
-  CellDirectionKey::CellDirectionKey(const std::string &path,
+  CellDirectionKey::CellDirectionKey(const KeyPath     &path,
                                      const std::string &default_text,
                                      const std::string &documentation)
     : ExpressionKey(path, default_text, documentation, Evaluated::step, 3)

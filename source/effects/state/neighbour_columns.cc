@@ -55,26 +55,6 @@ namespace Morula
   } // namespace
 
 
-  NeighbourParameters::NeighbourParameters()
-    : found_by("Neighbours/Found by",
-               "facets",
-               "Which cells are neighbours: facets: those whose Voronoi cells "
-               "touch; radius: those that are near, in 3-D much cheaper, but "
-               "shares of the surface are estimates then.",
-               {"facets|radius"})
-    , reach(
-        "Neighbours/Reach",
-        1.8,
-        "Distance of the farthest neighbour across a gap: beyond it no free "
-        "surface may lie between. With Found by = radius that of any, 1.5 "
-        "unless it is set. At most 2.5. Units: mean cell spacings.")
-  {
-    reach.require([](const double value) { return value > 0. && value <= 2.5; },
-                  "a value > 0, at most 2.5",
-                  "Cells that far apart do not touch.");
-  }
-
-
   NeighbourSearch
   NeighbourParameters::search() const
   {

@@ -5,20 +5,6 @@
 
 namespace Morula
 {
-  FixedParameters::FixedParameters()
-    : ConditionKeys("Boundary conditions/Fixed where",
-                    "Expression of X, Y, Z (initial position on the surface, "
-                    "um): points where it is > 0 are fixed, e.g. Z <= 0; "
-                    "empty: nowhere. Fixed wins over slip.")
-    , displacement("Boundary conditions/Displacement",
-                   "0; 0; 0",
-                   "Displacement of the fixed points: functions of "
-                   "X, Y, Z, t separated by ';'. Units: um.",
-                   Evaluated::place,
-                   3)
-  {}
-
-
   std::string
   FixedParameters::details() const
   {

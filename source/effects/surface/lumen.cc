@@ -79,28 +79,6 @@ namespace Morula
   } // namespace
 
 
-  LumenParameters::LumenParameters()
-    : ConditionKeys("Boundary conditions/Lumen where",
-                    "Expression of X, Y, Z: the boundary points for which it "
-                    "is > 0 enclose a lumen; empty: there is none.")
-    , volume("Boundary conditions/Lumen volume",
-             "",
-             "Volume of the lumen relative to that at t = 0, a function of t; "
-             "> 0. The pressure that it takes is found, and stands in "
-             "statistics.csv. Empty: what fills the lumen is a gas.",
-             Evaluated::place)
-    , pressure(
-        "Boundary conditions/Lumen pressure",
-        "",
-        "Pressure of a gas in the lumen at the volume that this has at "
-        "t = 0, V0, a function of t; at the volume V the pressure is V0/V "
-        "times it. Empty: the volume is given. Units: kPa.",
-        Evaluated::place)
-  {
-    volume.positive("times the volume at t = 0", "1 keeps the volume.");
-  }
-
-
   std::string
   LumenParameters::details() const
   {

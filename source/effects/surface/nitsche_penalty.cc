@@ -13,7 +13,8 @@ namespace Morula
      *  what is added for squeezed tissue, in units of the stiffness beyond that
      *  at rest by h: doc/theory.md (4.6). Less leaves the symmetric form
      *  indefinite; in the bounded one evenly squeezed tissue becomes uneven. */
-    constexpr double least_penalty = 20., squeezed_penalty = 100.;
+    constexpr double least_penalty    = NitscheParameters::least_penalty;
+    constexpr double squeezed_penalty = 100.;
 
     NitscheForm
     form_called(const std::string &name)
@@ -34,27 +35,8 @@ namespace Morula
 
 
   NitscheParameters::NitscheParameters()
-    : penalty("Boundary conditions/Nitsche penalty",
-              20.,
-              "Penalty of fixed and slip points; > 0. "
-              "The symmetric and the bounded form use at least " +
-                as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.")
-    , form(
-        "Boundary conditions/Nitsche form",
-        "bounded",
-        "symmetric: the paper's, for large penalties. unsymmetric: stable for "
-        "any penalty, but without an energy. bounded: the traction of held "
-        "points comes from the cells around them, is constant in a solve and "
-        "renewed after it; its energy has a lower bound, and with Nitsche "
-        "penalty = 20 it is much more accurate beside the edge of a fixed "
-        "surface.",
-        {"symmetric|unsymmetric|bounded"})
   {
-    penalty.with("paper", "1000")
-      .require([](const double beta) { return beta > 0.; },
-               "a number > 0, in units of E/h",
-               "1e3 is a good choice for the symmetric Nitsche form, 20 "
-               "for the others.");
+    penalty.with("paper", "1000");
     form.with("paper", "symmetric");
     for (AnyKey *const key : list())
       key->needs(held_by());

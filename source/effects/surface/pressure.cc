@@ -6,18 +6,6 @@
 
 namespace Morula
 {
-  PressureParameters::PressureParameters()
-    : ConditionKeys("Boundary conditions/Pressure where",
-                    "Expression of X, Y, Z: pressure acts where it is > 0; "
-                    "empty: nowhere.")
-    , pressure("Boundary conditions/Pressure",
-               "0",
-               "Pressure that follows the surface, a function of "
-               "X, Y, Z, t; positive pushes inward. Units: kPa.",
-               Evaluated::place)
-  {}
-
-
   std::string
   PressureParameters::details() const
   {

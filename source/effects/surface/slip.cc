@@ -7,24 +7,11 @@
 
 namespace Morula
 {
-  SlipParameters::SlipParameters()
-    : ConditionKeys("Boundary conditions/Slip where",
-                    "Expression of X, Y, Z: the displacement along the normal "
-                    "is zero where it is > 0; empty: nowhere. Slip wins over "
-                    "traction.")
-    , normal("Boundary conditions/Slip normal",
-             "",
-             "Direction, e.g. 0, 0, 1: only points whose initial "
-             "normal N is along it, |N.normal| > 0.9, slip; empty: "
-             "all, each along its own normal.")
-  {}
-
-
   template <int dim>
   Slip<dim>::Slip(const Parameters &parameters)
     : PlacedCondition<dim>(SurfaceCondition::slip, parameters)
   {
-    if (!parameters.normal.empty())
+    if (!parameters.normal->empty())
       normal = unit_vector<dim>(parameters.normal.path(), parameters.normal);
   }
 

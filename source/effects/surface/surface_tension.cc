@@ -8,29 +8,6 @@
 
 namespace Morula
 {
-  namespace
-  {
-    const std::string remedy =
-      "A surface with a negative tension would crumple.";
-  } // namespace
-
-
-  SurfaceTensionParameters::SurfaceTensionParameters()
-    : ConditionKeys("Boundary conditions/Surface tension where",
-                    "Expression of X, Y, Z: the surface has the tension where "
-                    "it is > 0; 1: everywhere.",
-                    "1")
-    , tension("Boundary conditions/Surface tension",
-              "0",
-              "Tension of the surface, a function of X, Y, Z, t; not negative. "
-              "0: none. 1 kPa um = 1 mN/m. Units: kPa um.",
-              Evaluated::place)
-  {
-    tension.not_negative("kPa um", remedy);
-    where.needs({tension.path()});
-  }
-
-
   bool
   SurfaceTensionParameters::is_on() const
   {

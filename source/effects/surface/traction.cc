@@ -6,19 +6,6 @@
 
 namespace Morula
 {
-  TractionParameters::TractionParameters()
-    : ConditionKeys("Boundary conditions/Traction where",
-                    "Expression of X, Y, Z: traction acts where it is > 0; "
-                    "empty: nowhere.")
-    , traction("Boundary conditions/Traction",
-               "0; 0; 0",
-               "Traction per initial area (dead load): functions of "
-               "X, Y, Z, t separated by ';'. Units: kPa.",
-               Evaluated::place,
-               3)
-  {}
-
-
   std::string
   TractionParameters::details() const
   {

@@ -22,14 +22,15 @@ namespace Morula
   {
     FixedAxisParameters();
 
-    ExpressionKey axis;
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&axis};
-    }
+    ExpressionKey axis{
+      {this, "Proliferation/Cell cycle/Fixed axis"},
+      "0, 0, 1",
+      "Direction of n_s for Division axis = fixed, in the reference "
+      "configuration, of any length but zero: 3 expressions separated by "
+      "';', or plain numbers separated by ','. 2-D: the first two "
+      "components.",
+      Evaluated::event,
+      3};
   };
 
   /** `Division axis = fixed`: along a vector in the reference configuration.
@@ -105,16 +106,13 @@ namespace Morula
   /** Key of `Division axis = radial`. */
   struct RadialAxisParameters : public EffectKeys
   {
-    RadialAxisParameters();
-
-    ExpressionKey center;
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&center};
-    }
+    ExpressionKey center{
+      {this, "Proliferation/Cell cycle/Radial center"},
+      "0; 0; 0",
+      "Point from which n_s points away for Division axis = radial. "
+      "Expressions; 2-D: the first two. Units: um.",
+      Evaluated::event,
+      3};
   };
 
   /** `Division axis = radial`: from a point to where the cell is now. */

@@ -54,9 +54,13 @@ namespace Morula
   /** Section "Cell types": names first, then a section for each of them. */
   struct CellTypesParameters : public EffectKeys
   {
-    CellTypesParameters();
-
-    Key<std::string>         names;
+    Key<std::string> names{
+      "Cell types/Names",
+      "",
+      "Types of cells, separated by commas; the first is that of founders "
+      "for which no other one's Where holds. Each has a section of this "
+      "name, and expressions of cells may compare `type` with it. Empty: "
+      "all cells are alike."};
     std::deque<CellTypeKeys> types;
 
     bool

@@ -13,13 +13,50 @@ namespace Morula
   /** Section "Death". */
   struct DeathParameters : public EffectKeys
   {
-    DeathParameters();
+    ExpressionKey rate{
+      {this, "Death/Rate"},
+      "0",
+      "Rate at which cells die, an expression of their state; not "
+      "negative. Units: 1/day.",
+      Evaluated::step,
+      not_negative("1/day", "0 lets cells live.")};
 
-    ExpressionKey rate;           // 1/day
-    ExpressionKey when;           // > 0: at once
-    ExpressionKey shrinking_time; // day
-    ExpressionKey final_volume;   // of that at death
-    ExpressionKey keep_debris;
+    /** > 0: at once */
+    ExpressionKey when{
+      {this, "Death/When"},
+      "0",
+      "Cells for which this is > 0 at the beginning of a step die then, "
+      "those with Shrinking time = 0 at the end of one: an expression of "
+      "their state. E.g. abs(X) < 20 && t >= 1, for a cut.",
+      Evaluated::step};
+
+    ExpressionKey shrinking_time{
+      {this, "Death/Shrinking time"},
+      "0.36",
+      "How long a dead cell shrinks, linearly in its volume, until it is "
+      "removed; not negative. 0: it is removed at once, as in a cut. An "
+      "expression of the cell's state. Units: day.",
+      Evaluated::event,
+      not_negative("day", "0 removes cells at once.")};
+
+    /** of that at death */
+    ExpressionKey final_volume{
+      {this, "Death/Final volume"},
+      "0.05",
+      "Part of its volume at death that a cell has when it is removed; > 0 "
+      "and at most 1. An expression of the cell's state.",
+      Evaluated::event,
+      {[](const double part) { return part > 0. && part <= 1.; },
+       "a number > 0 and at most 1",
+       "It is the part of the cell's volume that is left."}};
+
+    ExpressionKey keep_debris{
+      {this, "Death/Keep debris"},
+      "false",
+      "Where this is true, dead cells stay at their final volume. "
+      "false, true, or an expression of the cell's state, which is "
+      "true if it is > 0.",
+      Evaluated::event};
 
     bool
     is_on() const override;
@@ -35,10 +72,6 @@ namespace Morula
 
     std::string
     details() const override;
-
-    using Keys::list;
-    KeyList
-    list() override;
   };
 
   /**

@@ -15,10 +15,29 @@ namespace Morula
   /** Section "Division by size". */
   struct DivisionBySizeParameters : public EffectKeys
   {
-    DivisionBySizeParameters();
+    ExpressionKey volume{
+      {this, "Division by size/Volume"},
+      "0",
+      "Grown volume V0 det F_g at which a cell that grows by Growth/Law "
+      "divides into two halves, without a cell cycle: the mean of cells "
+      "that are alike; 2-D: area. Not negative; 0: it does not divide. "
+      "An expression of the cell's state. The keys of "
+      "Proliferation/Cell cycle about axes and daughters hold; "
+      "Division axis is 'cell shape' unless it is set. Units: um^3.",
+      Evaluated::event,
+      not_negative("um^3 (2-D: um^2)", "0 means no division by size.")};
 
-    ExpressionKey volume; // µm^dim
-    ExpressionKey noise;
+    ExpressionKey noise{
+      {this, "Division by size/Noise"},
+      "0",
+      "Coefficient of variation of the volume at which cells divide, "
+      "which has a log-normal distribution: each cell draws its own. 0 "
+      "to 0.5. An expression of the cell's state.",
+      Evaluated::event,
+      {[](const double c) { return c >= 0. && c <= 0.5; },
+       "a number from 0 to 0.5",
+       "It is the standard deviation of the volume at division over "
+       "its mean; cells of tissues have about 0.1."}};
 
     bool
     is_on() const override
@@ -46,13 +65,6 @@ namespace Morula
     {
       return "volume = " + volume.text() +
              " um^3 (2-D: um^2), noise = " + noise.text();
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&volume, &noise};
     }
   };
 

@@ -13,9 +13,15 @@ namespace Morula
   /** Section "Extrusion". */
   struct ExtrusionParameters : public EffectKeys
   {
-    ExtrusionParameters();
-
-    ExpressionKey rate; // 1/day
+    ExpressionKey rate{
+      {this, "Extrusion/Rate"},
+      "0",
+      "Rate at which live cells leave the tissue with their volume, which "
+      "closes up behind them: an expression of their state, e.g. "
+      "5*ramp(pressure, 0.2, 0.5)*(present_depth < 10); not negative. "
+      "Units: 1/day.",
+      Evaluated::step,
+      not_negative("1/day", "0 keeps cells in.")};
 
     bool
     is_on() const override
@@ -33,13 +39,6 @@ namespace Morula
     details() const override
     {
       return "rate = " + rate.text() + " /day";
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&rate};
     }
   };
 

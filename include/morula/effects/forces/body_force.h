@@ -12,9 +12,13 @@ namespace Morula
   /** Section "Body force". */
   struct BodyForceParameters : public EffectKeys
   {
-    BodyForceParameters();
-
-    ExpressionKey force_density; // kPa/µm
+    ExpressionKey force_density{
+      {this, "Body force/Force density"},
+      "0; 0; 0",
+      "Force per initial volume: an expression for each "
+      "direction, separated by ';'. Units: kPa/um.",
+      Evaluated::step,
+      3};
 
     bool
     is_on() const override
@@ -25,12 +29,6 @@ namespace Morula
     details() const override
     {
       return force_density.text() + " kPa/um";
-    }
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&force_density};
     }
   };
 

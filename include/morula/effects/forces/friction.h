@@ -14,9 +14,15 @@ namespace Morula
   /** Section "Friction". */
   struct FrictionParameters : public EffectKeys
   {
-    FrictionParameters();
-
-    ExpressionKey coefficient; // ζ, kPa day/µm²
+    ExpressionKey coefficient{
+      {this, "Friction/Coefficient"},
+      "0",
+      "Friction of cells, also inside of the tissue, with "
+      "surroundings that stand still: the force on a cell per "
+      "initial volume is minus this times its velocity; >= 0. An "
+      "expression. Units: kPa day/um^2.",
+      Evaluated::step,
+      not_negative("kPa day/um^2", "0 is no friction.")};
 
     bool
     is_on() const override;
@@ -24,12 +30,6 @@ namespace Morula
     details() const override
     {
       return coefficient.text() + " kPa day/um^2";
-    }
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&coefficient};
     }
   };
 

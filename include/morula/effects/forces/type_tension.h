@@ -17,7 +17,12 @@ namespace Morula
   {
     TypeTensionParameters();
 
-    Key<bool> force;
+    Key<bool> force{
+      {this, "Tension/Force"},
+      true,
+      "Whether the tensions between types pull at the tissue. false: only "
+      "Rearrangement knows them, as where the grid is too coarse for "
+      "them."};
     /** γ_ab, by (a, b) in the order of the types, without a = b; kPa µm. */
     std::deque<Key<double>>  between;
     std::vector<std::string> types;

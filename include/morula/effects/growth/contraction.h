@@ -19,9 +19,30 @@ namespace Morula
   {
     ContractionParameters();
 
-    ExpressionKey    stretch;
-    CellDirectionKey direction;
-    Key<bool>        keep_volume;
+    ExpressionKey stretch{
+      {this, "Contraction/Stretch"},
+      "1",
+      "Length along Direction that a cell would have if nothing held "
+      "it, as a ratio to the length without contraction, gamma; > 0. "
+      "Below 1 cells contract, above 1 they lengthen. A value that "
+      "differs from 1 from the start on acts in the first step: ramp "
+      "it, as 1 - 0.3*min(t, 1).",
+      Evaluated::step,
+      positive("(a ratio of lengths)", "1 is no contraction.")};
+
+    Key<bool> keep_volume{
+      {this, "Contraction/Keep volume"},
+      true,
+      "Whether cells widen across Direction as they contract, so "
+      "that they keep their volume."};
+
+    CellDirectionKey direction{
+      {this, "Contraction/Direction"},
+      "surface normal",
+      "Along what cells contract, in the body as it was at t = 0: a "
+      "vector, an expression with the components separated by ';', "
+      "or radial (from Tissue/Center), or surface normal (of the "
+      "surface near the founder), or gradient of NAME (a field)."};
 
     bool
     is_on() const override;
@@ -37,13 +58,6 @@ namespace Morula
     {
       return "gamma = " + stretch.text() + ", along " + direction.text() +
              (keep_volume ? ", keeps volume" : "");
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&stretch, &direction, &keep_volume};
     }
   };
 

@@ -14,14 +14,13 @@ namespace Morula
   {
     IsotropicGrowthParameters();
 
-    ExpressionKey stretch;
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&stretch};
-    }
+    ExpressionKey stretch{
+      {this, "Growth/Isotropic/Stretch"},
+      "1",
+      "Growth stretch theta(X, Y, Z, t), an expression; > 0. "
+      "F_g = theta I; theta = 1 is the initial size.",
+      Evaluated::step,
+      positive("(a ratio of lengths)", "1 is the initial size.")};
   };
 
   /**

@@ -18,17 +18,56 @@ namespace Morula
   {
     RateGrowthParameters();
 
-    ExpressionKey    rate;        // of the volume, 1/day
-    ExpressionKey    share_along; // of the rate; empty: isotropic
-    CellDirectionKey direction;
-    Key<bool>        predictor;
-    ExpressionKey    homeostasis;        // 1/(day kPa)
-    ExpressionKey    homeostatic_stress; // kPa
+    ExpressionKey rate{
+      {this, "Growth/Rate/Rate"},
+      "0",
+      "k: rate at which the volume of a cell grows, an expression of its "
+      "state; < 0: it withers. Units: 1/day.",
+      Evaluated::step};
 
+    /** of the rate; empty: isotropic */
+    ExpressionKey share_along{
+      {this, "Growth/Rate/Share along"},
+      "",
+      "s: which share of the rate is growth along Direction, from 0 "
+      "to 1; the rest is growth across it. An expression of the "
+      "cell's state. 0: growth in a surface, if Direction is its "
+      "normal; 1: along a fibre; 1/3 (in 2-D 1/2), or empty: "
+      "isotropic.",
+      Evaluated::step};
 
-    using Keys::list;
-    KeyList
-    list() override;
+    Key<bool> predictor{
+      {this, "Growth/Rate/Predictor"},
+      true,
+      "Whether rates that fall as a cell is squeezed foresee the end "
+      "of the step, so that confined tissue is stable with steps of "
+      "any length. false: the rate at the beginning of the step."};
+
+    ExpressionKey homeostasis{
+      {this, "Growth/Rate/Homeostasis"},
+      "0",
+      "kappa: rate of stress-regulated growth: along each principal "
+      "direction a cell grows at kappa times what its stress lies "
+      "above Homeostatic stress. Not negative; 0: none. An "
+      "expression of the cell's state. Units: 1/(day kPa).",
+      Evaluated::step,
+      not_negative("1/(day kPa)", "0 is no growth by stress.")};
+
+    ExpressionKey homeostatic_stress{
+      {this, "Growth/Rate/Homeostatic stress"},
+      "0",
+      "sigma*: true stress at which stress-regulated growth "
+      "comes to rest; < 0: a pressure. An expression of the "
+      "cell's state. Units: kPa.",
+      Evaluated::step};
+
+    CellDirectionKey direction{
+      {this, "Growth/Rate/Direction"},
+      "",
+      "a: direction of Share along in the tissue as it was at t = 0: "
+      "'radial', 'surface normal', 'gradient of' a field, or an expression of X, Y, Z with "
+      "three components, e.g. 0; 0; 1, of any length but zero. Empty: "
+      "growth is isotropic."};
   };
 
   /**

@@ -19,9 +19,30 @@ namespace Morula
   {
     RelaxationParameters();
 
-    ExpressionKey     time;         // day
-    ExpressionKey     yield_stress; // kPa
-    Key<unsigned int> passes;
+    ExpressionKey time{
+      {this, "Material/Relaxation time"},
+      "0",
+      "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
+      "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
+      "day.",
+      Evaluated::step,
+      not_negative("day", "0 is elastic tissue.")};
+
+    ExpressionKey yield_stress{
+      {this, "Material/Yield stress"},
+      "0",
+      "The von Mises stress up to which nothing relaxes; >= 0. "
+      "Units: kPa.",
+      Evaluated::step,
+      not_negative("kPa", "With 0 any shear stress relaxes.")};
+
+    Key<unsigned int> passes{
+      {this, "Material/Relaxation passes"},
+      1,
+      "Into how many parts the relaxation of a step with a "
+      "Yield stress is cut. More are more exact where tissue "
+      "is held, and less so under a load.",
+      {1, 10000}};
 
     bool
     is_on() const override;
@@ -31,13 +52,6 @@ namespace Morula
     {
       return "tau = " + time.text() +
              " day, yield stress = " + yield_stress.text() + " kPa";
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&time, &yield_stress, &passes};
     }
   };
 

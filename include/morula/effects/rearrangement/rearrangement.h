@@ -18,12 +18,44 @@ namespace Morula
   /** Section "Rearrangement". */
   struct RearrangementParameters : public EffectKeys
   {
-    RearrangementParameters();
+    ExpressionKey diffusion{
+      {this, "Rearrangement/Diffusion"},
+      "0",
+      "Diffusion coefficient of a cell among equal ones, which "
+      "exchanges its place with neighbours; of two that differ the "
+      "harmonic mean counts. An expression; 0: the cell keeps its "
+      "place. Units: um^2/day.",
+      Evaluated::step,
+      not_negative("um^2/day", "0 lets the cell keep its place.")};
 
-    ExpressionKey diffusion;      // D, µm²/day
-    Key<double>   energy;         // T, kPa µm^dim
-    Key<double>   shear_released; // q
-    ExpressionKey drive;          // f, kPa µm^(dim-1)
+    Key<double> energy{
+      {this, "Rearrangement/Fluctuation energy"},
+      0.,
+      "T in the probability 1/(1 + exp(E/T)) that an exchange is made "
+      "which changes the energy of adhesion (Cell types/NAME/Tension) "
+      "by E; 0: never one that raises it. In 3-D times um. Units: kPa "
+      "um^2.",
+      {0.}};
+
+    /** q */
+    Key<double> shear_released{
+      {this, "Rearrangement/Shear released"},
+      1.,
+      "Part of the elastic shear that each exchange takes from "
+      "both places: 1 is a liquid as long as cells exchange "
+      "places.",
+      {0.},
+      {[](const double q) { return q <= 1.; },
+       "a number from 0 to 1",
+       "1 releases all shear at the two places."}};
+
+    ExpressionKey drive{
+      {this, "Rearrangement/Drive"},
+      "0; 0; 0",
+      "Force with which a cell looks for exchanges along it; none acts on "
+      "the tissue. An expression. In 3-D times um. Units: kPa um.",
+      Evaluated::step,
+      3};
 
     bool
     is_on() const override
@@ -41,12 +73,6 @@ namespace Morula
     review(const RestOfScene &scene, Review &review) const override;
     std::string
     further_lines(const RestOfScene &scene) const override;
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&diffusion, &energy, &shear_released, &drive};
-    }
 
   private:
     /** How often a cell takes part in an exchange per day, k = 2 d D/a², among

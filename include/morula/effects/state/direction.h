@@ -41,7 +41,7 @@ namespace Morula
   class CellDirectionKey : public ExpressionKey
   {
   public:
-    CellDirectionKey(const std::string &path,
+    CellDirectionKey(const KeyPath     &path,
                      const std::string &default_text,
                      const std::string &documentation);
 

@@ -17,10 +17,24 @@ namespace Morula
   /** Section "Neighbours". */
   struct NeighbourParameters : public EffectKeys
   {
-    NeighbourParameters();
+    Key<std::string> found_by{
+      {this, "Neighbours/Found by"},
+      "facets",
+      "Which cells are neighbours: facets: those whose Voronoi cells "
+      "touch; radius: those that are near, in 3-D much cheaper, but "
+      "shares of the surface are estimates then.",
+      {"facets|radius"}};
 
-    Key<std::string> found_by;
-    Key<double>      reach; // mean spacings
+    Key<double> reach{
+      {this, "Neighbours/Reach"},
+      1.8,
+      "Distance of the farthest neighbour across a gap: beyond it no free "
+      "surface may lie between. With Found by = radius that of any, 1.5 "
+      "unless it is set. At most 2.5. Units: mean cell spacings.",
+      {},
+      {[](const double value) { return value > 0. && value <= 2.5; },
+       "a value > 0, at most 2.5",
+       "Cells that far apart do not touch."}};
 
     /** What the scene's expressions say of neighbours. */
     std::vector<NeighbourVariable> variables;
@@ -33,13 +47,6 @@ namespace Morula
     is_on() const override;
     std::string
     details() const override;
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&found_by, &reach};
-    }
-
     /**
      * Looks for names of such variables in the texts of keys, and lets the keys
      * use them besides the fields.

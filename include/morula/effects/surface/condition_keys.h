@@ -20,12 +20,17 @@ namespace Morula
      */
     ConditionKeys(const std::string &path,
                   const std::string &documentation,
-                  const std::string &anywhere = "");
+                  const std::string &anywhere = "")
+      : where({this, path}, anywhere, documentation, Evaluated::founder)
+    {}
 
     ExpressionKey where;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return !where.empty();
+    }
     const AnyKey *
     switch_key() const override
     {

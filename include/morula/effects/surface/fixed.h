@@ -11,16 +11,19 @@ namespace Morula
   /** The keys of fixed points, in section "Boundary conditions". */
   struct FixedParameters : public ConditionKeys
   {
-    FixedParameters();
+    FixedParameters()
+      : ConditionKeys("Boundary conditions/Fixed where",
+                      "Expression of X, Y, Z (initial position on the surface, "
+                      "um): points where it is > 0 are fixed, e.g. Z <= 0; "
+                      "empty: nowhere. Fixed wins over slip.")
+    {}
 
-    ExpressionKey displacement; // µm
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &displacement};
-    }
+    ExpressionKey displacement{{this, "Boundary conditions/Displacement"},
+                               "0; 0; 0",
+                               "Displacement of the fixed points: functions of "
+                               "X, Y, Z, t separated by ';'. Units: um.",
+                               Evaluated::place,
+                               3};
     std::string
     topic() const override
     {

@@ -18,17 +18,29 @@ namespace Morula
   /** The keys of the lumen, in section "Boundary conditions". */
   struct LumenParameters : public ConditionKeys
   {
-    LumenParameters();
+    LumenParameters()
+      : ConditionKeys("Boundary conditions/Lumen where",
+                      "Expression of X, Y, Z: the boundary points for which it "
+                      "is > 0 enclose a lumen; empty: there is none.")
+    {}
 
-    ExpressionKey volume;   // relative to that at t = 0
-    ExpressionKey pressure; // kPa, at the volume of t = 0
+    /** relative to that at t = 0 */
+    ExpressionKey volume{
+      {this, "Boundary conditions/Lumen volume"},
+      "",
+      "Volume of the lumen relative to that at t = 0, a function of t; "
+      "> 0. The pressure that it takes is found, and stands in "
+      "statistics.csv. Empty: what fills the lumen is a gas.",
+      Evaluated::place,
+      positive("times the volume at t = 0", "1 keeps the volume.")};
 
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &volume, &pressure};
-    }
+    ExpressionKey pressure{
+      {this, "Boundary conditions/Lumen pressure"},
+      "",
+      "Pressure of a gas in the lumen at the volume that this has at "
+      "t = 0, V0, a function of t; at the volume V the pressure is V0/V "
+      "times it. Empty: the volume is given. Units: kPa.",
+      Evaluated::place};
     std::string
     details() const override;
   };

@@ -16,15 +16,30 @@ namespace Morula
   {
     NitscheParameters();
 
-    Key<double>      penalty; // β h / E
-    Key<std::string> form;
+    /** Least penalty of the forms with an energy, (λ + 2μ)/h. */
+    static constexpr double least_penalty = 20.;
 
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&penalty, &form};
-    }
+    Key<double> penalty{
+      {this, "Boundary conditions/Nitsche penalty"},
+      20.,
+      "Penalty of fixed and slip points; > 0. "
+      "The symmetric and the bounded form use at least " +
+        as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.",
+      {},
+      positive("E/h",
+               "1e3 is a good choice for the symmetric Nitsche form, 20 "
+               "for the others.")};
+
+    Key<std::string> form{
+      {this, "Boundary conditions/Nitsche form"},
+      "bounded",
+      "symmetric: the paper's, for large penalties. unsymmetric: stable for "
+      "any penalty, but without an energy. bounded: the traction of held "
+      "points comes from the cells around them, is constant in a solve and "
+      "renewed after it; its energy has a lower bound, and with Nitsche "
+      "penalty = 20 it is much more accurate beside the edge of a fixed "
+      "surface.",
+      {"symmetric|unsymmetric|bounded"}};
 
     /** Full paths of the keys that hold points. */
     static std::vector<std::string>

@@ -11,16 +11,17 @@ namespace Morula
   /** The keys of the pressure, in section "Boundary conditions". */
   struct PressureParameters : public ConditionKeys
   {
-    PressureParameters();
+    PressureParameters()
+      : ConditionKeys("Boundary conditions/Pressure where",
+                      "Expression of X, Y, Z: pressure acts where it is > 0; "
+                      "empty: nowhere.")
+    {}
 
-    ExpressionKey pressure; // kPa
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &pressure};
-    }
+    ExpressionKey pressure{{this, "Boundary conditions/Pressure"},
+                           "0",
+                           "Pressure that follows the surface, a function of "
+                           "X, Y, Z, t; positive pushes inward. Units: kPa.",
+                           Evaluated::place};
     std::string
     details() const override;
   };

@@ -14,16 +14,19 @@ namespace Morula
   /** The keys of slip points, in section "Boundary conditions". */
   struct SlipParameters : public ConditionKeys
   {
-    SlipParameters();
+    SlipParameters()
+      : ConditionKeys(
+          "Boundary conditions/Slip where",
+          "Expression of X, Y, Z: the displacement along the normal "
+          "is zero where it is > 0; empty: nowhere. Slip wins over "
+          "traction.")
+    {}
 
-    DirectionKey normal;
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &normal};
-    }
+    DirectionKey normal{{this, "Boundary conditions/Slip normal"},
+                        "",
+                        "Direction, e.g. 0, 0, 1: only points whose initial "
+                        "normal N is along it, |N.normal| > 0.9, slip; empty: "
+                        "all, each along its own normal."};
     std::string
     topic() const override
     {

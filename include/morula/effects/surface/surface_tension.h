@@ -11,20 +11,29 @@ namespace Morula
   /** The keys of the surface tension, in section "Boundary conditions". */
   struct SurfaceTensionParameters : public ConditionKeys
   {
-    SurfaceTensionParameters();
+    SurfaceTensionParameters()
+      : ConditionKeys(
+          "Boundary conditions/Surface tension where",
+          "Expression of X, Y, Z: the surface has the tension where "
+          "it is > 0; 1: everywhere.",
+          "1")
+    {
+      where.needs({tension.path()});
+    }
 
-    ExpressionKey tension; // kPa µm
+    ExpressionKey tension{
+      {this, "Boundary conditions/Surface tension"},
+      "0",
+      "Tension of the surface, a function of X, Y, Z, t; not negative. "
+      "0: none. 1 kPa um = 1 mN/m. Units: kPa um.",
+      Evaluated::place,
+      not_negative("kPa um",
+                   "A surface with a negative tension would crumple.")};
 
     bool
     is_on() const override;
     void
     check_with(const RestOfScene &scene) const override;
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &tension};
-    }
     std::string
     details() const override;
   };

@@ -11,16 +11,19 @@ namespace Morula
   /** The keys of the traction, in section "Boundary conditions". */
   struct TractionParameters : public ConditionKeys
   {
-    TractionParameters();
+    TractionParameters()
+      : ConditionKeys("Boundary conditions/Traction where",
+                      "Expression of X, Y, Z: traction acts where it is > 0; "
+                      "empty: nowhere.")
+    {}
 
-    ExpressionKey traction; // kPa
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &traction};
-    }
+    ExpressionKey traction{
+      {this, "Boundary conditions/Traction"},
+      "0; 0; 0",
+      "Traction per initial area (dead load): functions of "
+      "X, Y, Z, t separated by ';'. Units: kPa.",
+      Evaluated::place,
+      3};
     std::string
     details() const override;
   };

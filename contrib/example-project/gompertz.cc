@@ -31,13 +31,13 @@ namespace MyMorula
   // what makes no sense: what is allowed, and what to do.
   struct GompertzParameters : public EffectKeys
   {
-    ExpressionKey rate{"Rate",
+    ExpressionKey rate{{this, "Rate"},
                        "0.35",
                        "k: rate of the growth stretch at t = 0. An "
                        "expression of X, Y, Z, evaluated at the founder's "
                        "initial position. Units: 1/day.",
                        Evaluated::founder};
-    Key<double>   decay{"Decay",
+    Key<double>   decay{{this, "Decay"},
                       0.5,
                       "a: by which the rate decays; >= 0, where 0 is growth "
                         "at a constant rate. Units: 1/day."};
@@ -48,13 +48,6 @@ namespace MyMorula
                     "a number >= 0",
                     "Growth that accelerates has a negative Decay: take "
                     "0, and a larger Rate.");
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&rate, &decay};
     }
   };
 

@@ -125,15 +125,17 @@ namespace Morula
     , limits(limits)
   {
     if (rule.holds)
-      require(rule);
+      rules.push_back(rule);
   }
 
 
   template <typename T>
   Key<T> &
-  Key<T>::require(const Rule<T> &rule)
+  Key<T>::require(const std::function<bool(const T &)> &rule,
+                  const std::string                    &allowed,
+                  const std::string                    &remedy)
   {
-    rules.push_back(rule);
+    rules.push_back({rule, allowed, remedy});
     return *this;
   }
 

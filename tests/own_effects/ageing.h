@@ -14,8 +14,8 @@ namespace Own
 
   struct AgeingKeys : public EffectKeys
   {
-    Key<bool>     record{"Record", false, "Whether cells have an age."};
-    ExpressionKey pace{"Pace",
+    Key<bool>     record{{this, "Record"}, false, "Whether cells have an age."};
+    ExpressionKey pace{{this, "Pace"},
                        "1",
                        "Of growing old: an expression of the cell's state.",
                        Evaluated::step};
@@ -24,13 +24,6 @@ namespace Own
     is_on() const override
     {
       return record;
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&record, &pace};
     }
   };
 

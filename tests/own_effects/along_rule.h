@@ -15,14 +15,7 @@ namespace Own
 
   struct AlongKeys : public EffectKeys
   {
-    Key<std::string> direction{"Direction", "0, 1, 0", "Of the axis."};
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&direction};
-    }
+    Key<std::string> direction{{this, "Direction"}, "0, 1, 0", "Of the axis."};
   };
 
   template <int dim>

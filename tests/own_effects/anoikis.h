@@ -17,11 +17,11 @@ namespace Own
 
   struct AnoikisKeys : public EffectKeys
   {
-    ExpressionKey where{"Where",
+    ExpressionKey where{{this, "Where"},
                         "",
                         "Cells that lose their hold; empty: none.",
                         Evaluated::step};
-    Key<double>   after{"After",
+    Key<double>   after{{this, "After"},
                       0.,
                       "Time of death, where the cell stands then. "
                         "Units: day."};
@@ -36,13 +36,6 @@ namespace Own
     switch_key() const override
     {
       return &where;
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &after};
     }
   };
 

@@ -17,19 +17,12 @@ namespace Own
 
   struct CensusKeys : public EffectKeys
   {
-    Key<bool> take{"Take", false, "Whether a census is taken."};
+    Key<bool> take{{this, "Take"}, false, "Whether a census is taken."};
 
     bool
     is_on() const override
     {
       return take;
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&take};
     }
   };
 

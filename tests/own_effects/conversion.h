@@ -17,19 +17,12 @@ namespace Own
 
   struct ConversionKeys : public EffectKeys
   {
-    Key<double> rate{"Rate", 0., "Of the first field. Units: 1/day."};
+    Key<double> rate{{this, "Rate"}, 0., "Of the first field. Units: 1/day."};
 
     bool
     is_on() const override
     {
       return rate > 0.;
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&rate};
     }
   };
 

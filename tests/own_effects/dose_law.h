@@ -16,19 +16,14 @@ namespace Own
 
   struct DoseKeys : public EffectKeys
   {
-    ExpressionKey uptake{"Uptake",
+    ExpressionKey uptake{{this, "Uptake"},
                          "0",
                          "Dose taken up, an expression of X, Y, Z. Units: "
                          "1/day.",
                          Evaluated::founder};
-    Key<double>   response{"Response", 1., "Growth stretch for each dose."};
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&uptake, &response};
-    }
+    Key<double>   response{{this, "Response"},
+                         1.,
+                         "Growth stretch for each dose."};
   };
 
   template <int dim>

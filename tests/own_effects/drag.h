@@ -19,18 +19,11 @@ namespace Own
       : ConditionKeys("Where", "Where it acts; empty: nowhere.")
     {}
 
-    ExpressionKey load{"Load",
+    ExpressionKey load{{this, "Load"},
                        "0; 0; 0",
                        "Force per initial area. Units: kPa.",
                        Evaluated::place,
                        3};
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&where, &load};
-    }
   };
 
   template <int dim>

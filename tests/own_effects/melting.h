@@ -18,19 +18,12 @@ namespace Own
 
   struct MeltingKeys : public EffectKeys
   {
-    ExpressionKey when{"When", "", "When cells melt.", Evaluated::step};
+    ExpressionKey when{{this, "When"}, "", "When cells melt.", Evaluated::step};
 
     bool
     is_on() const override
     {
       return !when.empty();
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&when};
     }
   };
 

@@ -16,7 +16,7 @@ namespace Own
 
   struct PullKeys : public EffectKeys
   {
-    ExpressionKey density{"Density",
+    ExpressionKey density{{this, "Density"},
                           "0; 0; 0",
                           "Force per initial volume. Units: kPa/um.",
                           Evaluated::step,
@@ -26,13 +26,6 @@ namespace Own
     is_on() const override
     {
       return !density.is_default();
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&density};
     }
   };
 

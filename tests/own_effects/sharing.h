@@ -16,7 +16,7 @@ namespace Own
 
   struct SharingKeys : public EffectKeys
   {
-    ExpressionKey initial{"Initial",
+    ExpressionKey initial{{this, "Initial"},
                           "0",
                           "Of a founder, per volume. An expression of X, Y, Z.",
                           Evaluated::founder};
@@ -25,13 +25,6 @@ namespace Own
     is_on() const override
     {
       return !initial.is_default();
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&initial};
     }
   };
 

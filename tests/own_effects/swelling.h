@@ -16,7 +16,7 @@ namespace Own
 
   struct SwellingKeys : public EffectKeys
   {
-    ExpressionKey stretch{"Stretch",
+    ExpressionKey stretch{{this, "Stretch"},
                           "1",
                           "Length of a cell over that without swelling; > 0.",
                           Evaluated::step};
@@ -25,13 +25,6 @@ namespace Own
     is_on() const override
     {
       return !stretch.is_default();
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&stretch};
     }
   };
 

@@ -17,12 +17,15 @@ namespace Own
 
   struct TetherKeys : public EffectKeys
   {
-    Key<double> stiffness{"Stiffness",
+    Key<double> stiffness{{this, "Stiffness"},
                           0.,
                           "k of a spring over the areas at its ends; 0: there "
                           "are none. Units: kPa/um^dim.",
                           {0.}};
-    Key<double> reach{"Reach", 10., "Length of the longest. Units: um.", {0.}};
+    Key<double> reach{{this, "Reach"},
+                      10.,
+                      "Length of the longest. Units: um.",
+                      {0.}};
 
     bool
     is_on() const override
@@ -34,13 +37,6 @@ namespace Own
     needs_surface() const override
     {
       return true;
-    }
-
-    using Keys::list;
-    KeyList
-    list() override
-    {
-      return {&stiffness, &reach};
     }
   };
 

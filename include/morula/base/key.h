@@ -311,7 +311,9 @@ namespace Morula
 
     /** Adds a rule that check() enforces. */
     Key &
-    require(const Rule<T> &rule);
+    require(const std::function<bool(const T &)> &rule,
+            const std::string                    &allowed,
+            const std::string                    &remedy);
 
     /** Sets the text that the key gets from a value of `Method`. */
     Key &

@@ -6,13 +6,15 @@
 
 #include <morula/base/key.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
 namespace Morula
 {
   /** Section "Output". */
   struct OutputParameters : public Keys
   {
-    OutputParameters();
-
     Key<double> interval{{this, "Output/Interval"},
                          0.25,
                          "Time between two outputs of cells and surface; "
@@ -26,13 +28,13 @@ namespace Morula
       "commas. None still writes statistics, timings and "
       "lineage.",
       {"vtu|csv|none"},
-      {[](const Words &words) {
-         return !words.empty() &&
-                (words.size() == 1 ||
-                 std::count(words.begin(), words.end(), "none") == 0);
+      {[](const std::vector<std::string> &words) {
+         const std::set<std::string> all(words.begin(), words.end());
+         return !words.empty() && all.size() == words.size() &&
+                (words.size() == 1 || all.count("none") == 0);
        },
-       "any of vtu, csv, or none alone",
-       "Remove 'none' or the others."}};
+       "any of vtu, csv, each once, or none alone",
+       "Remove 'none' or the others, and what is there twice."}};
 
     Key<double> snapshot_interval{
       {this, "Output/Snapshot interval"},

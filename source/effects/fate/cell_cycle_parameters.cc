@@ -41,7 +41,8 @@ namespace Morula
       return;
     for (unsigned int i = 0; i < laws.size(); ++i)
       {
-        const Key<std::string> &of_type = laws[i]->value().empty() ? law : *laws[i];
+        const Key<std::string> &of_type =
+          laws[i]->value().empty() ? law : *laws[i];
         if (of_type == "none")
           exit_rate.set_for_type(i, of_type.path(), "0");
       }

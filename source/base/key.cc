@@ -62,21 +62,13 @@ namespace Morula
 
 
   void
-  AnyKey::declare(ParameterHandler &prm)
+  AnyKey::declare(ParameterHandler &prm) const
   {
     std::vector<std::string> names;
     boost::split(names, path_, boost::is_any_of("/"));
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       prm.enter_subsection(names[i]);
-    prm.declare_entry(names.back(), default_text_, *pattern(), documentation_);
-    // deal.II calls an action at once, with the default value; that one must
-    // not count as set.
-    const auto is_declared = std::make_shared<bool>(false);
-    prm.add_action(names.back(), [this, is_declared](const std::string &value) {
-      if (*is_declared)
-        assign(value);
-    });
-    *is_declared = true;
+    prm.declare_entry(names.back(), text(), *pattern(), documentation_);
     for (std::size_t i = 0; i + 1 < names.size(); ++i)
       prm.leave_subsection();
   }
@@ -318,14 +310,6 @@ namespace Morula
     // list() has no const form, since keys are also listed to be set.
     const KeyList keys = const_cast<Keys *>(this)->list();
     return {keys.begin(), keys.end()};
-  }
-
-
-  void
-  Keys::declare(ParameterHandler &prm)
-  {
-    for (AnyKey *key : list())
-      key->declare(prm);
   }
 
 

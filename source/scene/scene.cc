@@ -321,21 +321,10 @@ namespace Morula
   Scene::parameters() const
   {
     // deal.II's ParameterHandler prints the keys in the order of their
-    // declaration. It sets a value only within its section, so each path is
-    // entered and left.
+    // declaration.
     ParameterHandler prm;
-    Scene            copy(*this);
-    copy.declare(prm);
     for (const AnyKey *key : list())
-      {
-        std::vector<std::string> names;
-        boost::split(names, key->path(), boost::is_any_of("/"));
-        for (std::size_t i = 0; i + 1 < names.size(); ++i)
-          prm.enter_subsection(names[i]);
-        prm.set(names.back(), key->text());
-        for (std::size_t i = 0; i + 1 < names.size(); ++i)
-          prm.leave_subsection();
-      }
+      key->declare(prm);
     std::ostringstream out;
     prm.print_parameters(out,
                          ParameterHandler::ShortPRM |

@@ -187,9 +187,9 @@ namespace Morula
       return !is_default();
     }
 
-    /** Declares the key in deal.II's handler, bound to this object. */
+    /** Declares the key in deal.II's handler, with the value that it has. */
     void
-    declare(ParameterHandler &prm);
+    declare(ParameterHandler &prm) const;
 
     /** @throws InputError with the path and the value */
     [[noreturn]] void
@@ -402,10 +402,6 @@ namespace Morula
     /** The keys in their order. */
     std::vector<const AnyKey *>
     list() const;
-
-    /** Declares all keys in deal.II's handler, bound to this object. */
-    void
-    declare(ParameterHandler &prm);
 
     /** Refuses values that are wrong by themselves. @throws InputError */
     void

@@ -14,40 +14,6 @@ namespace Morula
      *  is the coefficient of x^0. */
     constexpr std::uint64_t generator = 0xc96c5795d7870f42u;
 
-    constexpr std::uint64_t one = std::uint64_t(1) << 63; // x^0
-
-    /** The product of a and b modulo the generator. */
-    std::uint64_t
-    product(const std::uint64_t a, std::uint64_t b)
-    {
-      std::uint64_t sum = 0;
-      // This multiplies polynomials over the field of two elements: for each
-      // term of a, b times that power of x is added, without carries. Whatever
-      // exceeds the degree is reduced by the generator at once.
-      for (std::uint64_t term = one; term != 0; term >>= 1)
-        {
-          if (a & term)
-            sum ^= b;
-          b = (b >> 1) ^ (b & 1 ? generator : 0); // b x
-        }
-      return sum;
-    }
-
-    /** x^8n modulo the generator, by squares. */
-    std::uint64_t
-    power_of_bytes(std::uint64_t n)
-    {
-      std::uint64_t power = one;
-      // x^8 is one shifted by eight: the highest bit is x^0.
-      for (std::uint64_t square = one >> 8; n > 0; n >>= 1)
-        {
-          if (n & 1)
-            power = product(power, square);
-          square = product(square, square);
-        }
-      return power;
-    }
-
     /** Tables[k][b]: the remainder of byte b with k bytes of zeros behind it.
      */
     using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
@@ -86,17 +52,6 @@ namespace Morula
       return number;
     }
   } // namespace
-
-  std::uint64_t
-  joined_digests(const std::uint64_t first,
-                 const std::uint64_t second,
-                 const std::uint64_t n_bytes)
-  {
-    // The digest of both parts joined is that of the first with n_bytes of
-    // zeros behind it, plus the second one's: a remainder is linear. The
-    // inversions of begin and end add the same in all three.
-    return product(first, power_of_bytes(n_bytes)) ^ second;
-  }
 
   void
   Digest::add(const std::string_view bytes)

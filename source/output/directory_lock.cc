@@ -5,7 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
-#include <morula/output/posix_file.h>
+#include <morula/output/output_file.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>

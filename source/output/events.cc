@@ -5,6 +5,7 @@
 #include <morula/output/events.h>
 
 #include <tuple>
+#include <utility>
 
 namespace Morula
 {
@@ -22,13 +23,6 @@ namespace Morula
       {
         return std::tie(time, id, kind) <
                std::tie(other.time, other.id, other.kind);
-      }
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive & time & id & kind;
       }
     };
 
@@ -65,15 +59,15 @@ namespace Morula
              const EventsContents         &contents,
              const MPI_Comm                comm)
   {
-    CsvRows               rows;
-    std::vector<EventKey> keys;
+    std::vector<std::string> rows;
+    std::vector<EventKey>    keys;
     for (const CellEvent &event : events)
       {
-        rows.add(event_row(event, contents));
+        rows.push_back(event_row(event, contents));
         keys.push_back({event.time, event.id, event.kind.order});
       }
     // Several changes of a cell at one time stay in their order: each ends
     // where the next one begins.
-    return rows.share_in_order(global_order(keys, comm), comm);
+    return rows_in_order(std::move(keys), rows, comm);
   }
 } // namespace Morula

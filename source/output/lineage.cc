@@ -6,6 +6,7 @@
 #include <morula/output/lineage.h>
 
 #include <array>
+#include <utility>
 
 namespace Morula
 {
@@ -25,7 +26,7 @@ namespace Morula
                const bool                     with_types,
                const MPI_Comm                 comm)
   {
-    CsvRows                            rows;
+    std::vector<std::string>           rows;
     std::vector<types::particle_index> ids;
     for (const Birth<dim> &birth : births)
       {
@@ -41,11 +42,11 @@ namespace Morula
         for (unsigned int d = 0; d < dim; ++d)
           values[4 + d] = birth.position[d];
         // Without types the last value is left out.
-        rows.add(csv_row(values.data(), with_types ? 8 : 7));
+        rows.push_back(csv_row(values.data(), with_types ? 8 : 7));
         ids.push_back(birth.id);
       }
 
-    return rows.share_in_order(global_order(ids, comm), comm);
+    return rows_in_order(std::move(ids), rows, comm);
   }
 
   MORULA_INSTANTIATE(lineage_rows);

@@ -10,9 +10,9 @@ namespace Morula
     : comm(comm)
   {
     on_root(comm, [&]() {
-      file = std::make_unique<PosixFile>(path,
-                                         resume ? PosixFile::Mode::append :
-                                                  PosixFile::Mode::create);
+      file = std::make_unique<OutputFile>(path,
+                                         resume ? OutputFile::Mode::append :
+                                                  OutputFile::Mode::create);
     });
   }
 

@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/output/atomic_file.h>
+#include <morula/output/output_file.h>
 #include <morula/output/hdf5_writer.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
@@ -248,7 +248,9 @@ namespace Morula
     // begin without the room for it. The reservation ends with the temporary
     // object.
     const std::size_t size = size_in_file(data, shared, comm);
-    on_root(comm, [&]() { AtomicFile(path).reserve(size); });
+    on_root(comm, [&]() {
+      OutputFile(path, OutputFile::Mode::replace).reserve(size);
+    });
 
     Hdf5Writer file(temporary_path(path), comm);
     file.attribute("/", snapshot_format_name, snapshot_format);
@@ -284,8 +286,7 @@ namespace Morula
                                    "one, stays");
         });
       }
-    seal(temporary_path(path), comm);
-    on_root(comm, [&]() { publish(path); });
+    on_root(comm, [&]() { seal(path); });
   }
 
   void

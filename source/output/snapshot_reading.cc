@@ -92,9 +92,9 @@ namespace Morula
     /** Refuses a file whose bytes are not those that were written: the HDF5
      *  library must not see it. */
     void
-    check_seal(const std::string &path, const SealState state)
+    check_seal(const std::string &path)
     {
-      switch (state)
+      switch (examine_seal(path))
         {
           case SealState::missing:
             throw InputError("--resume",
@@ -185,8 +185,7 @@ namespace Morula
       data.boundary_columns = read_columns(file, "boundary points");
       data.grid_weights     = read_weights(file, comm);
     };
-    const SealState state = examine_seal(path, comm);
-    on_root(comm, [&]() { check_seal(path, state); });
+    on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() { read_checked(path, read); });
     return data;
   }
@@ -194,9 +193,8 @@ namespace Morula
   std::string
   read_snapshot_parameters(const std::string &path, const MPI_Comm comm)
   {
-    std::string     parameters;
-    const SealState state = examine_seal(path, comm);
-    on_root(comm, [&]() { check_seal(path, state); });
+    std::string parameters;
+    on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() {
       read_checked(path, [&](const Hdf5Reader &file) {
         parameters = file.text("parameters");

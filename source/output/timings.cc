@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/output/atomic_file.h>
+#include <morula/output/output_file.h>
 #include <morula/output/csv_rows.h>
 #include <morula/output/timings.h>
 

@@ -208,16 +208,16 @@ namespace Morula
   {
     // Files of points are written by threads meanwhile. They are listed for
     // ParaView as soon as all ranks have written theirs. Each rank has the
-    // births and events of its own cells, which append_parts() joins; the row
-    // of statistics.csv is equal on all ranks.
+    // births and events of its own cells, which rank 0 gathers; the row of
+    // statistics.csv is equal on all ranks.
     if (points.written())
       finish_points();
     row.wall_seconds = wall_seconds();
     tables.at("statistics").append(statistics_row(row));
-    tables.at("lineage").append_parts(
+    tables.at("lineage").append(
       lineage_rows(births, !contents.type_names.empty(), comm));
     if (records_events)
-      tables.at("events").append_parts(event_rows(events, contents, comm));
+      tables.at("events").append(event_rows(events, contents, comm));
     progress->step({row.step,
                     row.time,
                     row.dt,
@@ -322,23 +322,29 @@ namespace Morula
     output_times.push_back(time);
     next_output = next_multiple(time, scene.output.interval, scene.time);
 
-    std::vector<std::unique_ptr<PendingFile>> files;
-    const auto add = [&](const std::string &stem, PointFields<dim> fields) {
-      if (has_format("csv"))
-        files.push_back(
-          begin_csv(path(numbered_file(stem, number, "csv")), fields, comm));
-      if (has_format("vtu"))
-        files.push_back(begin_vtu(path(numbered_file(stem, number, "vtu")),
-                                  std::move(fields),
-                                  time,
-                                  number,
-                                  comm));
-    };
-    add("cells", std::move(cells));
-    add("surface", std::move(surface));
+    // Rank 0 gets the rows of all, and its thread writes them.
+    std::vector<std::pair<std::string, std::vector<PointFields<dim>>>> series;
+    series.emplace_back(path(numbered_file("cells", number, "")),
+                        gather_to_root(std::move(cells), comm));
+    series.emplace_back(path(numbered_file("surface", number, "")),
+                        gather_to_root(std::move(surface), comm));
     // Tables that wait in memory must not be what is too much for the next
     // step. Where memory is short the files are finished at once.
-    points.start(std::move(files), memory_is_short(comm));
+    points.start(
+      [series = std::move(series),
+       time,
+       number,
+       csv = has_format("csv"),
+       vtu = has_format("vtu")]() {
+        for (const auto &[name, parts] : series)
+          {
+            if (csv)
+              write_atomically(name + "csv", csv_text(parts));
+            if (vtu)
+              write_vtu(name + "vtu", parts, time, number);
+          }
+      },
+      memory_is_short(comm));
     if (!points.pending())
       list_points();
   }

@@ -5,7 +5,7 @@
 #define morula_output_appended_csv_h
 
 #include <morula/output/digest.h>
-#include <morula/output/shared_file.h>
+#include <morula/output/output_file.h>
 
 #include <mpi.h>
 
@@ -70,16 +70,6 @@ namespace Morula
     void
     append(const std::string &rows);
 
-    /**
-     * As append(), for all ranks' @p rows, rank by rank. Many are written by
-     * all ranks, each its part, where the file system allows that; else by rank
-     * 0.
-     * @param shared_from size of the rows, bytes, that are many
-     */
-    void
-    append_parts(const std::string  &rows,
-                 const std::uint64_t shared_from = PartOfFile::worth_while);
-
     /** Forces the rows to the disk. Needed before a snapshot counts them. */
     void
     sync();
@@ -92,18 +82,10 @@ namespace Morula
     }
 
   private:
-    /** @return whether this was possible */
-    bool
-    write_parts(const std::string  &rows,
-                const std::uint64_t n_before,
-                const std::uint64_t n_all);
-
-    MPI_Comm                   comm;
-    std::string                path;
-    std::uint64_t              n_rows = 0;
-    std::uint64_t              size   = 0; // bytes; on rank 0
-    Digest                     digest;     // of the file so far, on rank 0
-    std::unique_ptr<PosixFile> file;       // on rank 0
+    MPI_Comm                    comm;
+    std::uint64_t               n_rows = 0;
+    Digest                      digest; // of the file so far, on rank 0
+    std::unique_ptr<OutputFile> file;   // on rank 0
   };
 } // namespace Morula
 

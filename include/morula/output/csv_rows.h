@@ -4,13 +4,15 @@
 #ifndef morula_output_csv_rows_h
 #define morula_output_csv_rows_h
 
-#include <morula/base/global_order.h>
+#include <morula/output/gather.h>
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -36,39 +38,48 @@ namespace Morula
   std::string
   csv_row(const double *values, const unsigned int n);
 
-  /** Rows of a CSV file that this rank contributes, already as text. */
-  class CsvRows
+  /**
+   * All ranks' rows of a table in the order of their keys, on rank 0; elsewhere
+   * nothing. Rows of equal keys are of one rank, and stay in their order.
+   * Collective.
+   * @tparam Key trivially copyable, with operator<
+   */
+  template <typename Key>
+  std::string
+  rows_in_order(std::vector<Key>                keys,
+                const std::vector<std::string> &rows,
+                const MPI_Comm                  comm)
   {
-  public:
-    /** Adds a row, with its newline. */
-    void
-    add(const std::string_view row);
-
-    /** Bytes of all rows. */
-    std::size_t
-    n_bytes() const
-    {
-      return text.size();
-    }
-
-    /**
-     * Puts all ranks' rows in order and returns those that this rank is to
-     * write: each rank has about as many as the others, rank 0 the first ones.
-     * Collective.
-     * @param order of the rows, over all ranks. Rows of equal places are of one
-     *   rank, and stay in their order.
-     */
-    std::string
-    share_in_order(const GlobalOrder &order, const MPI_Comm comm) const;
-
-  private:
-    std::string_view
-    row(const std::size_t i) const;
-
-    std::string text;
-    /** The position in the text behind its newline, for each row. */
-    std::vector<std::size_t> ends;
-  };
+    // Rows travel as one text. Their lengths cut it into rows again.
+    std::string              text;
+    std::vector<std::size_t> lengths;
+    for (const std::string &row : rows)
+      {
+        text += row;
+        lengths.push_back(row.size());
+      }
+    const auto all_keys    = gather_to_root(std::move(keys), comm);
+    const auto all_lengths = gather_to_root(std::move(lengths), comm);
+    const auto all_texts   = gather_to_root(std::move(text), comm);
+    std::vector<std::pair<Key, std::string_view>> all;
+    for (std::size_t rank = 0; rank < all_keys.size(); ++rank)
+      {
+        std::string_view rest = all_texts[rank];
+        for (std::size_t i = 0; i < all_keys[rank].size(); ++i)
+          {
+            all.emplace_back(all_keys[rank][i],
+                             rest.substr(0, all_lengths[rank][i]));
+            rest.remove_prefix(all_lengths[rank][i]);
+          }
+      }
+    std::stable_sort(all.begin(), all.end(), [](const auto &a, const auto &b) {
+      return a.first < b.first;
+    });
+    std::string sorted;
+    for (const auto &row : all)
+      sorted += row.second;
+    return sorted;
+  }
 } // namespace Morula
 
 #endif

@@ -12,19 +12,6 @@
 namespace Morula
 {
   /**
-   * Digest of two runs of bytes, one behind the other, from the digests of both
-   * alone: so ranks can write parts of a table. Written here since Boost has
-   * nothing of the kind, and zlib only for CRC-32. A CRC is the remainder of
-   * a polynomial over the integers modulo 2, whose coefficients are the bits;
-   * n bytes behind it multiply it by x^8n.
-   * @param n_bytes length of the second
-   */
-  std::uint64_t
-  joined_digests(const std::uint64_t first,
-                 const std::uint64_t second,
-                 const std::uint64_t n_bytes);
-
-  /**
    * A number computed from bytes, by which damage is found: the CRC-64 that xz
    * and Go's hash/crc64 call ECMA (CRC-64/XZ). It can be continued when bytes
    * are added.
@@ -43,14 +30,6 @@ namespace Morula
     /** Adds further bytes. */
     void
     add(const std::string_view bytes);
-
-    /** Adds @p n_bytes further bytes, of which only the digest is known: that
-     *  of these bytes alone. */
-    void
-    add(const std::uint64_t digest, const std::uint64_t n_bytes)
-    {
-      remainder = ~joined_digests(value(), digest, n_bytes);
-    }
 
     /** The digest of all bytes so far. */
     std::uint64_t

@@ -27,9 +27,8 @@ namespace Morula
   event_columns(const EventsContents &contents);
 
   /**
-   * This rank's part of a step's rows of events.csv: one for each event of a
-   * cell on any rank, ordered by time, then by the cell's id, then by kind.
-   * Collective.
+   * A step's rows of events.csv, on rank 0: one for each event of a cell on any
+   * rank, ordered by time, then by the cell's id, then by kind. Collective.
    * @param events of this rank, in any order
    */
   std::string

@@ -18,9 +18,9 @@ namespace Morula
   lineage_columns(const bool with_types);
 
   /**
-   * This rank's part of the next rows of lineage.csv, which has one for each
-   * cell that ever lived: all ranks' births since the last call, in id order.
-   * Their ids follow those in the file. Collective.
+   * The next rows of lineage.csv, on rank 0. The table has one for each cell
+   * that ever lived: all ranks' births since the last call, in id order. Their
+   * ids follow those in the file. Collective.
    * @param births of this rank, in any order
    */
   template <int dim>

@@ -4,7 +4,7 @@
 #ifndef morula_output_log_h
 #define morula_output_log_h
 
-#include <morula/output/posix_file.h>
+#include <morula/output/output_file.h>
 
 #include <mpi.h>
 
@@ -39,7 +39,7 @@ namespace Morula
 
   private:
     MPI_Comm                   comm;
-    std::unique_ptr<PosixFile> file; // on rank 0
+    std::unique_ptr<OutputFile> file; // on rank 0
   };
 } // namespace Morula
 

@@ -4,6 +4,8 @@
 #ifndef morula_output_point_fields_h
 #define morula_output_point_fields_h
 
+#include <morula/output/gather.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -118,6 +121,26 @@ namespace Morula
       return values.data() + i * names.size();
     }
   };
+
+  /** The rows of all ranks, rank by rank, on rank 0; elsewhere nothing.
+   *  Collective. */
+  template <int dim>
+  std::vector<PointFields<dim>>
+  gather_to_root(PointFields<dim> fields, const MPI_Comm comm)
+  {
+    auto ids       = gather_to_root(std::exchange(fields.ids, {}), comm);
+    auto positions = gather_to_root(std::exchange(fields.positions, {}), comm);
+    auto values    = gather_to_root(std::exchange(fields.values, {}), comm);
+    // All ranks have the same columns.
+    std::vector<PointFields<dim>> parts(ids.size(), fields);
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+      {
+        parts[rank].ids       = std::move(ids[rank]);
+        parts[rank].positions = std::move(positions[rank]);
+        parts[rank].values    = std::move(values[rank]);
+      }
+    return parts;
+  }
 } // namespace Morula
 
 #endif

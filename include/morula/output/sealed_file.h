@@ -4,8 +4,6 @@
 #ifndef morula_output_sealed_file_h
 #define morula_output_sealed_file_h
 
-#include <mpi.h>
-
 #include <cstddef>
 #include <string>
 
@@ -30,12 +28,12 @@ namespace Morula
   constexpr std::size_t size_of_seal = 512;
 
   /**
-   * Writes the seal of a complete file over its first bytes. Every rank reads
-   * a share of the file. Collective.
-   * @throws std::runtime_error on all ranks, with path and reason
+   * Writes the seal over the first bytes of `path.tmp`, which is complete, and
+   * gives it the file's name.
+   * @throws std::runtime_error with path and reason
    */
   void
-  seal(const std::string &path, const MPI_Comm comm);
+  seal(const std::string &path);
 
   /** The state of a file that should have a seal. */
   enum class SealState
@@ -47,10 +45,9 @@ namespace Morula
     whole
   };
 
-  /** Compares a file with its seal. Every rank reads a share of the file.
-   *  Collective. */
+  /** Compares a file with its seal. */
   SealState
-  examine_seal(const std::string &path, const MPI_Comm comm);
+  examine_seal(const std::string &path);
 } // namespace Morula
 
 #endif

@@ -5,12 +5,9 @@
 #define morula_output_vtu_h
 
 #include <morula/output/point_fields.h>
-#include <morula/output/shared_file.h>
 
 #include <mpi.h>
 
-#include <cstdint>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,27 +15,19 @@
 namespace Morula
 {
   /**
-   * Begins one VTU file for all ranks, one piece a rank, all columns of the
-   * fields as point data: in single precision, or as integers of 32 bits. The
-   * file is XML throughout, with the data in base64, and appears when it is
-   * complete. Collective.
-   * @param time   day, for ParaView's annotation
+   * Writes one VTU file, uncompressed, with a piece for each part. It appears
+   * when it is complete.
+   * @param parts  of the ranks
+   * @param time   day
    * @param number of the file in its series
-   * @param shared_from size, bytes, from which on several ranks write the file
-   *        together if the file system allows that; else rank 0 does, group by
-   *        group of columns. The file is the same.
-   * @return the file with the fields that are to be written; nullptr, on all
-   *   ranks, if rank 0 has written the file
-   * @throws std::runtime_error, on all ranks, with path and reason
+   * @throws std::runtime_error with path and reason
    */
   template <int dim>
-  std::unique_ptr<PendingFile>
-  begin_vtu(const std::string  &path,
-            PointFields<dim>    fields,
-            const double        time,
-            const unsigned int  number,
-            const MPI_Comm      comm,
-            const std::uint64_t shared_from = PartOfFile::worth_while);
+  void
+  write_vtu(const std::string                   &path,
+            const std::vector<PointFields<dim>> &parts,
+            const double                         time,
+            const unsigned int                   number);
 
   /**
    * Writes the ParaView record of a series: times (day) and file names relative

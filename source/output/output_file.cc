@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/posix_file.h>
+#include <morula/output/output_file.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -16,19 +18,39 @@ namespace Morula
 {
   namespace
   {
+    using Mode = OutputFile::Mode;
+
     int
-    flags(const PosixFile::Mode mode)
+    flags(const Mode mode)
     {
       switch (mode)
         {
-          case PosixFile::Mode::create:
-            return O_WRONLY | O_CREAT | O_TRUNC;
-          case PosixFile::Mode::append:
+          case Mode::append:
             return O_WRONLY | O_CREAT | O_APPEND;
-          case PosixFile::Mode::overwrite:
+          case Mode::change:
+            return O_WRONLY | O_APPEND;
+          case Mode::complete:
             return O_WRONLY;
           default:
-            return O_WRONLY | O_APPEND;
+            return O_WRONLY | O_CREAT | O_TRUNC;
+        }
+    }
+
+    /**
+     * Forces a rename to the disk. Not every file system can do that. Errors
+     * do not matter, since the file's content is already on the disk.
+     */
+    void
+    sync_directory_of(const std::string &path)
+    {
+      const std::string directory =
+        std::filesystem::path(path).parent_path().string();
+      const int descriptor = ::open(directory.empty() ? "." : directory.c_str(),
+                                    O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+      if (descriptor >= 0)
+        {
+          ::fsync(descriptor);
+          ::close(descriptor);
         }
     }
   } // namespace
@@ -44,22 +66,34 @@ namespace Morula
            opened.st_ino == there.st_ino;
   }
 
-  PosixFile::PosixFile(const std::string &path, const Mode mode)
+  std::string
+  temporary_path(const std::string &path)
+  {
+    return path + ".tmp";
+  }
+
+  OutputFile::OutputFile(const std::string &path, const Mode mode)
     : path(path)
-    , descriptor(::open(path.c_str(), flags(mode) | O_CLOEXEC, 0666))
+    , is_temporary(mode == Mode::replace || mode == Mode::complete)
+    , descriptor(
+        ::open(is_temporary ? temporary_path(path).c_str() : path.c_str(),
+               flags(mode) | O_CLOEXEC,
+               0666))
   {
     if (descriptor < 0)
       fail("open");
   }
 
-  PosixFile::~PosixFile()
+  OutputFile::~OutputFile()
   {
     if (descriptor >= 0)
       ::close(descriptor);
+    if (is_temporary)
+      std::remove(temporary_path(path).c_str());
   }
 
   void
-  PosixFile::write(std::string_view text)
+  OutputFile::write(std::string_view text)
   {
     while (!text.empty())
       {
@@ -74,24 +108,7 @@ namespace Morula
   }
 
   void
-  PosixFile::write_at(std::string_view text, std::uint64_t offset)
-  {
-    while (!text.empty())
-      {
-        const ssize_t n =
-          ::pwrite(descriptor, text.data(), text.size(), offset);
-        if (n >= 0)
-          {
-            text.remove_prefix(n);
-            offset += n;
-          }
-        else if (errno != EINTR)
-          fail("write");
-      }
-  }
-
-  void
-  PosixFile::reserve(const std::size_t size)
+  OutputFile::reserve(const std::size_t size)
   {
     // Not all file systems can reserve room. On those a full disk shows only
     // later.
@@ -101,14 +118,14 @@ namespace Morula
   }
 
   void
-  PosixFile::truncate(const std::size_t size)
+  OutputFile::truncate(const std::size_t size)
   {
     if (::ftruncate(descriptor, size) != 0)
       fail("shorten");
   }
 
   void
-  PosixFile::sync()
+  OutputFile::sync()
   {
     // Pipes and some special files cannot be synchronised, which is no error.
     if (::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
@@ -116,7 +133,7 @@ namespace Morula
   }
 
   void
-  PosixFile::check_in_place() const
+  OutputFile::check_in_place() const
   {
     if (!is_open_at(descriptor, path))
       throw std::runtime_error("the file '" + path +
@@ -126,18 +143,32 @@ namespace Morula
   }
 
   void
-  PosixFile::close()
+  OutputFile::commit()
   {
-    // A file system may report only now that it could not write.
+    // First the content is on the disk, then the name changes. A file system
+    // may report only when it closes the file that it could not write.
+    sync();
     if (::close(std::exchange(descriptor, -1)) != 0)
       fail("write");
+    if (std::rename(temporary_path(path).c_str(), path.c_str()) != 0)
+      fail("replace");
+    is_temporary = false;
+    sync_directory_of(path);
   }
 
   void
-  PosixFile::fail(const std::string &what) const
+  OutputFile::fail(const std::string &what) const
   {
     const int reason = errno;
     throw std::runtime_error("cannot " + what + " the file '" + path +
                              "': " + std::strerror(reason));
+  }
+
+  void
+  write_atomically(const std::string &path, const std::string_view text)
+  {
+    OutputFile file(path, OutputFile::Mode::replace);
+    file.write(text);
+    file.commit();
   }
 } // namespace Morula

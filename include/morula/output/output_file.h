@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_output_posix_file_h
-#define morula_output_posix_file_h
+#ifndef morula_output_output_file_h
+#define morula_output_output_file_h
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,38 +14,41 @@ namespace Morula
   bool
   is_open_at(const int descriptor, const std::string &path);
 
+  /** The name under which a file is written before it is complete:
+   *  `path.tmp`. */
+  std::string
+  temporary_path(const std::string &path);
+
   /**
    * A file open for writing. Unlike std::ofstream it says why an operation
    * failed, and can force its content to the disk. All members throw a
    * std::runtime_error with the path and the system's reason.
    */
-  class PosixFile
+  class OutputFile
   {
   public:
     enum class Mode
     {
-      create,   // an existing file is emptied
-      append,   // the file is created if it does not exist
-      change,   // the file must exist; it keeps its content, new text is added
-      overwrite // the file must exist; new text replaces its beginning
+      create,  // an existing file is emptied
+      append,  // the file is created if it does not exist
+      change,  // the file must exist; new text follows its content
+      replace, // `path.tmp` is written; commit() gives it the file's name
+      complete // the same with an existing `path.tmp`, from its beginning
     };
 
-    PosixFile(const std::string &path, const Mode mode);
+    OutputFile(const std::string &path, const Mode mode);
 
-    /** Closes the file, and ignores errors; see close(). */
-    ~PosixFile();
+    /** Closes the file and ignores errors. A file that was to be replaced stays
+     *  as it was, unless commit() was called. */
+    ~OutputFile();
 
-    PosixFile(const PosixFile &) = delete;
-    PosixFile &
-    operator=(const PosixFile &) = delete;
+    OutputFile(const OutputFile &) = delete;
+    OutputFile &
+    operator=(const OutputFile &) = delete;
 
-    /** Adds @p text at the end. */
+    /** Adds @p text. */
     void
     write(std::string_view text);
-
-    /** Puts @p text in the file's place from byte @p offset on. */
-    void
-    write_at(std::string_view text, std::uint64_t offset);
 
     /** Reserves @p size bytes on the disk, where the file system can do that,
      *  so that a full disk is noticed now. */
@@ -68,17 +70,23 @@ namespace Morula
     void
     check_in_place() const;
 
-    /** Closes the file, and throws if that fails. */
+    /** Forces `path.tmp` to the disk and renames it. A reader sees the old file
+     *  or the new one, never a part of it. */
     void
-    close();
+    commit();
 
   private:
     [[noreturn]] void
     fail(const std::string &what) const;
 
     std::string path;
+    bool        is_temporary; // until commit()
     int         descriptor;
   };
+
+  /** Replaces a whole file; see OutputFile::commit(). */
+  void
+  write_atomically(const std::string &path, const std::string_view text);
 } // namespace Morula
 
 #endif

@@ -71,22 +71,6 @@ TEST(ProgressLine, SaysWhatTheStepDid)
             "iterations, 3 min 20 s");
 }
 
-TEST(ProgressBar, FitsTheTerminal)
-{
-  EXPECT_EQ(progress_bar(report(2.), 0., 4., 125., 80),
-            "[#########..........]  50 %  2 min 05 s left  day 2 of 4  "
-            "65752 cells  4 Newton");
-  EXPECT_EQ(progress_bar(report(2.), 0., 4., 125., 40),
-            "[#######.......]  50 %  2 min 05 s left");
-  EXPECT_EQ(progress_bar(report(4.), 1., 4., 0., 26),
-            "[#################] 100 %");
-  EXPECT_EQ(progress_bar(report(1.), 1., 4., -1., 12), "  0 %");
-  EXPECT_EQ(progress_bar(report(1.), 1., 4., -1., 500).substr(0, 43),
-            '[' + std::string(40, '.') + "] ");
-  for (unsigned int width = 1; width < 200; ++width)
-    EXPECT_LT(progress_bar(report(1.2345), 0., 4., 125., width).size(), width);
-}
-
 TEST(Summary, NamesTheDearestSections)
 {
   FinalReport summary;

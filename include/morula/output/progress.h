@@ -4,13 +4,14 @@
 #ifndef morula_output_progress_h
 #define morula_output_progress_h
 
-#include <morula/output/log.h>
+#include <morula/output/output_file.h>
 #include <morula/output/time_left.h>
 #include <morula/output/timings.h>
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -51,26 +52,14 @@ namespace Morula
                 const double      end_time,
                 const double      seconds_left);
 
-  /**
-   * A step as a progress bar shorter than @p width characters. Parts that do
-   * not fit are left out.
-   */
-  std::string
-  progress_bar(const StepReport  &report,
-               const double       start_time,
-               const double       end_time,
-               const double       seconds_left,
-               const unsigned int width);
-
   /** The summary at the end: several lines, without the last newline. */
   std::string
   summary_block(const FinalReport &summary);
 
   /**
-   * Tells the user what happens. A terminal shows one progress bar, with the
-   * time left, that is updated in place. Any other output and log.txt get one
-   * line a step. Only rank 0 writes. Members are collective unless they say
-   * otherwise.
+   * Tells the user what happens: the terminal and log.txt get one line a step,
+   * with the time left. Only rank 0 writes. Members are collective unless they
+   * say otherwise.
    */
   class Progress
   {
@@ -98,25 +87,23 @@ namespace Morula
 
     /** Shows and logs the summary of a run that has come to its end. */
     void
-    finish(const FinalReport &summary);
+    finish(const FinalReport &summary)
+    {
+      message(summary_block(summary));
+    }
 
     /**
-     * Ends the bar and writes @p text, the reason why the program ends, into
-     * the log only, where possible. Not collective.
+     * Writes @p text, the reason why the program ends, into the log only, where
+     * possible. Not collective.
      */
     void
     fail(const std::string &text) noexcept;
 
   private:
-    void
-    clear_bar();
-
-    double   start_time;
-    double   end_time;
-    bool     is_root; // rank 0
-    bool     bar_shown = false;
-    TimeLeft time_left;
-    Log      log;
+    MPI_Comm                    comm;
+    double                      end_time;
+    TimeLeft                    time_left;
+    std::unique_ptr<OutputFile> log; // on rank 0
   };
 } // namespace Morula
 

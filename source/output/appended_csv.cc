@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/appended_csv.h>
-#include <morula/output/csv_rows.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -84,28 +83,27 @@ namespace Morula
     }
   } // namespace
 
-  AppendedCsv::AppendedCsv(const std::string              &path,
-                           const std::vector<std::string> &names,
-                           const MPI_Comm                  comm)
+  AppendedCsv::AppendedCsv(const std::string &path,
+                           const std::string &header,
+                           const MPI_Comm     comm)
     : comm(comm)
   {
     on_root(comm, [&]() {
-      const std::string header = csv_header(names);
       file = std::make_unique<OutputFile>(path, OutputFile::Mode::create);
       file->write(header);
       digest.add(header);
     });
   }
 
-  AppendedCsv::AppendedCsv(const std::string              &path,
-                           const std::vector<std::string> &names,
-                           const TableExtent              &kept,
-                           const MPI_Comm                  comm)
+  AppendedCsv::AppendedCsv(const std::string &path,
+                           const std::string &header,
+                           const TableExtent &kept,
+                           const MPI_Comm     comm)
     : comm(comm)
     , n_rows(kept.n_rows)
   {
     on_root(comm, [&]() {
-      const Beginning beginning = beginning_of(path, csv_header(names), kept);
+      const Beginning beginning = beginning_of(path, header, kept);
       // Rows that were written after the snapshot are computed again.
       file   = std::make_unique<OutputFile>(path, OutputFile::Mode::change);
       digest = beginning.digest;
@@ -114,12 +112,12 @@ namespace Morula
   }
 
   void
-  AppendedCsv::check(const std::string              &path,
-                     const std::vector<std::string> &names,
-                     const TableExtent              &kept,
-                     const MPI_Comm                  comm)
+  AppendedCsv::check(const std::string &path,
+                     const std::string &header,
+                     const TableExtent &kept,
+                     const MPI_Comm     comm)
   {
-    on_root(comm, [&]() { beginning_of(path, csv_header(names), kept); });
+    on_root(comm, [&]() { beginning_of(path, header, kept); });
   }
 
   void

@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/output/csv.h>
-#include <morula/output/csv_rows.h>
+#include <morula/output/table.h>
 
 #include <algorithm>
 #include <utility>
@@ -21,12 +21,23 @@ namespace Morula
       for (std::size_t i = 0; i < part.size(); ++i)
         rows.emplace_back(part.ids[i], part.row(i));
     std::sort(rows.begin(), rows.end());
-    std::string text = csv_header({names.begin(), names.begin() + n_columns});
+    std::string text;
     // A number has about a dozen characters; moving a longer and longer text
     // would take as long as making it.
-    text.reserve(text.size() + 12 * n_columns * rows.size());
+    text.reserve(12 * n_columns * (1 + rows.size()));
+    for (unsigned int i = 0; i < n_columns; ++i)
+      text += (i > 0 ? "," : "") + names[i];
+    text += '\n';
     for (const auto &[id, row] : rows)
-      append_row(text, row, n_columns);
+      {
+        for (unsigned int i = 0; i < n_columns; ++i)
+          {
+            if (i > 0)
+              text += ',';
+            append_number(text, row[i]);
+          }
+        text += '\n';
+      }
     return text;
   }
 

@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/output/output_file.h>
-#include <morula/output/csv_rows.h>
+#include <morula/output/table.h>
 #include <morula/output/timings.h>
 
 namespace Morula
@@ -27,18 +27,14 @@ namespace Morula
                 const double        total_seconds,
                 const MPI_Comm      comm)
   {
-    std::string text =
-      csv_header({"section", "calls", "wall_seconds", "share"});
-    const auto add = [&](const std::string &name, const SectionTime &time) {
-      text += name + ',';
-      append_number(text, time.calls);
-      text += ',';
-      append_number(text, time.wall_seconds);
-      text += ',';
-      append_number(text,
-                    total_seconds > 0. ? time.wall_seconds / total_seconds :
-                                         0.);
-      text += '\n';
+    std::string text;
+    const auto  add = [&](const std::string &name, const SectionTime &time) {
+      const TableRow row = {
+        {"section", name},
+        {"calls", time.calls},
+        {"wall_seconds", time.wall_seconds},
+        {"share", total_seconds > 0. ? time.wall_seconds / total_seconds : 0.}};
+      text += (text.empty() ? row.header() : "") + row.text();
     };
     for (const auto &section : sections)
       add(section.first, section.second);

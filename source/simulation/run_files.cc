@@ -4,8 +4,8 @@
 #include <morula/base/available_memory.h>
 #include <morula/output/csv.h>
 #include <morula/output/vtu.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
-#include <morula/simulation/run_tables.h>
 
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,62 @@ namespace Morula
     /** Prefixes of a section's numbers in a snapshot. */
     const std::string section_prefix = "seconds in ";
     const std::string calls_prefix   = "calls of ";
+
+    /** A row with the columns that a run of this scene has. */
+    template <int dim>
+    StatisticsRow
+    row_like(const Scene &scene, const Tables<dim> &tables)
+    {
+      // The values do not matter: a column exists where the row has a value for
+      // it.
+      StatisticsRow row;
+      for (const auto &column : tables.columns())
+        row.of_effects.emplace_back(column.name, 0.);
+      if (has_surface<dim>(scene))
+        row.surface.emplace();
+      if (effects_of<dim>(scene).development.states_error())
+        row.step_error = 0.;
+      return row;
+    }
+
+    /** A table that grows by rows as the run goes on. */
+    struct Table
+    {
+      std::string name; // of the file, without ending
+      std::string header;
+      // A resumed run may have the table although the run began without it.
+      bool may_begin_later = false;
+    };
+
+    /** The tables of a run of this scene. @param of_effects what its effects
+     *  add */
+    template <int dim>
+    std::vector<Table>
+    tables_of(const Scene &scene, const Tables<dim> &of_effects)
+    {
+      // The first tables follow from what acts in the scene, which a resumed
+      // run cannot change. The others follow from keys that it may change, or
+      // came with a later version: they may begin later. The values of the rows
+      // do not matter here.
+      const CellEvent    event{0., 0, CellEvent::death, 0, 0};
+      std::vector<Table> tables = {
+        {"statistics", statistics_row(row_like(scene, of_effects)).header()},
+        {"lineage",
+         lineage_row(Birth<dim>{}, !scene.type_names().empty()).header()}};
+      if (of_effects.records_events())
+        tables.push_back(
+          {"events",
+           event_row(event, {{}, of_effects.has_causes()}).header()});
+      if (Scene::has_any(scene.catalogue.boundary_conditions) ||
+          Scene::has_any(scene.catalogue.interactions))
+        tables.push_back({"forces", force_row({}, {}).header(), true});
+      if (scene.output.condition_estimate)
+        tables.push_back(
+          {"condition", condition_row({}, {}, {}).header(), true});
+      if (scene.output.newton_trace)
+        tables.push_back({"newton", newton_row({}, {}).header(), true});
+      return tables;
+    }
   } // namespace
 
   template <int dim>
@@ -120,7 +176,7 @@ namespace Morula
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
-                           table.columns,
+                           table.header,
                            comm);
     progress.emplace(path("log.txt"),
                      resumed_from.has_value(),
@@ -185,9 +241,9 @@ namespace Morula
             continue;
           const TableExtent kept = extent_of(name, resumed_from);
           if (check)
-            AppendedCsv::check(file, table.columns, kept, comm);
+            AppendedCsv::check(file, table.header, kept, comm);
           else
-            tables.try_emplace(name, file, table.columns, kept, comm);
+            tables.try_emplace(name, file, table.header, kept, comm);
         }
   }
 
@@ -213,7 +269,7 @@ namespace Morula
     if (points.written())
       finish_points();
     row.wall_seconds = wall_seconds();
-    tables.at("statistics").append(statistics_row(row));
+    tables.at("statistics").append(statistics_row(row).text());
     tables.at("lineage").append(
       lineage_rows(births, !contents.type_names.empty(), comm));
     if (records_events)
@@ -228,26 +284,13 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::message(const std::string &text)
-  {
-    progress->message(text);
-  }
-
-  template <int dim>
-  void
-  RunFiles<dim>::condition(const unsigned int       step,
-                           const double             time,
-                           const ConditionEstimate &estimate)
-  {
-    tables.at("condition").append(condition_row(step, time, estimate));
-  }
-
-  template <int dim>
-  void
   RunFiles<dim>::newton(const unsigned int                  step,
                         const std::vector<NewtonIteration> &trace)
   {
-    tables.at("newton").append(newton_rows(step, trace));
+    std::string rows;
+    for (const NewtonIteration &state : trace)
+      rows += newton_row(step, state).text();
+    tables.at("newton").append(rows);
   }
 
   template <int dim>
@@ -305,7 +348,10 @@ namespace Morula
   RunFiles<dim>::forces(const double time, const std::vector<ForceRow> &rows)
   {
     next_forces = next_multiple(time, scene.output.interval, scene.time);
-    tables.at("forces").append(force_rows(time, rows));
+    std::string text;
+    for (const ForceRow &row : rows)
+      text += force_row(time, row).text();
+    tables.at("forces").append(text);
   }
 
   template <int dim>
@@ -420,13 +466,6 @@ namespace Morula
                           section_times(timer, sections_before),
                           wall_seconds(),
                           comm);
-  }
-
-  template <int dim>
-  void
-  RunFiles<dim>::fail(const std::string &text) noexcept
-  {
-    progress->fail(text);
   }
 
   template <int dim>

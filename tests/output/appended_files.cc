@@ -66,10 +66,10 @@ TEST(Statistics, HaveTheColumnsOfTheContract)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
-  AppendedCsv            file(path, statistics_columns({}), MPI_COMM_WORLD);
+  AppendedCsv            file(path, statistics_row({}).header(), MPI_COMM_WORLD);
   EXPECT_EQ(file.extent().n_rows, 0u);
-  file.append(statistics_row(row(0)));
-  file.append(statistics_row(row(1)));
+  file.append(statistics_row(row(0)).text());
+  file.append(statistics_row(row(1)).text());
   EXPECT_EQ(file.extent().n_rows, 2u);
   file.sync();
   EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
@@ -81,20 +81,20 @@ TEST(Statistics, AreCutWhenResumed)
   const std::string      path = directory / "statistics.csv";
   TableExtent            two, three;
   {
-    AppendedCsv file(path, statistics_columns({}), MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_row({}).header(), MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 4; ++step)
       {
         if (step == 2)
           two = file.extent();
-        file.append(statistics_row(row(step)));
+        file.append(statistics_row(row(step)).text());
       }
   }
   tear(path, "4,0.25,3,4,5");
   {
-    AppendedCsv file(path, statistics_columns({}), two, MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_row({}).header(), two, MPI_COMM_WORLD);
     EXPECT_EQ(content(path), statistics_header + row_text(0) + row_text(1));
     MPI_Barrier(MPI_COMM_WORLD);
-    file.append(statistics_row(row(7)));
+    file.append(statistics_row(row(7)).text());
     three = file.extent();
     EXPECT_EQ(three.n_rows, 3u);
   }
@@ -104,10 +104,10 @@ TEST(Statistics, AreCutWhenResumed)
   // a torn row does not count
   tear(path, "8,0.25");
   const TableExtent four = {4, three.digest};
-  EXPECT_THROW(AppendedCsv(path, statistics_columns({}), four, MPI_COMM_WORLD),
+  EXPECT_THROW(AppendedCsv(path, statistics_row({}).header(), four, MPI_COMM_WORLD),
                InputError);
   EXPECT_NO_THROW(
-    AppendedCsv(path, statistics_columns({}), three, MPI_COMM_WORLD));
+    AppendedCsv(path, statistics_row({}).header(), three, MPI_COMM_WORLD));
 }
 
 TEST(Statistics, RefuseToResumeFromOtherFiles)
@@ -116,10 +116,10 @@ TEST(Statistics, RefuseToResumeFromOtherFiles)
   const std::string      path = directory / "statistics.csv";
   const TableExtent      nothing, one = {1, 0};
   EXPECT_THROW(
-    AppendedCsv(path, statistics_columns({}), nothing, MPI_COMM_WORLD),
+    AppendedCsv(path, statistics_row({}).header(), nothing, MPI_COMM_WORLD),
     InputError);
   on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
-  EXPECT_THROW(AppendedCsv(path, statistics_columns({}), one, MPI_COMM_WORLD),
+  EXPECT_THROW(AppendedCsv(path, statistics_row({}).header(), one, MPI_COMM_WORLD),
                InputError);
   EXPECT_EQ(content(path), "step,time\n0,0\n");
 }
@@ -133,9 +133,9 @@ TEST(Lineage, IsInIdOrder)
   const unsigned int     n_ranks = number_of_ranks();
   const std::string      header  = "id,parent,generation,birth_time,x,y,z\n";
 
-  AppendedCsv file(path, lineage_columns(false), MPI_COMM_WORLD);
+  AppendedCsv file(path, lineage_row(Birth<3>{}, false).header(), MPI_COMM_WORLD);
   const auto  append = [&](const std::vector<Birth<3>> &births) {
-    file.append_parts(lineage_rows(births, false, MPI_COMM_WORLD));
+    file.append(lineage_rows(births, false, MPI_COMM_WORLD));
   };
   // the last rank holds the first founder
   const types::particle_index id = n_ranks - 1 - rank;
@@ -166,7 +166,7 @@ TEST(Lineage, IsInIdOrder)
   Digest founders;
   founders.add(expected.substr(0, end_of_founders));
   AppendedCsv resumed(path,
-                      lineage_columns(false),
+                      lineage_row(Birth<3>{}, false).header(),
                       {n_ranks, founders.value()},
                       MPI_COMM_WORLD);
   EXPECT_EQ(content(path), expected.substr(0, end_of_founders));
@@ -176,71 +176,48 @@ TEST(Lineage, HasAZeroZInTwoDimensions)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "lineage.csv";
-  AppendedCsv            file(path, lineage_columns(false), MPI_COMM_WORLD);
+  AppendedCsv            file(path, lineage_row(Birth<3>{}, false).header(), MPI_COMM_WORLD);
   std::vector<Birth<2>>  births;
   if (this_rank() == 0)
     births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};
-  file.append_parts(lineage_rows(births, false, MPI_COMM_WORLD));
+  file.append(lineage_rows(births, false, MPI_COMM_WORLD));
   EXPECT_EQ(content(path),
             "id,parent,generation,birth_time,x,y,z\n"
             "3,1,2,0.3333333333,4,5,0\n");
 }
 
-TEST(AppendedParts, MakeTheFileThatRankZeroMakes)
+TEST(Rows, AreInTheOrderOfTheirKeys)
 {
-  const ScratchDirectory directory;
-  const unsigned int     rank    = this_rank();
-  const unsigned int     n_ranks = number_of_ranks();
-  const auto rows_of = [](const unsigned int r, const unsigned int n) {
-    std::string rows;
-    for (unsigned int i = 0; i < n; ++i)
-      rows += std::to_string(r) + "," + std::to_string(i * i) + "\n";
-    return rows;
-  };
-  AppendedCsv one(directory / "one.csv", {"rank", "square"}, MPI_COMM_WORLD),
-    all(directory / "all.csv", {"rank", "square"}, MPI_COMM_WORLD);
-  // Some ranks have nothing; in the second round the last one has no more than
-  // rank 0 appends alone, and in the third nobody has anything.
-  const std::vector<std::vector<unsigned int>> n_rows = {{300, 0, 41},
-                                                         {0, 0, 7},
-                                                         {0, 0, 0},
-                                                         {5, 1000, 3}};
-  for (const auto &n : n_rows)
+  // Rows of equal keys stay as they are, and some ranks have nothing.
+  std::vector<int>      keys;
+  std::vector<TableRow> rows;
+  const unsigned int    rank = this_rank();
+  if (rank != 1)
     {
-      std::string everybodys;
-      for (unsigned int r = 0; r < n_ranks; ++r)
-        everybodys += rows_of(r, n[r]);
-      one.append(everybodys);
-      all.append_parts(rows_of(rank, n[rank]), 1);
-      one.append("9,9\n");
-      all.append("9,9\n");
-      EXPECT_EQ(one.extent().n_rows, all.extent().n_rows);
-      EXPECT_EQ(one.extent().digest, all.extent().digest);
-      EXPECT_EQ(content(directory / "one.csv"), content(directory / "all.csv"));
-      MPI_Barrier(MPI_COMM_WORLD);
+      keys = {7, int(rank), 7};
+      for (const char *const name : {"first", "other", "second"})
+        rows.push_back({{"name", name + std::to_string(rank)}});
     }
-  all.sync();
-  EXPECT_NO_THROW(AppendedCsv::check(
-    directory / "all.csv", {"rank", "square"}, all.extent(), MPI_COMM_WORLD));
+  EXPECT_EQ(rows_in_order(keys, rows, MPI_COMM_SELF),
+            rank == 1 ? "" :
+                        "other" + std::to_string(rank) + "\nfirst" +
+                          std::to_string(rank) + "\nsecond" +
+                          std::to_string(rank) + '\n');
+  keys.resize(std::min<std::size_t>(keys.size(), rank == 0 ? 3 : 2), 0);
+  rows.resize(keys.size(), TableRow{});
+  const std::string all = rows_in_order(keys, rows, MPI_COMM_WORLD);
+  EXPECT_EQ(all,
+            rank > 0 ? "" :
+            number_of_ranks() == 1 ?
+                       "other0\nfirst0\nsecond0\n" :
+                       "other0\nother2\nfirst0\nsecond0\nfirst2\n");
 }
 
-TEST(AppendedParts, AreCutWhereTheDiskIsFull)
+TEST(AppendedFiles, SayOnAllRanksThatTheDiskIsFull)
 {
   const ScratchDirectory directory;
-  const unsigned int     rank = this_rank();
-  const std::string      path = directory / "table.csv";
-  AppendedCsv            file(path, {"rank"}, MPI_COMM_WORLD);
-  file.append_parts(std::to_string(rank) + '\n', 1);
-  const std::string before = content(path);
-  MPI_Barrier(MPI_COMM_WORLD);
-  {
-    // on the last rank only
-    const FullDisk full(rank + 1 == number_of_ranks() ? 50 : 5000);
-    EXPECT_THROW(file.append_parts(std::string(99, '0') + '\n', 1),
-                 std::runtime_error);
-  }
-  if (number_of_ranks() > 1)
-    {
-      EXPECT_EQ(content(path), before);
-    }
+  AppendedCsv file(directory / "table.csv", "rank\n", MPI_COMM_WORLD);
+  file.append("1\n");
+  const FullDisk full(50);
+  EXPECT_THROW(file.append(std::string(99, '0') + '\n'), std::runtime_error);
 }

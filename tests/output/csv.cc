@@ -71,29 +71,11 @@ TEST(Csv, WritesRowsInIdOrder)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "cells-0000.csv";
-  write_csv(path, dealt_points(1000));
+  const auto parts = gather_to_root(dealt_points(1000), MPI_COMM_WORLD);
+  on_root(MPI_COMM_WORLD, [&]() { write_atomically(path, csv_text(parts)); });
 
   std::string expected = "id,third\n";
   for (int id = 0; id < 1000; ++id)
     expected += printed(id) + ',' + printed(id / 3.) + '\n';
   EXPECT_EQ(content(path), expected);
-}
-
-
-// All ranks together write what rank 0 alone would.
-TEST(Csv, IsTheSameWrittenTogether)
-{
-  const ScratchDirectory directory;
-  for (const int n : {0, 1, 7, 500})
-    {
-      const auto        fields   = dealt_points(n);
-      const std::string gathered = directory / "gathered.csv";
-      const std::string together = directory / "together.csv";
-      write_csv(gathered, fields, ~std::uint64_t(0));
-      write_csv(together, fields, 0);
-      EXPECT_GE(content(gathered).size(), 9u + 4u * n);
-      EXPECT_EQ(content(together), content(gathered));
-      EXPECT_EQ(directory.files(),
-                (std::vector<std::string>{"gathered.csv", "together.csv"}));
-    }
 }

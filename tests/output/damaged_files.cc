@@ -163,9 +163,9 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
   const std::string      path = directory / "statistics.csv";
   TableExtent            kept;
   {
-    AppendedCsv file(path, statistics_columns({}), MPI_COMM_WORLD);
+    AppendedCsv file(path, statistics_row({}).header(), MPI_COMM_WORLD);
     for (unsigned int step = 0; step < 20; ++step)
-      file.append(statistics_row(row(step)));
+      file.append(statistics_row(row(step)).text());
     kept = file.extent();
   }
   MPI_Barrier(MPI_COMM_WORLD);
@@ -175,12 +175,12 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     // what comes behind the rows that are kept is cut off unread
     const bool only_longer = damaged.compare(0, whole.size(), whole) == 0;
     const std::string said = complaint_of([&] {
-      AppendedCsv::check(path, statistics_columns({}), kept, MPI_COMM_WORLD);
+      AppendedCsv::check(path, statistics_row({}).header(), kept, MPI_COMM_WORLD);
     });
     EXPECT_EQ(said.empty(), only_longer) << name;
   };
   for_damaged(path, 160, judge);
-  AppendedCsv::check(path, statistics_columns({}), kept, MPI_COMM_WORLD);
+  AppendedCsv::check(path, statistics_row({}).header(), kept, MPI_COMM_WORLD);
 }
 
 TEST(Seal, IsTheDigestThatTheDocumentationNames)
@@ -197,14 +197,16 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
   const ScratchDirectory directory;
   const std::string      path = directory / "file";
   on_root(MPI_COMM_WORLD,
-          [&]() { write(path, std::string(size_of_seal, 'x') + "123456789"); });
-  seal(path, MPI_COMM_WORLD);
+          [&]() {
+            write(temporary_path(path),
+                  std::string(size_of_seal, 'x') + "123456789");
+            seal(path);
+          });
   std::string expected =
     "Morula snapshot\nbytes 9\nCRC-64/XZ 995dc9bbdf1939fa\n";
   expected.resize(size_of_seal, '\n');
   EXPECT_EQ(content(path), expected + "123456789");
-  EXPECT_EQ(examine_seal(path, MPI_COMM_WORLD), SealState::whole);
-  EXPECT_EQ(examine_seal(directory / "none", MPI_COMM_WORLD),
-            SealState::missing);
+  EXPECT_EQ(examine_seal(path), SealState::whole);
+  EXPECT_EQ(examine_seal(directory / "none"), SealState::missing);
   MPI_Barrier(MPI_COMM_WORLD);
 }

@@ -6,20 +6,18 @@
 
 #include <morula/base/input_error.h>
 #include <morula/output/appended_csv.h>
-#include <morula/output/atomic_file.h>
+#include <morula/output/background_files.h>
 #include <morula/output/cell_fields.h>
 #include <morula/output/csv.h>
-#include <morula/output/csv_rows.h>
 #include <morula/output/digest.h>
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
-#include <morula/output/lineage.h>
 #include <morula/output/longest_cell.h>
+#include <morula/output/output_file.h>
 #include <morula/output/progress.h>
+#include <morula/output/rows.h>
 #include <morula/output/sealed_file.h>
-#include <morula/output/shared_file.h>
 #include <morula/output/snapshot.h>
-#include <morula/output/statistics.h>
 #include <morula/output/surface_fields.h>
 #include <morula/output/tissue_sums.h>
 #include <morula/output/vtu.h>
@@ -48,7 +46,6 @@
 #include "common/materials.h"
 #include "common/tests.h"
 #include "output/scratch_directory.h"
-#include "output/write_at_once.h"
 
 using namespace Morula;
 using namespace dealii;

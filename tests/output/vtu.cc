@@ -39,6 +39,16 @@ dealt_points(const unsigned int n)
 }
 
 
+/** Writes them. Collective. */
+template <int dim>
+void
+write_dealt(const std::string &path, const unsigned int n)
+{
+  const auto parts = gather_to_root(dealt_points<dim>(n), MPI_COMM_WORLD);
+  on_root(MPI_COMM_WORLD, [&]() { write_vtu(path, parts, 0.5, 2); });
+}
+
+
 /** Checks in Python what the VTK library, that is ParaView, reads. */
 const char *const reader = R"(
 import sys
@@ -92,8 +102,8 @@ python_with_vtk()
 TEST(Vtu, IsReadByTheVtkLibrary)
 {
   const ScratchDirectory directory;
-  write_vtu(directory / "a.vtu", dealt_points<2>(7), 0.5, 2);
-  write_vtu(directory / "b.vtu", dealt_points<3>(7), 0.5, 2);
+  write_dealt<2>(directory / "a.vtu", 7);
+  write_dealt<3>(directory / "b.vtu", 7);
   const std::string python = python_with_vtk();
   if (python.empty())
     GTEST_SKIP() << "there is no Python with the VTK library";
@@ -135,26 +145,4 @@ TEST(Pvd, ListsTheFilesThatExist)
   EXPECT_EQ(entries[0].second, "cells-0000.vtu");
   EXPECT_NEAR(entries[1].first, 1. / 3., 1e-11);
   EXPECT_EQ(entries[1].second, "cells-0002.vtu");
-}
-
-
-// All ranks together write what rank 0 alone would.
-TEST(Vtu, IsTheSameWrittenTogether)
-{
-  const ScratchDirectory directory;
-  for (const unsigned int n : {0u, 1u, 7u, 500u})
-    {
-      const auto fields = dealt_points<3>(n);
-      const auto write  = [&](const std::string  &name,
-                             const std::uint64_t shared_from) {
-        const std::string path = directory / name;
-        write_vtu(path, fields, 0.5, 2, shared_from);
-        return content(path);
-      };
-      const std::string gathered = write("gathered.vtu", ~std::uint64_t(0));
-      EXPECT_GT(gathered.size(), 1000u);
-      EXPECT_EQ(write("together.vtu", 0), gathered);
-      EXPECT_EQ(directory.files(),
-                (std::vector<std::string>{"gathered.vtu", "together.vtu"}));
-    }
 }

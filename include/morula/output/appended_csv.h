@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace Morula
 {
@@ -33,12 +32,12 @@ namespace Morula
   {
   public:
     /**
-     * Starts a new file with its header.
+     * Starts a new file with its header, a complete line.
      * @throws std::runtime_error with path and reason
      */
-    AppendedCsv(const std::string              &path,
-                const std::vector<std::string> &names,
-                const MPI_Comm                  comm);
+    AppendedCsv(const std::string &path,
+                const std::string &header,
+                const MPI_Comm     comm);
 
     /**
      * Continues a file: keeps the rows that @p kept names, and cuts what
@@ -46,20 +45,20 @@ namespace Morula
      * @throws InputError if the file is missing, or has another header, fewer
      * rows, or rows with another digest
      */
-    AppendedCsv(const std::string              &path,
-                const std::vector<std::string> &names,
-                const TableExtent              &kept,
-                const MPI_Comm                  comm);
+    AppendedCsv(const std::string &path,
+                const std::string &header,
+                const TableExtent &kept,
+                const MPI_Comm     comm);
 
     /**
      * Throws what the second constructor would throw, and changes nothing.
      * @throws InputError
      */
     static void
-    check(const std::string              &path,
-          const std::vector<std::string> &names,
-          const TableExtent              &kept,
-          const MPI_Comm                  comm);
+    check(const std::string &path,
+          const std::string &header,
+          const TableExtent &kept,
+          const MPI_Comm     comm);
 
     /**
      * Appends rank 0's @p rows, which are complete lines. On return the system

@@ -4,7 +4,7 @@
 #ifndef morula_simulation_founding_h
 #define morula_simulation_founding_h
 
-#include <morula/output/lineage.h>
+#include <morula/output/rows.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
 

@@ -8,15 +8,10 @@
 #include <morula/output/background_files.h>
 #include <morula/output/directory.h>
 #include <morula/output/directory_lock.h>
-#include <morula/output/events.h>
-#include <morula/output/forces.h>
-#include <morula/output/lineage.h>
-#include <morula/output/matrix_condition.h>
-#include <morula/output/newton_trace.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
+#include <morula/output/rows.h>
 #include <morula/output/snapshot.h>
-#include <morula/output/statistics.h>
 #include <morula/output/timings.h>
 #include <morula/scene/scene.h>
 
@@ -59,13 +54,19 @@ namespace Morula
 
     /** Writes a message to the terminal and into log.txt. */
     void
-    message(const std::string &text);
+    message(const std::string &text)
+    {
+      progress->message(text);
+    }
 
     /** Appends to condition.csv. Only if the scene asks for the file. */
     void
     condition(const unsigned int       step,
               const double             time,
-              const ConditionEstimate &estimate);
+              const ConditionEstimate &estimate)
+    {
+      tables.at("condition").append(condition_row(step, time, estimate).text());
+    }
 
     /** Appends to newton.csv. Only if the scene asks for the file. */
     void
@@ -115,7 +116,10 @@ namespace Morula
     /** Writes the reason why the run ends into log.txt, where possible. Not
      *  collective. */
     void
-    fail(const std::string &text) noexcept;
+    fail(const std::string &text) noexcept
+    {
+      progress->fail(text);
+    }
 
     /** Writes the summary to the terminal and into log.txt, marks the run as
      *  finished, and unlocks its directory. */

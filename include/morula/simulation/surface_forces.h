@@ -8,7 +8,7 @@
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
-#include <morula/output/forces.h>
+#include <morula/output/rows.h>
 #include <morula/particles/tissue.h>
 
 #include <functional>

@@ -5,7 +5,7 @@
 #define morula_simulation_tissue_tables_h
 
 #include <morula/output/cell_fields.h>
-#include <morula/output/statistics.h>
+#include <morula/output/rows.h>
 #include <morula/output/surface_fields.h>
 #include <morula/scene/tissue_model.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/csv_rows.h>
+#include <morula/output/table.h>
 
 #include <charconv>
 #include <cmath>
@@ -28,34 +28,5 @@ namespace Morula
                       10)
           .ptr;
     text.append(digits, end);
-  }
-
-  std::string
-  csv_header(const std::vector<std::string> &names)
-  {
-    std::string line;
-    for (const std::string &name : names)
-      line += (line.empty() ? "" : ",") + name;
-    return line + '\n';
-  }
-
-  void
-  append_row(std::string &text, const double *values, const unsigned int n)
-  {
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        if (i > 0)
-          text += ',';
-        append_number(text, values[i]);
-      }
-    text += '\n';
-  }
-
-  std::string
-  csv_row(const double *values, const unsigned int n)
-  {
-    std::string row;
-    append_row(row, values, n);
-    return row;
   }
 } // namespace Morula

@@ -4,13 +4,13 @@
 
 #include "output/room.h"
 
-TEST(AtomicFile, AppearsWhenItIsComplete)
+TEST(OutputFile, AppearsWhenItIsComplete)
 {
   const ScratchDirectory directory(MPI_COMM_SELF);
   const std::string      path = directory / "a";
   write(path, "old");
   {
-    AtomicFile file(path);
+    OutputFile file(path, OutputFile::Mode::replace);
     file.write("ne");
     file.write(std::string(3000000, 'w'));
     EXPECT_EQ(content(path), "old");
@@ -20,21 +20,22 @@ TEST(AtomicFile, AppearsWhenItIsComplete)
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a"});
 }
 
-TEST(AtomicFile, LeavesTheOldOneWhenItIsGivenUp)
+TEST(OutputFile, LeavesTheOldOneWhenItIsGivenUp)
 {
   const ScratchDirectory directory(MPI_COMM_SELF);
   const std::string      path = directory / "a";
   write(path, "old");
   {
-    AtomicFile file(path);
+    OutputFile file(path, OutputFile::Mode::replace);
     file.write("new");
   }
   {
     const FullDisk full(10);
     EXPECT_THROW(write_atomically(path, "longer than the disk"),
                  std::runtime_error);
-    EXPECT_THROW(AtomicFile(path).reserve(11), std::runtime_error);
-    EXPECT_NO_THROW(AtomicFile(path).reserve(10));
+    OutputFile file(path, OutputFile::Mode::replace);
+    EXPECT_THROW(file.reserve(11), std::runtime_error);
+    EXPECT_NO_THROW(file.reserve(10));
   }
   EXPECT_EQ(content(path), "old");
   EXPECT_EQ(directory.files(), std::vector<std::string>{"a"});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_output_csv_rows_h
-#define morula_output_csv_rows_h
+#ifndef morula_output_table_h
+#define morula_output_table_h
 
 #include <morula/output/gather.h>
 
@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,17 +28,59 @@ namespace Morula
   void
   append_number(std::string &text, const double value);
 
-  /** The names separated by commas, with the newline. */
-  std::string
-  csv_header(const std::vector<std::string> &names);
+  /** A value as it stands in a table. */
+  struct TableValue
+  {
+    template <typename Number,
+              typename = std::enable_if_t<std::is_arithmetic_v<Number>>>
+    TableValue(const Number number)
+    {
+      append_number(text, number);
+    }
 
-  /** Appends one row of @p n values, with the newline. */
-  void
-  append_row(std::string &text, const double *values, const unsigned int n);
+    TableValue(std::string text)
+      : text(std::move(text))
+    {}
 
-  /** One row of @p n values, with the newline. */
-  std::string
-  csv_row(const double *values, const unsigned int n);
+    std::string text;
+  };
+
+  /** A row of a table: names and values of its columns, in their order. Any row
+   *  also makes the header, so the two cannot differ. */
+  class TableRow
+  {
+  public:
+    TableRow(std::initializer_list<std::pair<std::string_view, TableValue>> row)
+    {
+      for (const auto &[name, value] : row)
+        add(name, value);
+    }
+
+    void
+    add(const std::string_view name, const TableValue &value)
+    {
+      const char *const comma = names.empty() ? "" : ",";
+      names.append(comma).append(name);
+      values.append(comma).append(value.text);
+    }
+
+    /** The names separated by commas, with the newline. */
+    std::string
+    header() const
+    {
+      return names + '\n';
+    }
+
+    /** The values separated by commas, with the newline. */
+    std::string
+    text() const
+    {
+      return values + '\n';
+    }
+
+  private:
+    std::string names, values;
+  };
 
   /**
    * All ranks' rows of a table in the order of their keys, on rank 0; elsewhere
@@ -46,17 +90,17 @@ namespace Morula
    */
   template <typename Key>
   std::string
-  rows_in_order(std::vector<Key>                keys,
-                const std::vector<std::string> &rows,
-                const MPI_Comm                  comm)
+  rows_in_order(std::vector<Key>             keys,
+                const std::vector<TableRow> &rows,
+                const MPI_Comm               comm)
   {
     // Rows travel as one text. Their lengths cut it into rows again.
     std::string              text;
     std::vector<std::size_t> lengths;
-    for (const std::string &row : rows)
+    for (const TableRow &row : rows)
       {
-        text += row;
-        lengths.push_back(row.size());
+        text += row.text();
+        lengths.push_back(row.text().size());
       }
     const auto all_keys    = gather_to_root(std::move(keys), comm);
     const auto all_lengths = gather_to_root(std::move(lengths), comm);

@@ -36,10 +36,10 @@ namespace Morula
   {
     // All ranks must get the same answer, as the next step depends on it.
     return is_pending &&
-           Utilities::MPI::broadcast(
-             comm,
-             !thread.valid() || thread.wait_for(std::chrono::seconds(0)) ==
-                                  std::future_status::ready);
+           Utilities::MPI::broadcast(comm,
+                                     !thread.valid() ||
+                                       thread.wait_for(std::chrono::seconds(
+                                         0)) == std::future_status::ready);
   }
 
   void

@@ -3,8 +3,8 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
-#include <morula/output/output_file.h>
 #include <morula/output/directory.h>
+#include <morula/output/output_file.h>
 #include <morula/output/run_record.h>
 #include <morula/output/time_left.h>
 

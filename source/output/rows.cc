@@ -27,7 +27,9 @@ namespace Morula
     };
 
     void
-    add_vector(const std::string &name, const Tensor<1, 3> &vector, TableRow &row)
+    add_vector(const std::string  &name,
+               const Tensor<1, 3> &vector,
+               TableRow           &row)
     {
       for (unsigned int d = 0; d < 3; ++d)
         row.add(name + '_' + "xyz"[d], vector[d]);

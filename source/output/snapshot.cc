@@ -4,8 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
+#include <morula/output/hdf5_file.h>
 #include <morula/output/output_file.h>
-#include <morula/output/hdf5_writer.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/snapshot_names.h>
@@ -24,7 +24,7 @@ namespace Morula
   {
     template <int dim>
     void
-    write_points(Hdf5Writer           &file,
+    write_points(Hdf5File             &file,
                  const std::string    &group,
                  const PointList<dim> &points,
                  const std::string    &columns,
@@ -57,7 +57,7 @@ namespace Morula
 
     /** One row for each grid cell: its number and its weight. */
     void
-    write_weights(Hdf5Writer &file, const GridCellCounts &weights)
+    write_weights(Hdf5File &file, const GridCellCounts &weights)
     {
       std::vector<unsigned int> rows;
       rows.reserve(2 * weights.size());
@@ -152,7 +152,7 @@ namespace Morula
 
     /** Why a file could not be written. Collective. */
     std::string
-    reason_of(const Hdf5Writer &file)
+    reason_of(const Hdf5File &file)
     {
       const std::string text = file.reason();
       return text.empty() ? "is the disk full?" : text;
@@ -252,7 +252,7 @@ namespace Morula
       OutputFile(path, OutputFile::Mode::replace).reserve(size);
     });
 
-    Hdf5Writer file(temporary_path(path), comm);
+    Hdf5File file(temporary_path(path), comm);
     file.attribute("/", snapshot_format_name, snapshot_format);
     file.attribute("/", "dimension", dim);
     file.attribute("/", "time", shared.time);
@@ -294,7 +294,7 @@ namespace Morula
   {
     // Another name than that of a snapshot which is being written.
     const std::string trial = temporary_path(path + ".trial");
-    Hdf5Writer        file(trial, comm);
+    Hdf5File          file(trial, comm);
     file.attribute("/", snapshot_format_name, snapshot_format);
     file.text("parameters", "");
     const bool        works  = file.close();

@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/output/hdf5_reader.h>
+#include <morula/output/hdf5_file.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/snapshot_names.h>
@@ -33,7 +33,7 @@ namespace Morula
 
     /** This rank's slice of the weights. */
     GridCellCounts
-    read_weights(const Hdf5Reader &file, const MPI_Comm comm)
+    read_weights(const Hdf5File &file, const MPI_Comm comm)
     {
       // Sizes are checked before memory is taken by them.
       const auto size = file.size(snapshot_weights_name);
@@ -51,7 +51,7 @@ namespace Morula
     /** This rank's slice of the points. */
     template <int dim>
     PointList<dim>
-    read_points(const Hdf5Reader  &file,
+    read_points(const Hdf5File    &file,
                 const std::string &group,
                 const MPI_Comm     comm)
     {
@@ -81,7 +81,7 @@ namespace Morula
 
     /** What the rows of points are, if the file says so. */
     std::string
-    read_columns(const Hdf5Reader &file, const std::string &group)
+    read_columns(const Hdf5File &file, const std::string &group)
     {
       for (const std::string &name : file.dataset_names(group))
         if (name == "columns")
@@ -129,7 +129,7 @@ namespace Morula
         {
           // Whatever the HDF5 library complains of becomes a refusal of the
           // snapshot. An InputError says more already, and passes.
-          const Hdf5Reader file(path);
+          const Hdf5File file(path);
           const int format = file.attribute<int>("/", snapshot_format_name);
           if (format != snapshot_format)
             refuse_snapshot(path,
@@ -163,7 +163,7 @@ namespace Morula
     // on all of them.
     SnapshotData<dim> data;
     data.file       = path;
-    const auto read = [&](const Hdf5Reader &file) {
+    const auto read = [&](const Hdf5File &file) {
       const int dimension = file.attribute<int>("/", "dimension");
       if (dimension != dim)
         refuse_snapshot(path,
@@ -196,7 +196,7 @@ namespace Morula
     std::string parameters;
     on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() {
-      read_checked(path, [&](const Hdf5Reader &file) {
+      read_checked(path, [&](const Hdf5File &file) {
         parameters = file.text("parameters");
       });
     });

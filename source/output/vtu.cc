@@ -48,8 +48,8 @@ namespace Morula
              << (type == Float32 ? "Float32" :
                  type == Int32   ? "Int32" :
                                    "UInt8")
-             << "\" Name=\"" << name << "\" NumberOfComponents=\"" << n_components
-             << '"';
+             << "\" Name=\"" << name << "\" NumberOfComponents=\""
+             << n_components << '"';
         for (std::size_t c = 0; c < components.size(); ++c)
           text << " ComponentName" << c << "=\"" << components[c] << '"';
         text << " format=\"binary\">\n";
@@ -70,7 +70,8 @@ namespace Morula
       n_bytes_in_file(const std::uint64_t n_points) const
       {
         // Three bytes take four digits.
-        return tag().size() + (n_bytes(n_points) + 2) / 3 * 4 + end_of_array.size();
+        return tag().size() + (n_bytes(n_points) + 2) / 3 * 4 +
+               end_of_array.size();
       }
     };
 

@@ -108,8 +108,7 @@ namespace Morula
          lineage_row(Birth<dim>{}, !scene.type_names().empty()).header()}};
       if (of_effects.records_events())
         tables.push_back(
-          {"events",
-           event_row(event, {{}, of_effects.has_causes()}).header()});
+          {"events", event_row(event, {{}, of_effects.has_causes()}).header()});
       if (Scene::has_any(scene.catalogue.boundary_conditions) ||
           Scene::has_any(scene.catalogue.interactions))
         tables.push_back({"forces", force_row({}, {}).header(), true});

@@ -66,7 +66,7 @@ TEST(Statistics, HaveTheColumnsOfTheContract)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "statistics.csv";
-  AppendedCsv            file(path, statistics_row({}).header(), MPI_COMM_WORLD);
+  AppendedCsv file(path, statistics_row({}).header(), MPI_COMM_WORLD);
   EXPECT_EQ(file.extent().n_rows, 0u);
   file.append(statistics_row(row(0)).text());
   file.append(statistics_row(row(1)).text());
@@ -104,8 +104,9 @@ TEST(Statistics, AreCutWhenResumed)
   // a torn row does not count
   tear(path, "8,0.25");
   const TableExtent four = {4, three.digest};
-  EXPECT_THROW(AppendedCsv(path, statistics_row({}).header(), four, MPI_COMM_WORLD),
-               InputError);
+  EXPECT_THROW(
+    AppendedCsv(path, statistics_row({}).header(), four, MPI_COMM_WORLD),
+    InputError);
   EXPECT_NO_THROW(
     AppendedCsv(path, statistics_row({}).header(), three, MPI_COMM_WORLD));
 }
@@ -119,8 +120,9 @@ TEST(Statistics, RefuseToResumeFromOtherFiles)
     AppendedCsv(path, statistics_row({}).header(), nothing, MPI_COMM_WORLD),
     InputError);
   on_root(MPI_COMM_WORLD, [&]() { write(path, "step,time\n0,0\n"); });
-  EXPECT_THROW(AppendedCsv(path, statistics_row({}).header(), one, MPI_COMM_WORLD),
-               InputError);
+  EXPECT_THROW(
+    AppendedCsv(path, statistics_row({}).header(), one, MPI_COMM_WORLD),
+    InputError);
   EXPECT_EQ(content(path), "step,time\n0,0\n");
 }
 
@@ -133,7 +135,9 @@ TEST(Lineage, IsInIdOrder)
   const unsigned int     n_ranks = number_of_ranks();
   const std::string      header  = "id,parent,generation,birth_time,x,y,z\n";
 
-  AppendedCsv file(path, lineage_row(Birth<3>{}, false).header(), MPI_COMM_WORLD);
+  AppendedCsv file(path,
+                   lineage_row(Birth<3>{}, false).header(),
+                   MPI_COMM_WORLD);
   const auto  append = [&](const std::vector<Birth<3>> &births) {
     file.append(lineage_rows(births, false, MPI_COMM_WORLD));
   };
@@ -176,7 +180,9 @@ TEST(Lineage, HasAZeroZInTwoDimensions)
 {
   const ScratchDirectory directory;
   const std::string      path = directory / "lineage.csv";
-  AppendedCsv            file(path, lineage_row(Birth<3>{}, false).header(), MPI_COMM_WORLD);
+  AppendedCsv            file(path,
+                   lineage_row(Birth<3>{}, false).header(),
+                   MPI_COMM_WORLD);
   std::vector<Birth<2>>  births;
   if (this_rank() == 0)
     births = {{3, 1, 2, 1. / 3., Point<2>(4., 5.)}};

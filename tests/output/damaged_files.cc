@@ -175,7 +175,10 @@ TEST(DamagedFiles, OfTablesAreAllRefused)
     // what comes behind the rows that are kept is cut off unread
     const bool only_longer = damaged.compare(0, whole.size(), whole) == 0;
     const std::string said = complaint_of([&] {
-      AppendedCsv::check(path, statistics_row({}).header(), kept, MPI_COMM_WORLD);
+      AppendedCsv::check(path,
+                         statistics_row({}).header(),
+                         kept,
+                         MPI_COMM_WORLD);
     });
     EXPECT_EQ(said.empty(), only_longer) << name;
   };
@@ -196,12 +199,10 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
 
   const ScratchDirectory directory;
   const std::string      path = directory / "file";
-  on_root(MPI_COMM_WORLD,
-          [&]() {
-            write(temporary_path(path),
-                  std::string(size_of_seal, 'x') + "123456789");
-            seal(path);
-          });
+  on_root(MPI_COMM_WORLD, [&]() {
+    write(temporary_path(path), std::string(size_of_seal, 'x') + "123456789");
+    seal(path);
+  });
   std::string expected =
     "Morula snapshot\nbytes 9\nCRC-64/XZ 995dc9bbdf1939fa\n";
   expected.resize(size_of_seal, '\n');

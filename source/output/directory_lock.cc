@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
-#include <morula/output/directory_lock.h>
 #include <morula/output/output_file.h>
 
 #include <deal.II/base/mpi.h>

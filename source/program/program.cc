@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
-#include <morula/output/directory_lock.h>
 #include <morula/program/command_line.h>
 #include <morula/program/explain.h>
 #include <morula/program/failure.h>

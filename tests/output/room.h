@@ -11,7 +11,6 @@
 #include <morula/output/csv.h>
 #include <morula/output/digest.h>
 #include <morula/output/directory.h>
-#include <morula/output/directory_lock.h>
 #include <morula/output/longest_cell.h>
 #include <morula/output/output_file.h>
 #include <morula/output/progress.h>

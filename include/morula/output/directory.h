@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,106 @@ namespace Morula
                 const RunSetup    &run,
                 const double       wall_seconds,
                 const MPI_Comm     comm);
+
+  /**
+   * What a later run must know about a run that it finds in its directory. It
+   * stands in the comments at the beginning of parameters.prm.
+   *
+   *     # A run of Morula 0.2.0.
+   *     # scene: ../../prm/demo.prm
+   *     # state: finished after 84.2 s
+   */
+  struct RunRecord
+  {
+    /**
+     * The scene's file, relative to the directory. So the record stays true
+     * when scenes and runs are moved or copied together, and two scenes of the
+     * same name in different directories are different.
+     */
+    std::string scene;
+    bool        finished     = false;
+    double      wall_seconds = 0.; // of a finished run
+
+    /** The comments, complete lines. */
+    std::string
+    comments() const;
+
+    /** The record of the run in a directory. Nothing if there are no such
+     *  comments. */
+    static std::optional<RunRecord>
+    read(const std::string &directory);
+  };
+
+  /** The path of `parameters.prm` in a directory. */
+  std::string
+  parameters_file(const std::string &directory);
+
+  /** Whether @p scene_file is the parameters.prm of the directory. Then the run
+   *  is repeated from its own keys. */
+  bool
+  is_own_parameters(const std::string &directory,
+                    const std::string &scene_file);
+
+  /** RunRecord::scene for a run of @p scene_file. A run that is repeated from
+   *  its own keys keeps the name that it had. */
+  std::string
+  recorded_name(const std::string &directory, const std::string &scene_file);
+
+  /**
+   * Keeps other runs out of a directory while this object lives. It holds a
+   * lock of the system (flock) on the file `morula.lock` there, which names
+   * process and host. The system releases the lock when the process ends, in
+   * whatever way. Nobody locks the file of a killed run; the next run takes it
+   * over.
+   *
+   * It is flock and not fcntl: a process loses its fcntl lock as soon as it
+   * closes any descriptor of the file. On Linux' NFS both are locks of the
+   * server, which hold between machines. On Lustre, flock needs the mount
+   * option of that name. A file system without locks keeps no other run out;
+   * reason_without_lock() says so.
+   */
+  class DirectoryLock
+  {
+  public:
+    /**
+     * Creates the directory if it does not exist, and locks it. Collective;
+     * rank 0 holds the lock.
+     * @throws InputError on all ranks, if another run holds the lock (the
+     *   message names its process and host), or if the directory cannot be
+     *   written
+     */
+    DirectoryLock(const std::string &directory, const MPI_Comm comm);
+
+    /** Removes the file, unless another run's file has taken its place. */
+    ~DirectoryLock();
+
+    DirectoryLock(const DirectoryLock &) = delete;
+    DirectoryLock &
+    operator=(const DirectoryLock &) = delete;
+
+    /** Why there is no lock; empty if there is one. Equal on all ranks. */
+    const std::string &
+    reason_without_lock() const
+    {
+      return reason_without_lock_;
+    }
+
+    /**
+     * Refuses a directory that another run has locked, and touches nothing.
+     * One rank calls it, before work that would be in vain.
+     * @throws InputError
+     */
+    static void
+    check_free(const std::string &directory);
+
+  private:
+    void
+    take(const std::string &directory);
+
+    std::string path;
+    int         descriptor = -1;
+    std::string reason_without_lock_;
+  };
 } // namespace Morula
 
 #endif

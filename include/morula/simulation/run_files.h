@@ -7,7 +7,6 @@
 #include <morula/output/appended_csv.h>
 #include <morula/output/background_files.h>
 #include <morula/output/directory.h>
-#include <morula/output/directory_lock.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
 #include <morula/output/rows.h>

@@ -56,8 +56,7 @@ def main():
         called = sys.argv[0] if sys.argv else ""
         name = called.removeprefix("morula-")
     if name not in TOOLS:
-        return f"morula: there is no tool '{name}'; there are " + ", ".join(
-            TOOLS)
+        return f"morula: there is no tool '{name}'; there are " + ", ".join(TOOLS)
     sys.argv[0] = name
     if called == name:  # by the script of Morula's tree
         folder = "contrib/upkeep" if TOOLS[name].startswith(("upkeep", "tests")) else "contrib"

@@ -37,8 +37,7 @@ def read_events(file, names):
         table = table[[*EVENTS, *OF_DEATH[:"cause" in table]]].astype(
             {"time": float, "id": np.int64})
     except (ValueError, KeyError) as error:  # pandas' own are ValueErrors
-        raise Refused("The table", file, "the columns " + ", ".join(EVENTS),
-                      f"{error}.") from None
+        raise Refused("The table", file, "the columns " + ", ".join(EVENTS), f"{error}.") from None
     for name in {*table["from"], *table["to"]} - {*names, ""}:
         raise Refused("The table", file, "types of the run: "
                       + ", ".join(names), f"It has '{name}'.")

@@ -19,8 +19,7 @@ STATISTICS = {
 
 
 def statistics_of(keys):
-    """The same of a scene with these keys, of which cells may have types and
-    fields."""
+    """The same of a scene with these keys, of which cells may have types and fields."""
     return {**STATISTICS,
             **{f"cells_{name}": NUMBER for name in names_in(keys)},
             **{f"{name}_{value}": NUMBER for name in names_in(keys, "Fields")

@@ -86,8 +86,7 @@ def output_directory(options, default):
 
 @contextlib.contextmanager
 def like_ctrl_c():
-    """Asked to end from outside is like Ctrl-C, so that no run is left
-    over."""
+    """Asked to end from outside is like Ctrl-C, so that no run is left over."""
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -102,8 +101,7 @@ def like_ctrl_c():
 
 
 def run_tool(name, tool):
-    """What tool() returns as the exit code; 1 for what makes no sense, 130 if
-    it was stopped."""
+    """What tool() returns as the exit code; 1 for what makes no sense, 130 if it was stopped."""
     try:
         with like_ctrl_c():
             return tool()

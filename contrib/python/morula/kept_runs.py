@@ -25,9 +25,8 @@ LONGEST_NAME = 255  # of a file; expressions may be longer
 
 @dataclass(frozen=True)
 class Job:
-    """A scene with overrides; the name is that of its directory. When it has
-    finished, CSV files of the points and the snapshot stay if they are in
-    `keep` ('cells', 'surface', 'snapshot')."""
+    """A scene with overrides; the name is that of its directory. When it has finished, CSV files
+    of the points and the snapshot stay if they are in `keep` ('cells', 'surface', 'snapshot')."""
 
     name: str
     overrides: tuple
@@ -75,9 +74,8 @@ class KeptRuns:
                 and bool(record.repeats) and not record.killed)
 
     def check(self, jobs, skip=False):
-        """Has the program judge the jobs that are not done. Throws Refused with
-        its message, or with `skip` tells it and leaves the job out: the rest is
-        returned."""
+        """Has the program judge the jobs that are not done. Throws Refused with its message, or
+        with `skip` tells it and leaves the job out: the rest is returned."""
         left = [job for job in jobs if not self.is_done(job)]
         refused = set()
         with self._servers_for(left):
@@ -85,8 +83,7 @@ class KeptRuns:
                 tell(f"{self.name}: checking {number} of {len(left)} ...")
                 server = self._a_server()
                 try:
-                    self.scene.program.explain(self.scene.path, job.overrides,
-                                               server)
+                    self.scene.program.explain(self.scene.path, job.overrides, server)
                 except Refused as refusal:
                     if not skip:
                         raise
@@ -151,8 +148,7 @@ class KeptRuns:
         if record.finished and done >= self.repeats or record.failed:
             self.say(f"{counter} {job.name}: {record.summary()}, from before")
             return record
-        while not self._processes.stopped and len(
-                record.repeats) < self.repeats:
+        while not self._processes.stopped and len(record.repeats) < self.repeats:
             self.say(f"{counter} {job.name} "
                      + ("goes on from its snapshot ..." if resumed else "..."))
             self._execute(job, record, resumed)
@@ -178,8 +174,7 @@ class KeptRuns:
 
     def _execute(self, job, record, resumed):
         overrides = [*job.overrides, ("Output directory", record.output)]
-        words = self.scene.program.command(self.scene.path, overrides,
-                                           self.ranks)
+        words = self.scene.program.command(self.scene.path, overrides, self.ranks)
         # The directory is this object's own.
         words += ["--resume" if resumed else "--replace"]
         cost = record.directory / "cost.json"
@@ -218,6 +213,5 @@ class KeptRuns:
                   for value in keys.values()}
         files = {value: hashlib.sha256(path.read_bytes()).hexdigest()
                  for value, path in places.items() if path}
-        text = json.dumps([self.digest, keys, files, self.ranks,
-                           sorted(job.keep)], sort_keys=True)
+        text = json.dumps([self.digest, keys, files, self.ranks, sorted(job.keep)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()

@@ -9,11 +9,10 @@ from .execute import call
 
 @dataclass(frozen=True)
 class Key:
-    """path: full, separated by '/'. type: a word of ParameterKeys::print_json:
-    number, expression, file, ... allowed: a noun phrase, or empty for expressions
-    and texts. choices: the words to choose from. former: paths that it had.
-    paper: its default with Method = paper, or None where that is the
-    same. evaluated, variables: of an expression."""
+    """path: full, separated by '/'. type: a word of ParameterKeys::print_json: number, expression,
+    file, ... allowed: a noun phrase, or empty for expressions and texts. choices: the words to
+    choose from. former: paths that it had. paper: its default with Method = paper, or None where
+    that is the same. evaluated, variables: of an expression."""
 
     path: str
     default: str

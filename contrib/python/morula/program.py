@@ -33,8 +33,7 @@ class Program:
         """Tells this build of the program from every other one, now: somebody
         may build it anew while runs go on."""
         about = self.executable.stat()
-        return _digest(self.executable, about.st_ino, about.st_size,
-                       about.st_mtime_ns)
+        return _digest(self.executable, about.st_ino, about.st_size, about.st_mtime_ns)
 
     @functools.cached_property
     def keys(self):
@@ -47,8 +46,7 @@ class Program:
         return {key.path: key.default for key in self.keys}
 
     def keys_with(self, scene, overrides=()):
-        """The same, and those of the types, fields and obstacles that a scene
-        names."""
+        """The same, and those of the types, fields and obstacles that a scene names."""
         return read_keys(self._run("--parameters=json", scene,
                                    *execute.overrides(overrides)).stdout)
 

@@ -50,14 +50,12 @@ class Server:
         self._process.stdout.close()
         self._process.wait()
 
-    def call(self, words, *, cwd=None, stdout=None, stderr=None, cost=None,
-             begun=lambda run: None):
+    def call(self, words, *, cwd=None, stdout=None, stderr=None, cost=None, begun=lambda run: None):
         """Runs a command line (its first word is the program's name) and returns
         execute.Ended. stdout, stderr: files; without them what it said is
         returned. cost: file for what it cost. `begun` is told of the fork."""
         with self._guard, tempfile.TemporaryDirectory() as scratch:
-            files = [Path(stdout or f"{scratch}/out"),
-                     Path(stderr or f"{scratch}/err")]
+            files = [Path(stdout or f"{scratch}/out"), Path(stderr or f"{scratch}/err")]
             for file in files:
                 file.write_bytes(b"")
             places = [cwd or os.getcwd(), *files, cost or ""]

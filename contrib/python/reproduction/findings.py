@@ -119,9 +119,8 @@ def slower(runs):
 
 
 def at_equal_number(runs, column, sign, scale, unit, form):
-    """Whether a column, at equal numbers of cells, increases with J_th (sign 1; -1:
-    decreases) for each pair of neighbours, and its values at the largest number that
-    all reach."""
+    """Whether a column, at equal numbers of cells, increases with J_th (sign 1; -1: decreases) for
+    each pair of neighbours, and its values at the largest number that all reach."""
     series = [five_days(runs[scene]) for scene in CHECKPOINTS]
     founders = series[0]["cells"].iloc[0]
     ordered = True

@@ -25,9 +25,8 @@ def rate(step=0.0):
 
 
 def expected_cells(step, end, founders=1.0):
-    """Times (days) and expected numbers of cells if all founders begin to wait at
-    t = 0 and waits end at step ends; a tiny step gives the exact numbers. The step
-    divides half a day."""
+    """Times (days) and expected numbers of cells if all founders begin to wait at t = 0 and waits
+    end at step ends; a tiny step gives the exact numbers. The step divides half a day."""
     cycle = round(1 / step)
     leaving = 1 - math.exp(-step)
     waiting = founders

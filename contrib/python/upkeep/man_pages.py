@@ -81,5 +81,4 @@ def main():
     parser.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
     options = parser.parse_args()
     for name in SUMMARIES:
-        (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula),
-                                                encoding="utf-8")
+        (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula), encoding="utf-8")

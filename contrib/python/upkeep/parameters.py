@@ -47,8 +47,7 @@ def row(path, key):
 def sections(keys):
     rows = {}
     for key in keys:
-        if not key.path.startswith("Cell types/OTHER/") and not (
-                key.meaning.startswith(OF_TYPE)):
+        if not key.path.startswith("Cell types/OTHER/") and not (key.meaning.startswith(OF_TYPE)):
             path = key.path.replace("/name/", "/NAME/")
             rows.setdefault(path.rpartition("/")[0], []).append(row(path, key))
     header = ["key", "default", "unit", "allowed", "meaning"]

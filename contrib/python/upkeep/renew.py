@@ -35,8 +35,7 @@ def deeper(text, level):
 
 
 def paper():
-    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula",
-                       "build/morula"), 3)
+    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula", "build/morula"), 3)
 
 
 def ladders():

@@ -29,8 +29,7 @@ def figure_of(findings, time):
     ladders = plan.ladders if any(e.parts for e in estimates.values()) else []
     directions = "xyz"[:request.scene.dimension] if scatters else ""
     widths = [4.2] * bool(estimates) + [1.9] * len(ladders) + [2.2] * len(directions)
-    rows = [m for m in request.measures
-            if m in estimates or any(s.measure == m for s in scatters)]
+    rows = [m for m in request.measures if m in estimates or any(s.measure == m for s in scatters)]
     figure, panels = plt.subplots(
         len(rows), len(widths), squeeze=False, width_ratios=widths,
         figsize=(2.4 + sum(widths), 1.6 + 2.6 * len(rows)))
@@ -62,8 +61,7 @@ def cost_panel(axes, findings, found):
     largest = max(*shown, found.floor) or 1.0
     low = 0.4 * max(min(filter(None, shown), default=largest), 1e-5 * largest)
     limits = low, 2.2 * largest
-    heights = {point: max(abs(error), 1.25 * low)
-               for point, error in found.errors.items()}
+    heights = {point: max(abs(error), 1.25 * low) for point, error in found.errors.items()}
     axes.set(xscale="log", yscale="log", ylim=limits, xlim=padded(walls.values()),
              xlabel="wall time [s]", ylabel=f"error of {found.measure.text} "
              f"[{pretty(found.measure.unit) or '1'}]")
@@ -96,8 +94,7 @@ def cost_panel(axes, findings, found):
 
 
 def style(number):
-    return {"color": colour(number), "marker": marker(number), "markersize": 4,
-            "linewidth": 1.2}
+    return {"color": colour(number), "marker": marker(number), "markersize": 4, "linewidth": 1.2}
 
 
 def ladder_panel(axes, plan, found, number):
@@ -121,8 +118,7 @@ def ladder_panel(axes, plan, found, number):
         axes.axhspan(factor * (part.change - part.uncertainty),
                      factor * (part.change + part.uncertainty),
                      color=colour(number), alpha=0.15, linewidth=0)
-        axes.axhline(factor * part.change, color=colour(number), linewidth=0.9,
-                     linestyle=DASHED)
+        axes.axhline(factor * part.change, color=colour(number), linewidth=0.9, linestyle=DASHED)
     axes.errorbar([a for a, _ in pairs],
                   [factor * (found.values[p] - center) for _, p in pairs],
                   [factor * found.noise[p] for _, p in pairs],

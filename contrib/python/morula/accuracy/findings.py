@@ -49,13 +49,11 @@ class Findings:
         self.estimates, self.scatters = [], []
         for time in request.times:
             for measure in request.measures:
-                scatters = [self._scatter(measure, time, point)
-                            for point in self.plan.points]
+                scatters = [self._scatter(measure, time, point) for point in self.plan.points]
                 if request.n_offsets:
                     self.scatters += [s for s in scatters if len(s.values)]
                 values = {s.point: s.values for s in scatters if not s.n_failed}
-                if self.plan.ladders and (center in values
-                                          or values and request.reference):
+                if self.plan.ladders and (center in values or values and request.reference):
                     self.estimates.append(estimate(
                         self.plan, center, request.kinds, measure, time, values,
                         request.reference))

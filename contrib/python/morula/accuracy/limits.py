@@ -37,8 +37,7 @@ def read_kinds(options, scene):
         key, _, kind = (word.strip() for word in text.partition("="))
         scene.require_key(key, "--limit")
         if kind not in KINDS:
-            raise Refused("--limit", text, '"Section/Key=kind" with a kind of '
-                          + ", ".join(KINDS))
+            raise Refused("--limit", text, '"Section/Key=kind" with a kind of ' + ", ".join(KINDS))
         kinds[key] = kind
     return kinds
 
@@ -141,8 +140,7 @@ def observed_order(sizes, values):
     (s1, s2, s3), (q1, q2, q3) = sizes, values
 
     def mismatch(p):
-        return (math.log((s3**p - s2**p) / (s2**p - s1**p))
-                - math.log((q3 - q2) / (q2 - q1)))
+        return (math.log((s3**p - s2**p) / (s2**p - s1**p)) - math.log((q3 - q2) / (q2 - q1)))
 
     if (q3 - q2) * (q2 - q1) <= 0 or mismatch(0.05) >= 0 or mismatch(20.0) <= 0:
         return math.nan
@@ -152,6 +150,5 @@ def observed_order(sizes, values):
 def mean_and_noise(values):
     """Mean over the seeds, and two standard errors of it (0 for one seed)."""
     values = numpy.asarray(values)
-    noise = (2.0 * float(values.std(ddof=1)) / math.sqrt(len(values))
-             if len(values) > 1 else 0.0)
+    noise = (2.0 * float(values.std(ddof=1)) / math.sqrt(len(values)) if len(values) > 1 else 0.0)
     return float(values.mean()), noise

@@ -63,8 +63,7 @@ def read_measure(word, keys):
     kind = match[1] or match[3] or "statistics"
     column = match[2] or match[5]
     dimension = int(keys["Dimension"])
-    known = (columns.statistics_of(keys) if kind == "statistics"
-             else columns.POINTS[kind])
+    known = (columns.statistics_of(keys) if kind == "statistics" else columns.POINTS[kind])
     known = {name: unit for name, unit in known.items()
              if dimension == 3 or name not in columns.FLAT}
     if column not in known:

@@ -21,15 +21,12 @@ class Reference:
         try:
             self.table = read_table(OPTION, file).astype(float)
         except ValueError as error:
-            raise Refused(OPTION, file, "a number in every column",
-                          f"Not so: {error}.") from None
+            raise Refused(OPTION, file, "a number in every column", f"Not so: {error}.") from None
         for definition in definitions:
             self._define(definition)
         errors = self.table.filter(regex="_error$")
-        if (not numpy.isfinite(self.table).all(axis=None)
-                or (errors < 0).any(axis=None)):
-            raise Refused(OPTION, file, "a finite number in every column, and "
-                          "errors >= 0")
+        if (not numpy.isfinite(self.table).all(axis=None) or (errors < 0).any(axis=None)):
+            raise Refused(OPTION, file, "a finite number in every column, and " "errors >= 0")
 
     def _define(self, definition):
         new, _, expression = (word.strip() for word in definition.partition("="))

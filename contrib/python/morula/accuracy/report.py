@@ -58,8 +58,7 @@ def table(head, rows):
 
 
 def run_table(findings, estimates):
-    """All runs: what they cost, and their errors; in the order of the
-    ladders."""
+    """All runs: what they cost, and their errors; in the order of the ladders."""
     head = ["run", "wall time, s", "unknowns", "memory, MB",
             "error in time, own estimate",
             *(f"{e.measure.text}, error" for e in estimates)]
@@ -120,8 +119,7 @@ def digits(number, sign):
 def scatter_table(findings, there):
     """Mean, extremes and standard deviation of every measure; with a reference
     file also the errors, from the least to the largest."""
-    head = ["run", "measure", "runs", "mean", "smallest", "largest",
-            "standard deviation"]
+    head = ["run", "measure", "runs", "mean", "smallest", "largest", "standard deviation"]
     if findings.request.reference:
         head += ["error of the mean", "errors, from", "to"]
     rows = []
@@ -150,8 +148,7 @@ def ladder_table(findings, estimates):
     cells["**all that count**"] = lambda e: (
         shown(e, *e.sum_of_parts) if any(part.used for part in e.parts) else "–")
     if first.from_file:
-        cells["the reference file"] = lambda e: shown(
-            e, -e.errors[e.center], e.uncertainty)
+        cells["the reference file"] = lambda e: shown(e, -e.errors[e.center], e.uncertainty)
     if findings.request.sampled:
         cells[f"scatter between {findings.request.sampled} (standard deviation)"] = (
             lambda e: shown(e, e.scatter[e.center], sign=False))

@@ -6,8 +6,7 @@ from fractions import Fraction
 
 import numpy
 from morula.command_line import output_directory, ranks_and_jobs, whole_number
-from morula.ladder import (Plan, check_method, check_seeds, read_ladder,
-                           read_seeds, refuse_keys)
+from morula.ladder import (Plan, check_method, check_seeds, read_ladder, read_seeds, refuse_keys)
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
@@ -56,8 +55,7 @@ class Request:
         if self.reference:
             self.reference.check(self.measures, self.times)
         check_seeds(self.plan, self.seeds, options.seeds, len(self.samples))
-        self.output = output_directory(
-            options, OUTPUT / "accuracy" / self.scene.name)
+        self.output = output_directory(options, OUTPUT / "accuracy" / self.scene.name)
 
     @property
     def sampled(self):
@@ -135,8 +133,7 @@ class Request:
 
 
 def output_interval(times):
-    """The longest interval of outputs that meets all times; the last one is
-    always written."""
+    """The longest interval of outputs that meets all times; the last one is always written."""
     if len(times) == 1:
         return "0"
     exact = [Fraction(time).limit_denominator(10**6) for time in times]

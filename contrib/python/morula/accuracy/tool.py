@@ -16,8 +16,7 @@ say = functools.partial(print, flush=True)
 
 
 def main(words=None):
-    """Exit code 0; 1 for what makes no sense; 2 if nothing could be
-    compared."""
+    """Exit code 0; 1 for what makes no sense; 2 if nothing could be compared."""
     def tool():
         options = parser().parse_args(words)
         options.words = sys.argv[1:] if words is None else words
@@ -54,8 +53,7 @@ def measure(request):
 
 
 def job_of(request, point, sample):
-    special = [*request.plan.overrides(point),
-               *sample.overrides(request.keys_at(point))]
+    special = [*request.plan.overrides(point), *sample.overrides(request.keys_at(point))]
     overrides = (*request.fixed_overrides(), *special)
     kinds = {m.kind for m in request.measures} - {"statistics"}
     return Job(job_name(special, overrides), overrides, tuple(kinds))

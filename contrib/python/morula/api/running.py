@@ -68,17 +68,13 @@ def run_scene(scene, directory, ranks, progress, again):
         state = "begun"
     how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])
     with scene_file(scene) as file:
-        overrides = [*scene._overrides(), *snapshots,
-                     ("Output directory", directory)]
+        overrides = [*scene._overrides(), *snapshots, ("Output directory", directory)]
         words = [*scene.program.command(file, overrides, ranks), *how]
-        code, said = _execute(words, directory, float(keys["Time/End time"]),
-                              progress)
+        code, said = _execute(words, directory, float(keys["Time/End time"]), progress)
     if code == 1:
-        raise Refused("The scene", scene.name, "what Morula accepts",
-                      f"It says: {said}")
+        raise Refused("The scene", scene.name, "what Morula accepts", f"It says: {said}")
     if code:
-        raise RuntimeError(f"The run in {directory} ended with exit code {code}:"
-                           f" {said}")
+        raise RuntimeError(f"The run in {directory} ended with exit code {code}:" f" {said}")
     return Run(directory)
 
 
@@ -96,8 +92,7 @@ def _execute(words, directory, end, progress):
                 if progress:
                     _tell(directory, end)
         except KeyboardInterrupt:
-            print("\nmorula: saving; the same call goes on ...",
-                  file=sys.stderr, flush=True)
+            print("\nmorula: saving; the same call goes on ...", file=sys.stderr, flush=True)
             execute.end([child], PATIENCE)
             raise
         finally:

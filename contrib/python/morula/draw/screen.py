@@ -39,9 +39,8 @@ def server_for(number):
 
 @contextmanager
 def virtual_screen():
-    """While it lasts, this process and those that it starts draw on a screen of their
-    own: VTK's OpenGL needs an X server, and a virtual one gives equal pictures
-    everywhere."""
+    """While it lasts, this process and those that it starts draw on a screen of their own: VTK's
+    OpenGL needs an X server, and a virtual one gives equal pictures everywhere."""
     require_virtual_screen()
     for number in DISPLAYS:
         server = server_for(number)
@@ -62,7 +61,6 @@ def virtual_screen():
 
 
 def run_on_virtual_screen(command):
-    """Runs a command with a virtual screen as its display and returns its
-    exit code."""
+    """Runs a command with a virtual screen as its display and returns its exit code."""
     with virtual_screen():
         return subprocess.call(command)

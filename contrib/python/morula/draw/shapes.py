@@ -33,8 +33,7 @@ def cut_through(bodies, origin, normal):
 
 def visible(bodies):
     """The faces that have no other of these cells in front of them."""
-    there = np.zeros(max(bodies.owner.max(), bodies.beyond.max()) + 1,
-                     dtype=bool)
+    there = np.zeros(max(bodies.owner.max(), bodies.beyond.max()) + 1, dtype=bool)
     there[bodies.owner] = True
     return bodies.select((bodies.beyond < 0) | ~there[bodies.beyond])
 

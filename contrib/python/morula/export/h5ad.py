@@ -13,8 +13,7 @@ from morula.columns import unit_of
 from morula.files import replaced
 
 # Of the cells' columns those that are no amounts; places stand in obsm.
-OF_CELL = ("time", "id", "parent", "generation", "phase", "type",
-           "held_at_checkpoint")
+OF_CELL = ("time", "id", "parent", "generation", "phase", "type", "held_at_checkpoint")
 PLACES = ("x", "y", "z", "X", "Y", "Z")
 WITH_NAMES = ("phase", "type", "held_at_checkpoint")
 
@@ -86,8 +85,7 @@ def _array(parent, name, values):
 
 def _string(parent, name, text):
     import h5py
-    _mark(parent.create_dataset(name, data=text, dtype=h5py.string_dtype()),
-          "string", "0.2.0")
+    _mark(parent.create_dataset(name, data=text, dtype=h5py.string_dtype()), "string", "0.2.0")
 
 
 def _strings(parent, name, texts):
@@ -110,8 +108,7 @@ def _listed(frame, name):
     before = [word.decode() if isinstance(word, bytes) else word
               for word in frame.attrs["column-order"]]
     del frame.attrs["column-order"]
-    frame.attrs.create("column-order", [*before, name],
-                       dtype=h5py.string_dtype())
+    frame.attrs.create("column-order", [*before, name], dtype=h5py.string_dtype())
 
 
 def _column(frame, name, values):

@@ -26,10 +26,9 @@ class Raster:
 
 
 def raster_around(boxes, voxel, largest):
-    """The Raster of edges `voxel` (x, y, z; um) around boxes (low, high), with
-    a border of one voxel; its corner is a multiple of the edges, so that images
-    of several states fit on each other. `largest` is the largest label. Throws
-    Refused for too many voxels."""
+    """The Raster of edges `voxel` (x, y, z; um) around boxes (low, high), with a border of one
+    voxel; its corner is a multiple of the edges, so that images of several states fit on each
+    other. `largest` is the largest label. Throws Refused for too many voxels."""
     voxel = np.asarray(voxel, dtype=float)
     low = np.floor(np.min([box[0] for box in boxes], axis=0) / voxel + ROUND) - 1
     high = np.ceil(np.max([box[1] for box in boxes], axis=0) / voxel - ROUND) + 1
@@ -40,8 +39,7 @@ def raster_around(boxes, voxel, largest):
                       f"images of at most {MOST / 1e9:g} GB",
                       f"This one would have {size / 1e9:.3g} GB: take larger "
                       "voxels.")
-    return Raster(voxel[::-1], (low * voxel)[::-1],
-                  tuple((high - low).astype(int)[::-1]), kind)
+    return Raster(voxel[::-1], (low * voxel)[::-1], tuple((high - low).astype(int)[::-1]), kind)
 
 
 def box_of(bodies, dimension):

@@ -34,12 +34,9 @@ def parser():
     add("file", type=Path, nargs="+", metavar="FILE",
         help=".geff: tracks; .h5ad: annotated data; .vtkhdf: points\n"
         "over time; .tif (OME), .npy: a label image, id + 1, of the cells' regions")
-    add("--time", metavar="DAY", help="of the state; default: the last one "
-        "written")
-    add("--all", action="store_true", help="all states; each one's image is "
-        "FILE-NNNN")
-    add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or "
-        "one for all, um")
+    add("--time", metavar="DAY", help="of the state; default: the last one " "written")
+    add("--all", action="store_true", help="all states; each one's image is " "FILE-NNNN")
+    add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or " "one for all, um")
     add("--again", action="store_true", help="replace files from before")
     return result
 
@@ -55,12 +52,10 @@ def check(options):
     kinds = {kind_of(file) for file in options.file}
     for file in options.file:
         if file.suffix.lower() not in ENDINGS:
-            raise Refused("The file", file, "a name that ends in one of "
-                          + ", ".join(ENDINGS))
+            raise Refused("The file", file, "a name that ends in one of " + ", ".join(ENDINGS))
         if not file.parent.is_dir():
             raise Refused("The file", file, "a file in a directory that exists")
-        if (file.exists() and not options.again) or (
-                file.is_dir() and kind_of(file) != ".geff"):
+        if (file.exists() and not options.again) or (file.is_dir() and kind_of(file) != ".geff"):
             raise Refused("The file", file, "a name that is free",
                           "Choose another one, or replace that one with --again.")
     if options.voxel and "image" not in kinds:
@@ -96,8 +91,7 @@ def export(options):
             print(f"export: {file}: {rows} rows, {columns} columns")
         else:
             from . import images
-            for written, words in images.write(run, chosen_states(run, options),
-                                               file, voxel):
+            for written, words in images.write(run, chosen_states(run, options), file, voxel):
                 print(f"export: {written}: {words}", flush=True)
     return 0
 

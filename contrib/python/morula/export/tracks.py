@@ -73,8 +73,7 @@ def tracks_of(run):
         rows.append({"cell": ids, "t": np.full(len(ids), time),
                      "state": np.full(len(ids), number),
                      "row": np.arange(len(ids))})
-    nodes = {name: np.concatenate([part[name] for part in rows])
-             for name in rows[0]}
+    nodes = {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
     return _graph(run, lineage, states, *_merged(nodes, lineage))
 
 
@@ -119,15 +118,13 @@ def _graph(run, lineage, states, nodes, is_birth):
         "lineage": Property(lineage.founder[cell], "", "id of its founder"),
         "seg_id": Property(cell + 1, "", "label in images of contrib/export"),
         **_columns(run, lineage, states, nodes, is_birth)}
-    for name, times in (("death_time", lineage.death_time),
-                        ("removal_time", lineage.removal_time)):
+    for name, times in (("death_time", lineage.death_time), ("removal_time", lineage.removal_time)):
         if np.isfinite(times).any():
             missing = np.isinf(times[cell])
             properties[name] = Property(np.where(missing, 0, times[cell]), "day",
                                         name.replace("_", " of the cell: "),
                                         missing)
-    return Tracks(run.dimension, edges, properties,
-                  run.type_names, {"run": run.name})
+    return Tracks(run.dimension, edges, properties, run.type_names, {"run": run.name})
 
 
 def _of_states(name, states, nodes, values):
@@ -140,13 +137,11 @@ def _of_states(name, states, nodes, values):
 
 
 def _places(run, lineage, states, nodes, is_birth):
-    """x, y and in 3-D z; of a birth that of the lineage, which has more
-    digits than VTU files."""
+    """x, y and in 3-D z; of a birth that of the lineage, which has more digits than VTU files."""
     found = {}
     for axis in "zyx"[3 - run.dimension:]:
         values = _of_states(axis, states, nodes, np.zeros(len(is_birth)))
-        values[is_birth] = lineage.table[axis].to_numpy()[
-            nodes["cell"][is_birth]]
+        values[is_birth] = lineage.table[axis].to_numpy()[nodes["cell"][is_birth]]
         found[axis] = Property(values, LENGTH, f"place of the cell, {axis}")
     return found
 
@@ -172,8 +167,7 @@ def _columns(run, lineage, states, nodes, is_birth):
         found["type"] = Property(lineage.type[nodes["cell"]], "", "")
     if "volume" in found:
         volume = found["volume"].values.astype(float)
-        radius = (np.sqrt(volume / np.pi) if run.dimension == 2
-                  else np.cbrt(0.75 * volume / np.pi))
+        radius = (np.sqrt(volume / np.pi) if run.dimension == 2 else np.cbrt(0.75 * volume / np.pi))
         found["radius"] = Property(radius, LENGTH, "of a ball of its volume",
                                    found["volume"].missing)
     return found
@@ -202,5 +196,4 @@ def lineage_of(tracks):
             known = first[~prop.missing[first]]
             events.append(pandas.DataFrame({
                 "time": prop.values[known], "id": cell[known], "event": event}))
-    return Lineage(pandas.DataFrame(table),
-                   pandas.concat(events) if events else None)
+    return Lineage(pandas.DataFrame(table), pandas.concat(events) if events else None)

@@ -58,8 +58,7 @@ def _columns(cells, dimension):
 
 
 def _append_offsets(steps, time, step, n_points, columns):
-    """Where a step begins in each of the datasets. It has as many vertices as
-    points."""
+    """Where a step begins in each of the datasets. It has as many vertices as points."""
     _append(steps, "Values", [float(time)])
     _append(steps, "PartOffsets", [step])
     _append(steps, "NumberOfParts", [1])

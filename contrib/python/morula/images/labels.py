@@ -31,8 +31,7 @@ def whole(image, file):
         array = np.maximum(array, 0)
     values = np.unique(array[array > 0])
     if not len(values):
-        raise Refused("The image", file, "labels of cells",
-                      "All of it is 0, which is no cell.")
+        raise Refused("The image", file, "labels of cells", "All of it is 0, which is no cell.")
     if len(values) == 1:
         parts = measure.label(array > 0, connectivity=1)
         if parts.max() < FEWEST:
@@ -44,16 +43,14 @@ def whole(image, file):
             f"It is a mask, with one number: its {parts.max()} parts that are "
             "not connected count as cells. Cells that touch are one then.")
         return parts, np.arange(parts.max() + 1)
-    labels, _, names = segmentation.relabel_sequential(
-        array.astype(np.int64))
+    labels, _, names = segmentation.relabel_sequential(array.astype(np.int64))
     return labels, np.asarray(names[np.arange(len(values) + 1)])
 
 
 @dataclass
 class Cells:
-    """What is measured of labels 1, 2, ...: row i is label numbers[i] of the
-    array, names[i] of the file. places (n, dim) in um, order of the axes;
-    volumes um^dim."""
+    """What is measured of labels 1, 2, ...: row i is label numbers[i] of the array, names[i] of
+    the file. places (n, dim) in um, order of the axes; volumes um^dim."""
 
     labels: np.ndarray
     voxel: np.ndarray
@@ -78,8 +75,7 @@ class Cells:
 
 def cells_of(labels, names, voxel, smallest, words):
     """Measures the labels, leaves out crumbs, and says what is odd."""
-    table = measure.regionprops_table(labels,
-                                      properties=("label", "area", "centroid"))
+    table = measure.regionprops_table(labels, properties=("label", "area", "centroid"))
     centres = np.stack([table[f"centroid-{d}"] for d in range(labels.ndim)], 1)
     cells = Cells(labels, voxel, table["label"], names[table["label"]],
                   table["area"] * voxel.prod(), (centres + 0.5) * voxel)
@@ -90,8 +86,7 @@ def cells_of(labels, names, voxel, smallest, words):
                      f"({_list(cells.names[crumbs])}).")
         cells.keep(~crumbs)
     if len(cells.names) < FEWEST:
-        raise Refused("The image", f"{len(cells.names)} cells",
-                      f"at least {FEWEST} cells")
+        raise Refused("The image", f"{len(cells.names)} cells", f"at least {FEWEST} cells")
     _join_pieces(cells, words)
     _tell_border(cells, words)
     return cells
@@ -103,9 +98,8 @@ def _list(names, most=8):
 
 
 def _join_pieces(cells, words):
-    """A cell in several pieces stands in the largest one. Where a place is not
-    within its own cell, as of a crescent, the cell stands where it is
-    thickest."""
+    """A cell in several pieces stands in the largest one. Where a place is not within its own
+    cell, as of a crescent, the cell stands where it is thickest."""
     pieces = measure.label(cells.labels, connectivity=cells.labels.ndim)
     parts = measure.regionprops_table(
         pieces, cells.labels, ("label", "area", "centroid", "max_intensity"))
@@ -127,8 +121,7 @@ def _join_pieces(cells, words):
                      "largest one.")
     index = tuple((cells.places / cells.voxel).astype(int).T)
     for row in np.flatnonzero(cells.labels[index] != cells.numbers):
-        cells.places[row] = _thickest(cells.labels == cells.numbers[row],
-                                      cells.voxel)
+        cells.places[row] = _thickest(cells.labels == cells.numbers[row], cells.voxel)
 
 
 def _thickest(mask, voxel):

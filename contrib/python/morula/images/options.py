@@ -48,8 +48,7 @@ def parser():
         "cells in which its mean is\nabove a threshold are of another type")
     add("--marker-channel", type=int, metavar="N", help="the same of a channel "
         "of the image itself, or of\nthat of --marker")
-    add("--marker-threshold", type=float, metavar="VALUE",
-        help="default: Otsu's")
+    add("--marker-threshold", type=float, metavar="VALUE", help="default: Otsu's")
     add("--marker-names", default="negative,positive", metavar="BELOW,ABOVE",
         help="names of the two types; default: negative,positive")
     add("--again", action="store_true", help="replace files from before")

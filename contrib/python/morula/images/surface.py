@@ -38,8 +38,7 @@ class Part:
         edges = corners[:, 1:] - corners[:, :1]
         if edges.shape[1] == 1:
             return float(np.linalg.norm(edges[:, 0], axis=1).sum())
-        return float(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]),
-                                          axis=1).sum())
+        return float(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum())
 
 
 def tissue_of(cells, smallest_cavity, fill_gaps, words):
@@ -96,23 +95,20 @@ class Field:
         size = np.array(mask.shape) * voxel
         axes = [np.arange(0.5 * edge, whole - 0.5 * edge, self.step)
                 for edge, whole in zip(voxel, size)]
-        where = np.meshgrid(*(axis / edge - 0.5 for axis, edge
-                              in zip(axes, voxel)), indexing="ij")
+        where = np.meshgrid(*(axis / edge - 0.5 for axis, edge in zip(axes, voxel)), indexing="ij")
         self.values = ndimage.map_coordinates(smooth, where, order=3)
         self.origin = 0.5 * voxel - pad * voxel
 
     def at(self, places):
         """The values at places (n, dim)."""
-        return ndimage.map_coordinates(
-            self.values, ((places - self.origin) / self.step).T, order=1)
+        return ndimage.map_coordinates(self.values, ((places - self.origin) / self.step).T, order=1)
 
     def parts(self, level):
         """The closed parts of the surface at a level."""
         values = self.values.astype(float)
         near = np.abs(values - level) < CLEAR
         values[near] = level + np.where(values[near] < level, -CLEAR, CLEAR)
-        return (self._outlines if values.ndim == 2 else self._meshes)(
-            values, level)
+        return (self._outlines if values.ndim == 2 else self._meshes)(values, level)
 
     def _meshes(self, values, level):
         vertices, facets, _, _ = measure.marching_cubes(
@@ -134,8 +130,7 @@ class Field:
 
     def _outlines(self, values, level):
         # the order of the axes is y, x: areas change their sign
-        for line in measure.find_contours(values, level,
-                                          positive_orientation="low"):
+        for line in measure.find_contours(values, level, positive_orientation="low"):
             places = self.origin + self.step * line[:-1]
             n = np.arange(len(places))
             facets = np.stack([n, np.roll(n, -1)], 1)
@@ -144,8 +139,7 @@ class Field:
 
 def _volume(vertices, facets):
     corners = (vertices - vertices.mean(0))[facets]
-    return float(np.linalg.det(corners).sum() / (6 if corners.shape[1] == 3
-                                                 else 2))
+    return float(np.linalg.det(corners).sum() / (6 if corners.shape[1] == 3 else 2))
 
 
 def surface_of(cells, mask, pad, words):
@@ -163,8 +157,7 @@ def surface_of(cells, mask, pad, words):
     except ValueError:  # of one sign at both ends
         level = low if abs(excess(low)) < abs(excess(high)) else high
     parts = list(field.parts(level))
-    parts = [part for part in parts if part.volume > 0
-             or -part.volume > 0.1 * cells.volumes.mean()]
+    parts = [part for part in parts if part.volume > 0 or -part.volume > 0.1 * cells.volumes.mean()]
     _keep_inside(cells, field, level, words)
     parts = _with_cells(parts, cells, words)
     if not parts:
@@ -181,8 +174,7 @@ def _keep_inside(cells, field, level, words):
     greatest; those that are outside as a whole are left out."""
     inside = field.at(cells.places) > level + CLEAR
     for row in np.flatnonzero(~inside):
-        places = (np.argwhere(cells.labels == cells.numbers[row])
-                  + 0.5) * cells.voxel
+        places = (np.argwhere(cells.labels == cells.numbers[row]) + 0.5) * cells.voxel
         values = field.at(places)
         if values.max() > level + CLEAR:
             cells.places[row], inside[row] = places[values.argmax()], True
@@ -194,13 +186,11 @@ def _keep_inside(cells, field, level, words):
 
 def _with_cells(parts, cells, words):
     """Bodies without a cell's place, and the cavities in them, go."""
-    holds = np.array([part.volume < 0 or contains(part, cells.places).any()
-                      for part in parts])
+    holds = np.array([part.volume < 0 or contains(part, cells.places).any() for part in parts])
     if not holds.all():
         words.append(f"{(~holds).sum()} bodies hold no cell's place, such as "
                      "pieces of torn labels: they are left out.")
-    bodies = [part for part, held in zip(parts, holds)
-              if held and part.volume > 0]
+    bodies = [part for part, held in zip(parts, holds) if held and part.volume > 0]
     return bodies + [part for part in parts if part.volume < 0 and any(
         contains(body, part.vertices[:1])[0] for body in bodies)]
 
@@ -223,8 +213,7 @@ def contains(part, places):
     check.SetSurfaceData(poly_data(part))
     check.SetTolerance(1e-9)
     check.Update()
-    return vtk_to_numpy(check.GetOutput().GetPointData().GetArray(
-        "SelectedPoints")) > 0
+    return vtk_to_numpy(check.GetOutput().GetPointData().GetArray("SelectedPoints")) > 0
 
 
 def balls_around(cavity, others):
@@ -240,8 +229,7 @@ def balls_around(cavity, others):
     radii = 0.9 * tree.query(candidates)[0]
     found = []
     while len(left):
-        covered = np.linalg.norm(
-            left[None] - candidates[:, None], axis=2) < 0.97 * radii[:, None]
+        covered = np.linalg.norm(left[None] - candidates[:, None], axis=2) < 0.97 * radii[:, None]
         best = covered.sum(1).argmax()
         if not covered[best].any():
             return None  # a wall as thin as nothing

@@ -29,8 +29,7 @@ def read_table(file, frame, voxel, words):
     try:
         table = pandas.read_csv(file, sep=None, engine="python", comment="#")
     except (OSError, ValueError) as error:
-        raise Refused("The table", file, "a CSV file with a line of names",
-                      f"{error}.") from None
+        raise Refused("The table", file, "a CSV file with a line of names", f"{error}.") from None
     names = {}
     for column in table:
         for name, known in NAMES.items():
@@ -73,8 +72,7 @@ def _with_volumes(file, table, voxel, words):
     if voxel is not None:
         table[axes] *= voxel[::-1][:len(axes)]
     if len(table) < 2:
-        raise Refused("The table", file, "at least 2 cells",
-                      f"It has {len(table)}.")
+        raise Refused("The table", file, "at least 2 cells", f"It has {len(table)}.")
     places, dim = table[axes].to_numpy(), len(axes)
     nearest = spatial.cKDTree(places).query(places, 2)[0][:, 1]
     length = float(np.median(nearest))
@@ -87,8 +85,7 @@ def _with_volumes(file, table, voxel, words):
     if "volume" in table:
         pass
     elif "radius" in table or "diameter" in table:
-        radius = (table["radius"] if "radius" in table
-                  else 0.5 * table["diameter"])
+        radius = (table["radius"] if "radius" in table else 0.5 * table["diameter"])
         table["volume"] = ball * radius ** dim
         words.append("Volumes are those of balls with the radii of the table; "
                      "cells side by side fill more.")

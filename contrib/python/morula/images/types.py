@@ -25,8 +25,7 @@ def types_of_table(file, names, words):
     table.columns = [name.strip().lower() for name in table]
     key = "label" if "label" in table else "id"
     if key not in table or "type" not in table:
-        raise Refused("--types", file, "columns label and type",
-                      "It has " + ", ".join(table) + ".")
+        raise Refused("--types", file, "columns label and type", "It has " + ", ".join(table) + ".")
     types = dict(zip(table[key].str.strip(), table["type"].str.strip()))
     missing = [str(name) for name in names if str(name) not in types]
     if missing:

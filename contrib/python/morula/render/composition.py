@@ -21,9 +21,8 @@ def round_length(length):
 
 
 def compose(panels, cut_open, view, colours, title, outline=None):
-    """The picture (height, width, 3), bytes. `outline` is that of the cut, 1
-    within and 0 outside (height, width); without it, a cut-open panel gets the
-    outline of what it shows."""
+    """The picture (height, width, 3), bytes. `outline` is that of the cut, 1 within and 0 outside
+    (height, width); without it, a cut-open panel gets the outline of what it shows."""
     height, width = panels[0].shape[:2]
     wide = width / DPI
     side = max(SIDE, BESIDE_NAMES + colours.longest_name)
@@ -42,8 +41,7 @@ def compose(panels, cut_open, view, colours, title, outline=None):
         draw_scale(figure, view, width, height, total)
         figure.text(0.04 * wide / total[0], 1 - 0.12 / total[1], title,
                     ha="left", va="top", fontsize=11, parse_math=False)
-        bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2,
-                               0.14 / total[0], 0.6])
+        bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2, 0.14 / total[0], 0.6])
         colours.draw_bar(figure, bar)
         figure.canvas.draw()
         picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
@@ -64,5 +62,4 @@ def draw_scale(figure, view, width, height, total):
     axes.set(xlim=(0, width), ylim=(0, 1))
     axes.plot([0.04 * width, 0.04 * width + length / unit], [0.45, 0.45],
               color="black", linewidth=2, solid_capstyle="butt")
-    axes.text(0.05 * width + length / unit, 0.43, f"{length:g} µm", ha="left",
-              va="center")
+    axes.text(0.05 * width + length / unit, 0.43, f"{length:g} µm", ha="left", va="center")

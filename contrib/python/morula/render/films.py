@@ -17,14 +17,12 @@ BLOCK = 16   # videos consist of blocks of so many pixels
 def film_writer(wanted, stem, rate):
     """(file, what writes the pictures to it). Throws Refused if the kind is
     unknown, or what it needs is missing."""
-    path = wanted or stem.with_name(
-        stem.name + (".mp4" if shutil.which("ffmpeg") else ".gif"))
+    path = wanted or stem.with_name(stem.name + (".mp4" if shutil.which("ffmpeg") else ".gif"))
     kinds = {".gif": write_gif, ".ogv": write_ogg, ".mp4": write_by_ffmpeg,
              ".webm": write_by_ffmpeg}
     write = kinds.get(path.suffix.lower())
     if write is None:
-        raise Refused("--output", path, "a film's name, with "
-                      + ", ".join(kinds) + " at its end")
+        raise Refused("--output", path, "a film's name, with " + ", ".join(kinds) + " at its end")
     if write is write_by_ffmpeg and not shutil.which("ffmpeg"):
         raise Refused("--output", path, "a name with .gif or .ogv at its end, "
                       "as the program ffmpeg is missing",

@@ -23,8 +23,7 @@ class Frames:
             cells = self._cells(state)
             self._require_field(cells, state)
             outermost = cells.outermost
-            corners += [outermost.min(axis=0) - cells.margin,
-                        outermost.max(axis=0) + cells.margin]
+            corners += [outermost.min(axis=0) - cells.margin, outermost.max(axis=0) + cells.margin]
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
         self.colours = colours_of(
@@ -50,8 +49,7 @@ class Frames:
                 if self.options.shapes else tissue.Spheres(file))
 
     def _require_field(self, cells, state):
-        there = sorted(name for name, values in cells.columns.items()
-                       if np.ndim(values) == 1)
+        there = sorted(name for name, values in cells.columns.items() if np.ndim(values) == 1)
         if self.options.field not in there:
             raise Refused("--field", self.options.field,
                           f"a column of {state[2].name}: " + ", ".join(there))
@@ -80,8 +78,7 @@ class Frames:
     def _outline(self, cells, state):
         """That of the cut, or None for tissue without boundary points."""
         try:
-            surface = read_points(states(self.options.directory,
-                                         "surface")[state[0]][1])
+            surface = read_points(states(self.options.directory, "surface")[state[0]][1])
         except (NoStates, IndexError):
             return None
         return inside_of_cut(

@@ -37,8 +37,7 @@ class Packed:
 
     def __init__(self, run, fields, wanted, limit):
         self.run, self.fields, self.flat = run, fields, run.dimension == 2
-        counts = [int(run.statistics["cells"][row_at(run.statistics, time)])
-                  for time in run.times]
+        counts = [int(run.statistics["cells"][row_at(run.statistics, time)]) for time in run.times]
         while counts[-1] == 0:  # all cells are dead: nothing to show
             counts.pop()
         last = len(counts) - 1
@@ -81,8 +80,7 @@ class Packed:
         other: deflated, and written in base64."""
         table = self.tables[i][::stride]
         places = quantised(table.iloc[:, :4], self.low, self.high, "<u2")
-        values = [quantised(table[name], *self._limits(name), np.uint8)
-                  for name in self.fields]
+        values = [quantised(table[name], *self._limits(name), np.uint8) for name in self.fields]
         content = b"".join(part.tobytes() for part in (places, *values))
         return base64.b64encode(zlib.compress(content, 9)).decode()
 
@@ -122,10 +120,9 @@ class Selection:
 
 
 def choose(times, counts, bytes_per_cell, wanted, limit):
-    """As many states as fit into the limit (bytes), spread evenly, with the
-    first and the last one; if not even these two fit, the last one alone, and
-    if that does not, every second, third ... cell of it. `counts` are the
-    cells of each state, `wanted` the most states, or None."""
+    """As many states as fit into the limit (bytes), spread evenly, with the first and the last
+    one; if not even these two fit, the last one alone, and if that does not, every second, third
+    ... cell of it. `counts` are the cells of each state, `wanted` the most states, or None."""
     total, words, stride = len(counts), [], 1
     for number in range(min(total, wanted or total), 0, -1):
         states = sorted({round(i) for i in np.linspace(total - 1, 0, number)})

@@ -58,8 +58,7 @@ def timings(run):
     rest = seconds - found["wall_seconds"].sum()
     rows = [*found.itertuples(name=None), ("all else", calls, rest, rest / seconds),
             ("total", calls, seconds, 1.0)]
-    return [(name, number(n), f"{s:.2f}", f"{100 * share:.1f} %")
-            for name, n, s, share in rows]
+    return [(name, number(n), f"{s:.2f}", f"{100 * share:.1f} %") for name, n, s, share in rows]
 
 
 def accuracy(run):
@@ -99,8 +98,7 @@ def condition(run):
 
 
 def cells_per_edge(run, row):
-    """h over the mean cell's edge, which is L_p at first; of the rows that
-    have cells."""
+    """h over the mean cell's edge, which is L_p at first; of the rows that have cells."""
     state = run.statistics[run.statistics["cells"] > 0].iloc[row]
     edge = (state["total_volume"] / state["cells"]) ** (1 / run.dimension)
     return run.number("Grid/Spacing") / edge

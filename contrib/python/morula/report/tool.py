@@ -30,8 +30,7 @@ def arguments(words):
     parser = argparse.ArgumentParser(
         description=DESCRIPTION,
         formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("directory", type=Path,
-                        help="output directory of a run")
+    parser.add_argument("directory", type=Path, help="output directory of a run")
     parser.add_argument("--output", type=Path, metavar="FILE.html",
                         help="default: report.html in that directory")
     parser.add_argument("--states", type=int, metavar="N", help="at most so "
@@ -57,8 +56,7 @@ def check(run, options):
         raise Refused("--limit", options.limit, "a number of MB > 0")
     options.output = options.output or run.directory / "report.html"
     if options.output.is_dir() or not options.output.parent.is_dir():
-        raise Refused("--output", options.output, "a file in a directory "
-                      "that exists")
+        raise Refused("--output", options.output, "a file in a directory " "that exists")
     if options.fields is not None:
         options.fields = [f.strip() for f in options.fields.split(",")]
         if not len(run.times):
@@ -67,8 +65,7 @@ def check(run, options):
         there = fields_of(run.cells(-1))
         for field in options.fields:
             if field not in there:
-                raise Refused("--fields", field, "a column of the cells: "
-                              + ", ".join(there))
+                raise Refused("--fields", field, "a column of the cells: " + ", ".join(there))
 
 
 def find_program(wanted):

@@ -13,8 +13,7 @@ def cut(bodies, origin, normal, beyond):
     goes through `origin`, with outward unit `normal`, both (n, 3) for owners 0
     to n - 1. `beyond` (n) says what is on the other side of the new faces."""
     owner = np.repeat(bodies.owner, bodies.counts)  # of each corner
-    height = np.einsum("ij,ij->i", bodies.points[bodies.corners]
-                       - origin[owner], normal[owner])
+    height = np.einsum("ij,ij->i", bodies.points[bodies.corners] - origin[owner], normal[owner])
     height[np.abs(height) <= ON_PLANE] = 0
     sides, rims = cut_faces(bodies, owner, height)
     return joined([sides, lids(sides.points, *rims, normal, beyond)])
@@ -54,12 +53,9 @@ def crossings(bodies, owner, height, crossing):
     on each crossing edge, equal for the two faces of the edge."""
     here, there = np.flatnonzero(crossing), bodies.following()[crossing]
     swapped = bodies.corners[here] > bodies.corners[there]
-    here, there = (np.where(swapped, there, here),
-                   np.where(swapped, here, there))
-    edge = np.stack([owner[here], bodies.corners[here],
-                     bodies.corners[there]], axis=1)
-    _, index, of_edge = np.unique(edge, axis=0, return_index=True,
-                                  return_inverse=True)
+    here, there = (np.where(swapped, there, here), np.where(swapped, here, there))
+    edge = np.stack([owner[here], bodies.corners[here], bodies.corners[there]], axis=1)
+    _, index, of_edge = np.unique(edge, axis=0, return_index=True, return_inverse=True)
     here, there = here[index], there[index]
     part = (height[here] / (height[here] - height[there]))[:, None]
     return ((1 - part) * bodies.points[bodies.corners[here]]

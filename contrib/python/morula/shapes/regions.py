@@ -49,12 +49,10 @@ def regions_of(positions, volumes, boundary, flat):
     outer = at_surface[bodies.owner]
     inner, outer = bodies.select(~outer), bodies.select(outer)
     outer = replace(outer, owner=number[outer.owner])
-    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells],
-                           volumes[cells])
+    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells], volumes[cells])
     outer = replace(outer, owner=cells[outer.owner])
     bodies = joined([inner, outer])
-    return measured(bodies.select(np.argsort(bodies.owner, kind="stable")),
-                    centres, flat)
+    return measured(bodies.select(np.argsort(bodies.owner, kind="stable")), centres, flat)
 
 
 def require_all(bodies, positions):
@@ -72,11 +70,9 @@ def reaching_out(bodies, boundary, lengths):
     """Which cells have regions with corners outside of the surface."""
     used = np.unique(bodies.corners)
     outside = np.zeros(len(bodies.points), dtype=bool)
-    outside[used] = boundary.outside(bodies.points[used],
-                                     OUTSIDE * lengths.min())
+    outside[used] = boundary.outside(bodies.points[used], OUTSIDE * lengths.min())
     result = np.zeros(len(lengths), dtype=bool)
-    result[np.repeat(bodies.owner, bodies.counts)[outside[bodies.corners]]] = (
-        True)
+    result[np.repeat(bodies.owner, bodies.counts)[outside[bodies.corners]]] = (True)
     return result
 
 

@@ -32,10 +32,8 @@ off, and how well they fill the tissue.
 
 
 def arguments(words):
-    parser = Parser(description=DESCRIPTION,
-                    formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("directory", type=Path,
-                        help="output directory of a run, finished or not")
+    parser = Parser(description=DESCRIPTION, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("directory", type=Path, help="output directory of a run, finished or not")
     parser.add_argument("--time", metavar="DAY", help="of the state; default: "
                         "the last one written")
     parser.add_argument("--all", action="store_true", help="all states")
@@ -74,11 +72,9 @@ def check_output(options):
     if file is None:
         return
     if options.all:
-        raise Refused("--output", file, "a name for a single state",
-                      "Leave it out with --all.")
+        raise Refused("--output", file, "a name for a single state", "Leave it out with --all.")
     if file.suffix != ".vtu" or file.is_dir() or not file.parent.is_dir():
-        raise Refused("--output", file, "a name that ends in .vtu, in a "
-                      "directory that exists")
+        raise Refused("--output", file, "a name that ends in .vtu, in a " "directory that exists")
 
 
 def with_vectors(cells):
@@ -88,8 +84,7 @@ def with_vectors(cells):
     if "displacement_x" in cells:
         columns["displacement"] = np.stack(
             [columns[f"displacement_{axis}"] for axis in "xyz"], axis=1)
-        columns["sigma"] = np.stack([columns[name] for name
-                                     in COMPONENTS["sigma"]], axis=1)
+        columns["sigma"] = np.stack([columns[name] for name in COMPONENTS["sigma"]], axis=1)
     return columns
 
 
@@ -110,8 +105,7 @@ def write_state(run, i, options):
                    run.dimension == 2)
     file = options.output or file_of(cells_file)
     write_grid(grid, file)
-    return (f"{file}: day {time:g}, {kept.sum()} cells, "
-            f"{file.stat().st_size / 1e6:.1f} MB")
+    return (f"{file}: day {time:g}, {kept.sum()} cells, " f"{file.stat().st_size / 1e6:.1f} MB")
 
 
 def write_all(options):
@@ -130,7 +124,6 @@ def main(words=None):
         print(f"cell-shapes: {refusal}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("cell-shapes: stopped; files that were written are whole.",
-              file=sys.stderr)
+        print("cell-shapes: stopped; files that were written are whole.", file=sys.stderr)
         return 130
     return 0

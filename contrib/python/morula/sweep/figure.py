@@ -51,7 +51,5 @@ def _legend(axes, shown):
     handles, names = axes.get_legend_handles_labels()
     if len(handles) > MAX_NAMES:
         handles = handles[:MAX_NAMES]
-        names = names[:MAX_NAMES - 1] + [f"... {len(shown) - MAX_NAMES + 1} "
-                                         "more, see table.md"]
-    axes.legend(handles, names, loc="upper left", bbox_to_anchor=(1.02, 1),
-                fontsize=7)
+        names = names[:MAX_NAMES - 1] + [f"... {len(shown) - MAX_NAMES + 1} " "more, see table.md"]
+    axes.legend(handles, names, loc="upper left", bbox_to_anchor=(1.02, 1), fontsize=7)

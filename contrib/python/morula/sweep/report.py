@@ -10,8 +10,7 @@ from morula.tables import markdown as table_of
 
 
 def write_tables(request, ensembles, directory):
-    """table.csv, runs.csv and table.md; each replaces the old one as a
-    whole."""
+    """table.csv, runs.csv and table.md; each replaces the old one as a whole."""
     keys = request.plan.keys
     write_csv(directory / "table.csv", [
         [*keys, "column", "unit", "runs", "failed", "mean",

@@ -35,8 +35,7 @@ class Request:
         self.columns = read_columns(options.columns, self.all_columns[1:])
         check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
-        self.output = output_directory(
-            options, OUTPUT / "sweep" / self.scene.name)
+        self.output = output_directory(options, OUTPUT / "sweep" / self.scene.name)
 
     @property
     def all_columns(self):
@@ -83,8 +82,7 @@ class Request:
             special.append(("Random seed", str(seed)))
         overrides = (*self.scene.overrides, *special,
                      *with_snapshots({**self.scene.keys, **dict(special)}))
-        return Job(job_name(special, overrides), overrides,
-                   ("cells", "surface", "snapshot"))
+        return Job(job_name(special, overrides), overrides, ("cells", "surface", "snapshot"))
 
 
 def read_columns(text, known):

@@ -34,12 +34,10 @@ def sweep(request):
                     request.jobs, again=request.options.again, resume=True,
                     say=_say, name="sweep")
     allowed = set(kept.check(runs[::len(seeds)], request.options.skip_refused))
-    points = [point for point, run in zip(points, runs[::len(seeds)])
-              if run in allowed]
+    points = [point for point, run in zip(points, runs[::len(seeds)]) if run in allowed]
     runs = [request.run(point, seed) for point in points for seed in seeds]
     if not runs:
-        raise Refused("--skip-refused", "all combinations", "some that Morula "
-                      "accepts")
+        raise Refused("--skip-refused", "all combinations", "some that Morula " "accepts")
     if request.options.plan:
         for run in runs:
             _say(run.name)

@@ -76,8 +76,7 @@ def row(case, run):
 def draw(pairs):
     canvas, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
-        axes.plot(*heights(run), color=COLOURS[i],
-                  label=f"PTHrP answers {case.values[0]:g} times")
+        axes.plot(*heights(run), color=COLOURS[i], label=f"PTHrP answers {case.values[0]:g} times")
         axes.axhline(steady_height(case.values[0] * ANSWER), linestyle=":", color=COLOURS[i])
     axes.axvline(CUT, color="#444444", linewidth=0.6)
     axes.set(xlabel="day", ylabel="height of proliferation, µm", ylim=(0, None))

@@ -88,22 +88,19 @@ def draw(pairs):
     canvas, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
         rows = run.statistics
-        left.semilogy(rows["time"], course(*case.values, rows["time"]), ":",
-                      color=COLOURS[i])
+        left.semilogy(rows["time"], course(*case.values, rows["time"]), ":", color=COLOURS[i])
         left.semilogy(rows["time"], rows["total_volume"] / rows["total_volume"].iloc[0],
                       color=COLOURS[i], label=case.name.removeprefix("pressure "))
         if case.keys:
             right.plot(case.values[0], found_rate(run), "o", color=COLOURS[i])
     pressures = numpy.linspace(0, 18, 181)
-    below, chosen, above = ([growth_rate(p, stopping) for p in pressures]
-                            for stopping in STOPPING)
+    below, chosen, above = ([growth_rate(p, stopping) for p in pressures] for stopping in STOPPING)
     right.plot(pressures, chosen, ":", color="#444444",
                label=f"from J_e, stop at {CHOSEN:g} kPa")
     right.fill_between(pressures, below, above, color="#444444", alpha=0.15, linewidth=0,
                        label=f"stop at {STOPPING[0]:g} to {STOPPING[-1]:g} kPa")
     left.set(xlabel="day", ylabel="volume, of the first")
     left.legend(loc="upper left")
-    right.set(xlabel="pressure, kPa", ylabel="growth rate, of the free one",
-              ylim=(0, None))
+    right.set(xlabel="pressure, kPa", ylabel="growth rate, of the free one", ylim=(0, None))
     right.legend(loc="upper right")
     return canvas

@@ -5,8 +5,7 @@ from spack.package import *
 
 
 class Morula(CMakePackage):
-    """Growth and proliferation of tissues with continuum-based cell
-    particles."""
+    """Growth and proliferation of tissues with continuum-based cell particles."""
 
     license("GPL-3.0-or-later")
 

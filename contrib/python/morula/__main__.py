@@ -24,12 +24,10 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool"}
 
-PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
-            "numpy": "python3-numpy", "scipy": "python3-scipy",
-            "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
-            "h5py": "python3-h5py", "pandas": "python3-pandas",
-            "jinja2": "python3-jinja2", "skimage": "python3-skimage",
-            "tifffile": "python3-tifffile", "zarr": "python3-zarr"}
+PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)", "numpy": "python3-numpy",
+            "scipy": "python3-scipy", "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
+            "h5py": "python3-h5py", "pandas": "python3-pandas", "jinja2": "python3-jinja2",
+            "skimage": "python3-skimage", "tifffile": "python3-tifffile", "zarr": "python3-zarr"}
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 
@@ -39,8 +37,7 @@ def missing(error):
     package = PACKAGES.get((error.name or "").partition(".")[0])
     if package is None:
         return None
-    text = (f"{error}. Debian's package {package} has it; contrib/setup "
-            "installs what is missing.")
+    text = (f"{error}. Debian's package {package} has it; contrib/setup installs what is missing.")
     if not sys.executable.startswith(SYSTEM_PYTHON):
         text += (f" This is {sys.executable}, which does not see Debian's "
                  f"packages: {SYSTEM_PYTHON} does.")

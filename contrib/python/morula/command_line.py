@@ -69,9 +69,8 @@ def ranks_and_jobs(options):
     ranks = whole_number("--ranks", options.ranks)
     jobs = whole_number("--jobs", options.jobs)
     if jobs > 1 and jobs * ranks > cores():
-        raise Refused("--jobs", options.jobs, f"at most {cores()} cores "
-                      f"for all runs with --ranks {ranks}",
-                      "More would wait for each other, and make every time "
+        raise Refused("--jobs", options.jobs, f"at most {cores()} cores for all runs with --ranks "
+                      f"{ranks}", "More would wait for each other, and make every time "
                       "meaningless.")
     return ranks, jobs
 
@@ -109,6 +108,5 @@ def run_tool(name, tool):
         print(f"{name}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"{name}: stopped; the same command goes on with what is "
-              "missing.", file=sys.stderr)
+        print(f"{name}: stopped; the same command goes on with what is missing.", file=sys.stderr)
         return 130

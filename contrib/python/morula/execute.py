@@ -72,9 +72,8 @@ class Processes:
         self.stopped = False
         self._running, self._guard = set(), threading.Lock()
 
-    def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE,
-             stderr=subprocess.PIPE, env=(), cost=None, pass_fds=(),
-             server=None):
+    def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+             env=(), cost=None, pass_fds=(), server=None):
         """Runs a command to its end; None after stop(). stdout and stderr are what subprocess
         takes, or the paths of files; `env` has variables besides, `cost` is the file for what
         measure.py says of it. A served.Server does it in a fork, with stdout and stderr in files.

@@ -97,9 +97,8 @@ class KeptRuns:
     def run(self, jobs):
         """The records of the jobs, in their order."""
         with self._alone(), self._servers_for(jobs):
-            return self._processes.each(
-                lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
-                enumerate(jobs, 1), self.n_at_a_time)
+            return self._processes.each(lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
+                                        enumerate(jobs, 1), self.n_at_a_time)
 
     @contextlib.contextmanager
     def _alone(self):
@@ -109,11 +108,9 @@ class KeptRuns:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
-                raise Refused("--output", self.directory, "a directory that "
-                              "nobody else writes into", "Another one, or a "
-                              "run that it has left over, is at work there: "
-                              "wait for it, or choose another "
-                              "directory.") from None
+                raise Refused("--output", self.directory, "a directory that nobody else writes "
+                              "into", "Another one, or a run that it has left over, is at work "
+                              "there: wait for it, or choose another directory.") from None
             self._lock = lock
             yield
 
@@ -194,10 +191,9 @@ class KeptRuns:
             raise RuntimeError(f"the run {job.name} was ended from outside "
                                "together with what measured it")
         if self.scene.program.digest != self.digest:
-            raise Refused("--morula", self.scene.program.executable,
-                          "an executable that nobody replaces while runs "
-                          "go on", "The same command begins anew with the "
-                          "new one.")
+            raise Refused("--morula", self.scene.program.executable, "an executable that nobody "
+                          "replaces while runs go on", "The same command begins anew with the new "
+                          "one.")
         record.add({**json.loads(cost.read_text()), "resumed": resumed},
                    self.ranks, self.n_at_a_time, job.keep)
 
@@ -207,9 +203,8 @@ class KeptRuns:
         keys = {**self.scene.keys, **dict(job.overrides)}
         keys.pop("Output directory", None)
         # as the program does: here, or beside the scene
-        places = {value: next((path for path in (
-            Path(value), self.scene.path.parent / value) if value
-            and len(value) < LONGEST_NAME and path.is_file()), None)
+        places = {value: next((path for path in (Path(value), self.scene.path.parent / value)
+                               if value and len(value) < LONGEST_NAME and path.is_file()), None)
                   for value in keys.values()}
         files = {value: hashlib.sha256(path.read_bytes()).hexdigest()
                  for value, path in places.items() if path}

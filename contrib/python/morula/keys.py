@@ -30,12 +30,11 @@ class Key:
 
 def read_keys(text):
     """All keys of the output of `morula --parameters=json`, in order."""
-    return [Key(key["path"], key["default"], key["unit"], key["allowed"],
-                key["meaning"], tuple(key.get("formerly", ())),
-                key.get("default by method", {}).get("paper"),
-                key["type"], tuple(key.get("choices", ())),
-                key.get("components", 1), key.get("evaluated", ""),
-                tuple(key.get("variables", ()))) for key in json.loads(text)]
+    return [Key(key["path"], key["default"], key["unit"], key["allowed"], key["meaning"],
+                tuple(key.get("formerly", ())), key.get("default by method", {}).get("paper"),
+                key["type"], tuple(key.get("choices", ())), key.get("components", 1),
+                key.get("evaluated", ""), tuple(key.get("variables", ()))) for key
+            in json.loads(text)]
 
 
 def defaults_with(keys, method):

@@ -87,8 +87,7 @@ def read_seeds(text):
                           "of integers >= 0")
         first, last = int(match[1]), int(match[2] or match[1])
         if not first <= last < first + MAX_RUNS:
-            raise Refused("--seeds", text, f"a range from low to high of at most "
-                          f"{MAX_RUNS} seeds")
+            raise Refused("--seeds", text, f"a range from low to high of at most {MAX_RUNS} seeds")
         seeds += range(first, last + 1)
     if len(set(seeds)) < len(seeds):
         raise Refused("--seeds", text, "each seed once")
@@ -134,9 +133,8 @@ class Plan:
             rungs = itertools.product(*(ladder.rungs for ladder in ladders))
             points = [self._point(*zip(ladders, choice)) for choice in rungs]
         else:
-            points = [self._point()] + [
-                self._point((ladder, rung))
-                for ladder in ladders for rung in ladder.rungs]
+            points = [self._point()] + [self._point((ladder, rung)) for ladder in ladders for rung
+                                        in ladder.rungs]
         self.points = list(dict.fromkeys(points))
 
     def _point(self, *choices):
@@ -193,8 +191,7 @@ class Plan:
 
     def overrides(self, point):
         """(key, value) where the point differs from the scene."""
-        return tuple((key, value) for key, value, own
-                     in zip(self.keys, point, self.own)
+        return tuple((key, value) for key, value, own in zip(self.keys, point, self.own)
                      if normal(value) != normal(own))
 
     def label(self, point):

@@ -95,9 +95,8 @@ class Lineage:
         """A data frame, a row a founder: cells that ever lived, and those alive
         at the end of the run."""
         import pandas
-        return pandas.DataFrame({
-            "cells": np.bincount(self.founder, minlength=self.founders),
-            "alive": self.clone_sizes}).rename_axis("founder")
+        return pandas.DataFrame({"cells": np.bincount(self.founder, minlength=self.founders),
+                                 "alive": self.clone_sizes}).rename_axis("founder")
 
     def tree(self, cell):
         """A cell's descendants as dictionaries of dictionaries: of each daughter

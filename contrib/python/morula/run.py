@@ -228,8 +228,7 @@ class Run:
             return []
         self.lineage.require(cell)
         changes = self.events[(self.events["id"] == cell) & (self.events["event"] == "transition")]
-        return [(float(self.lineage.birth_time[cell]),
-                 self.type_names[self.lineage.type[cell]]),
+        return [(float(self.lineage.birth_time[cell]), self.type_names[self.lineage.type[cell]]),
                 *zip(changes["time"], changes["to"])]
 
     def clone(self, cell):

@@ -19,8 +19,7 @@ class Scene:
         self.explained = program.explain(self.path, self.overrides)
         self.known = program.keys_with(self.path, self.overrides)
         self.keys = {**self.explained["keys"],
-                     "Output directory": dict(self.overrides).get(
-                         "Output directory", "")}
+                     "Output directory": dict(self.overrides).get("Output directory", "")}
 
     @property
     def name(self):

@@ -32,10 +32,9 @@ class Server:
     the descriptors pass_fds. To be closed, as a context or by close()."""
 
     def __init__(self, executable, pass_fds=()):
-        self._process = subprocess.Popen(
-            [str(executable), "--serve"], stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE, env={**environment(), **AT_ONCE},
-            start_new_session=True, pass_fds=pass_fds)
+        self._process = subprocess.Popen([str(executable), "--serve"], stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE, env={**environment(), **AT_ONCE},
+                                         start_new_session=True, pass_fds=pass_fds)
         self._guard = threading.Lock()
 
     def __enter__(self):
@@ -61,9 +60,8 @@ class Server:
             places = [cwd or os.getcwd(), *files, cost or ""]
             request = [os.path.abspath(place) if place else ""
                        for place in places] + list(words[1:])
-            self._process.stdin.write(b"".join(
-                os.fsencode(str(word)) + b"\0"
-                for word in [len(request), *request]))
+            self._process.stdin.write(b"".join(os.fsencode(str(word)) + b"\0" for word
+                                               in [len(request), *request]))
             self._process.stdin.flush()
             first = self._process.stdout.readline()
             if not first:

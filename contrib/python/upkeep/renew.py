@@ -55,9 +55,8 @@ def cases(kind, title):
     """What the cases below tests/KIND write at full length, whether limits are met or not."""
     tables = OUTPUT / kind
     shutil.rmtree(tables, ignore_errors=True)
-    subprocess.run(
-        ["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
-         f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
+    subprocess.run(["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
+                    f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
     found = sorted(tables.glob("*.md"))
     if not found:
         raise RuntimeError(f"pytest has written no tables of tests/{kind}")

@@ -148,9 +148,8 @@ def _part(plan, ladder, center, kinds, values):
     there = [values.get(point) for point in points]
     kind = kinds.get(ladder.keys[0], "none")
     path = plan.path(ladder, center)
-    sizes = [size_of(plan.value(point, ladder.keys[0]), kind,
-                     plan.scene.dimension) if point in path else None
-             for point in points]
+    sizes = [size_of(plan.value(point, ladder.keys[0]), kind, plan.scene.dimension) if point in path
+             else None for point in points]
     known = [float(v.mean()) for v in there if v is not None]
     part = Part(ladder, limit_of(sizes, there, kind), max(known) - min(known))
     if part.limit is None:

@@ -14,10 +14,9 @@ from scipy.optimize import brentq, minimize_scalar
 # they have on the surface. 'tolerance': the smaller the better, by no law.
 # 'none': no value is the right one, as for every key that is not named here.
 KINDS = ("zero", "large", "tolerance", "none")
-DEFAULT_KINDS = {
-    "Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
-    "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
-    "Solver/Linear tolerance": "tolerance"}
+DEFAULT_KINDS = {"Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
+                 "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
+                 "Solver/Linear tolerance": "tolerance"}
 
 # Observed orders outside this range are no sign of convergence.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 4.5

@@ -11,9 +11,8 @@ from morula.refusal import Refused
 from morula.run import places, row_at
 
 OPTION = "--measure"
-HOW = ("a column of statistics.csv, or 'cells:column', "
-       "'cells:reduction(column)', the same with 'surface:'; reductions are "
-       "mean, min, max, sum, std, median, p0 ... p100 (percentiles)")
+HOW = ("a column of statistics.csv, or 'cells:column', 'cells:reduction(column)', the same with "
+       "'surface:'; reductions are mean, min, max, sum, std, median, p0 ... p100 (percentiles)")
 FORM = re.compile(
     r"(?:(?:(cells|surface):)?(\w+))|(?:(cells|surface):"
     r"(mean|min|max|sum|std|median|p\d\d?|p100)\((\w+)\))")

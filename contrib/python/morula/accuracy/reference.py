@@ -40,9 +40,8 @@ class Reference:
         """Refuses a file that does not know what is asked for."""
         for measure in measures:
             if measure.text not in self.table:
-                raise Refused(OPTION, self.file, "a file with the column "
-                              f"'{measure.text}'", "It has "
-                              f"{', '.join(self.table)}; {COLUMN_OPTION} renames.")
+                raise Refused(OPTION, self.file, f"a file with the column '{measure.text}'",
+                              f"It has {', '.join(self.table)}; {COLUMN_OPTION} renames.")
         for time in times:
             self._row(time)
 

@@ -73,9 +73,8 @@ class Request:
         options = self.options
         if not options.vary and (not options.offsets or options.grid
                                  or options.wanted or options.limit):
-            raise Refused("--vary", "", "at least one ladder (--offsets alone "
-                          "estimates no error)", "For instance "
-                          '--vary "Grid/Spacing=100,75,50".')
+            raise Refused("--vary", "", "at least one ladder (--offsets alone estimates no error)",
+                          "For instance " '--vary "Grid/Spacing=100,75,50".')
         ladders = [read_ladder(text, self.scene) for text in options.vary]
         for ladder in ladders:
             refuse_keys("--vary", ladder.keys, NOT_VARIED,
@@ -113,9 +112,8 @@ class Request:
         for time in times[:-1]:
             ratio = time / step
             if abs(ratio - round(ratio)) > 1e-9 * max(1.0, ratio):
-                raise Refused("--at", self.options.at, "multiples of every "
-                              "Time/Step (and any last time)",
-                              f"Day {time:g} is no end of a step of {step:g}.")
+                raise Refused("--at", self.options.at, "multiples of every Time/Step (and any last "
+                              "time)", f"Day {time:g} is no end of a step of {step:g}.")
 
     def keys_at(self, point):
         """All keys of a point."""

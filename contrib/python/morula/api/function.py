@@ -114,9 +114,8 @@ class Function:
             return []
         while self.ranks == 1 and len(self._servers) < min(jobs, len(points)):
             self._servers.append(Server(self.scene.program.executable))
-        kept = KeptRuns(self._inner, self.directory / "runs", self.ranks, jobs,
-                        resume=True, say=print if progress else _silent,
-                        servers=self._servers)
+        kept = KeptRuns(self._inner, self.directory / "runs", self.ranks, jobs, resume=True,
+                        say=print if progress else _silent, servers=self._servers)
         wanted = [_job(self._inner, self.keys_at(point)) for point in points]
         unique = {job.name: job for job in wanted}
         found = dict(zip(unique, kept.run(list(unique.values()))))

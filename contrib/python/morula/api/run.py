@@ -70,9 +70,8 @@ class Run(run.Run):
         picture is shown. Throws Refused for what contrib/render refuses."""
         with tempfile.TemporaryDirectory() as scratch:
             file = Path(scratch) / "cells.png"
-            words = [sys.executable, "-P", "-m", "morula", "render",
-                     self.directory.resolve(), "--panels", panels, "--width",
-                     width, "--output", file]
+            words = [sys.executable, "-P", "-m", "morula", "render", self.directory.resolve(),
+                     "--panels", panels, "--width", width, "--output", file]
             if field is not None:
                 words += ["--field", field]
             if t is not None:
@@ -82,8 +81,7 @@ class Run(run.Run):
             ended = execute.call(words, env={"PYTHONPATH": path}, stderr=subprocess.PIPE)
             if ended.code:
                 raise Refused("The picture", f"{field}, {panels} panels",
-                              "what contrib/render draws",
-                              ended.stderr.strip())
+                              "what contrib/render draws", ended.stderr.strip())
             return Picture(file.read_bytes())
 
     def _about(self) -> dict[str, str]:
@@ -93,8 +91,7 @@ class Run(run.Run):
                 + f", day {last['time']:g} after {int(last['step'])} steps",
                 "cells": f"{int(last['cells']):,}",
                 "total volume": f"{last['total_volume']:.5g} {unit}",
-                "mean energy density":
-                f"{last['mean_energy_density']:.4g} kPa"}
+                "mean energy density": f"{last['mean_energy_density']:.4g} kPa"}
 
     def __repr__(self) -> str:
         about = self._about()
@@ -103,5 +100,4 @@ class Run(run.Run):
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>"
                        for name, text in self._about().items())
-        return (f"<table><caption>Run {html.escape(str(self.directory))}"
-                f"</caption>{rows}</table>")
+        return (f"<table><caption>Run {html.escape(str(self.directory))}</caption>{rows}</table>")

@@ -46,8 +46,7 @@ class Scene(Mapping):
     Throws Refused for a file that cannot be read and for keys that do not exist.
     """
 
-    def __init__(self, source: str | Path | Mapping[str, Any], *,
-                 name: str | None = None,
+    def __init__(self, source: str | Path | Mapping[str, Any], *, name: str | None = None,
                  morula: str | Path = MORULA):
         self.program = program(str(morula))
         self.path: Path | None = None

@@ -35,8 +35,7 @@ NAMED = {
                            1: ("held", "#D55E00")}}
 # Of cell types by their numbers, from the same source; more types than that
 # get them again, darker.
-OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
-            "#F0E442", "#B8BBC0")
+OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#B8BBC0")
 DARKER = 0.55
 DIVERGING = "coolwarm"
 
@@ -128,9 +127,8 @@ class Colours:
     def draw_bar(self, figure, axes):
         """The colour bar, in axes of its own; an arrow at an end that stands
         for all beyond it, too."""
-        bar = figure.colorbar(
-            matplotlib.cm.ScalarMappable(self.scale, self.palette), cax=axes,
-            extend=self.extend)
+        bar = figure.colorbar(matplotlib.cm.ScalarMappable(self.scale, self.palette), cax=axes,
+                              extend=self.extend)
         bar.outline.set_linewidth(0.6)
         bar.set_label(self.label)
         if self.names:
@@ -170,7 +168,6 @@ def named(field, known):
                             (numbers[1:] + numbers[:-1]) / 2,
                             [numbers[-1] + 0.5]])
     names, colours = zip(*(known[int(n)] for n in numbers))
-    return Colours(style_of(field)[0],
-                   matplotlib.colors.ListedColormap(colours),
+    return Colours(style_of(field)[0], matplotlib.colors.ListedColormap(colours),
                    matplotlib.colors.BoundaryNorm(edges, len(numbers)), True,
                    names=dict(zip(numbers, names)))

@@ -24,11 +24,10 @@ def server_for(number):
     reading, writing = os.pipe()
     # The server must not reset when its last client leaves: VTK comes and goes
     # several times.
-    server = subprocess.Popen(
-        ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
-         "640x480x24", "-nolisten", "tcp", "-noreset"],
-        pass_fds=[writing], stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
+                               "640x480x24", "-nolisten", "tcp", "-noreset"], pass_fds=[writing],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
     os.close(writing)
     with os.fdopen(reading) as pipe:
         if pipe.readline().strip():

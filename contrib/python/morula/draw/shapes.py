@@ -44,9 +44,8 @@ def shape_actors(bodies, colours, width):
     faces = visible(bodies)
     number = len(faces.points)
     # Each cell has corners of its own: edges are those of its faces.
-    used, corners = np.unique(
-        np.repeat(faces.owner, faces.counts) * number + faces.corners,
-        return_inverse=True)
+    used, corners = np.unique(np.repeat(faces.owner, faces.counts) * number + faces.corners,
+                              return_inverse=True)
     data = poly_data(faces.points[used % number], colours[used // number])
     data.SetPolys(lists_of_points(faces.starts, corners))
     mapper = vtkPolyDataMapper()

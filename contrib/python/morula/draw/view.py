@@ -29,9 +29,8 @@ def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
     if flat:
         direction, up = np.array([0., 0, 1]), np.array([0., 1, 0])
     else:
-        direction = np.array([np.cos(elevation) * np.cos(azimuth),
-                              np.cos(elevation) * np.sin(azimuth),
-                              np.sin(elevation)])
+        direction = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation)
+                              * np.sin(azimuth), np.sin(elevation)])
         up = np.array([0., 0, 1])
     right = np.cross(up, direction)
     right /= np.linalg.norm(right)

@@ -104,18 +104,15 @@ def read(file):
     said = root.attrs["geff"]
     ours = said.get("extra", {}).get("morula")
     if ours is None:
-        raise Refused("The file", file, "tracks of contrib/export",
-                      "Those of other programs have no lineage with exact "
-                      "times.")
+        raise Refused("The file", file, "tracks of contrib/export", "Those of other programs have "
+                      "no lineage with exact times.")
     properties = {}
     for name, known in said["node_props_metadata"].items():
         group = root[f"nodes/props/{name}"]
-        properties[name] = Property(
-            group["values"][:], known.get("unit", ""),
-            known.get("description", ""),
-            group["missing"][:] if "missing" in group else None)
-    return Tracks(ours["dimension"], root["edges/ids"][:].astype(np.int64),
-                  properties,
+        properties[name] = Property(group["values"][:], known.get("unit", ""),
+                                    known.get("description", ""), group["missing"][:] if "missing"
+                                    in group else None)
+    return Tracks(ours["dimension"], root["edges/ids"][:].astype(np.int64), properties,
                   tuple(ours["types"]), {"run": ours["run"]})
 
 

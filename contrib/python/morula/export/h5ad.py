@@ -22,9 +22,8 @@ def write(run, numbers, file):
     """Writes these states of a Run."""
     import h5py
     import pandas
-    cells = pandas.concat(
-        [run.cells(i).assign(time=run.times[i]) for i in numbers],
-        ignore_index=True)
+    cells = pandas.concat([run.cells(i).assign(time=run.times[i]) for i in numbers],
+                          ignore_index=True)
     amounts = [name for name in cells if name not in OF_CELL + PLACES]
     names = [f"cell-{cell}" + (f"@{time:g}" if len(numbers) > 1 else "")
              for cell, time in zip(cells["id"], cells["time"])]
@@ -91,8 +90,7 @@ def _string(parent, name, text):
 def _strings(parent, name, texts):
     import h5py
     _mark(parent.create_dataset(name, data=np.array(texts, dtype=object),
-                                dtype=h5py.string_dtype()),
-          "string-array", "0.2.0")
+                                dtype=h5py.string_dtype()), "string-array", "0.2.0")
 
 
 def _frame(parent, name, index):

@@ -27,11 +27,9 @@ def write(run, numbers, file, voxel):
             f"{file.stem}-{number:04}{file.suffix}")
         (_write_npy if file.suffix.lower() == ".npy" else _write_tiff)(target, image, raster)
         lost = len(cells) - len(np.unique(image[image > 0]))
-        yield target, (
-            f"day {run.times[number]:g}, {' x '.join(map(str, image.shape[::-1]))} "
-            "voxels, corner at " + ", ".join(f"{x:g}" for x in raster.low[::-1])
-            + " um" + (f"; {lost} cells are smaller than a voxel and have none"
-                       if lost else ""))
+        yield target, (f"day {run.times[number]:g}, {' x '.join(map(str, image.shape[::-1]))} "
+                       "voxels, corner at " + ", ".join(f"{x:g}" for x in raster.low[::-1]) + " um"
+                       + (f"; {lost} cells are smaller than a voxel and have none" if lost else ""))
 
 
 def _write_npy(file, image, _):
@@ -49,9 +47,8 @@ def _write_tiff(file, image, raster):
         about |= {f"PhysicalSize{axis}": float(edge), f"PhysicalSize{axis}Unit": "µm"}
     # where the middle of the first voxel of each plane is
     middle = dict(zip(axes, raster.low + 0.5 * raster.voxel))
-    about["Plane"] = {f"Position{axis}": [
-        float(place + (i * raster.voxel[0] if axis == "Z" else 0))
-        for i in range(planes)] for axis, place in middle.items()}
+    about["Plane"] = {f"Position{axis}": [float(place + (i * raster.voxel[0] if axis == "Z" else 0))
+                                          for i in range(planes)] for axis, place in middle.items()}
     about["Plane"] |= {f"Position{axis}Unit": ["µm"] * planes for axis in axes}
     with replaced(file) as aside:
         tifffile.imwrite(aside, image, ome=True, photometric="minisblack",

@@ -37,8 +37,7 @@ def raster_around(boxes, voxel, largest):
     if size > MOST:
         raise Refused("--voxel", ",".join(f"{edge:g}" for edge in voxel),
                       f"images of at most {MOST / 1e9:g} GB",
-                      f"This one would have {size / 1e9:.3g} GB: take larger "
-                      "voxels.")
+                      f"This one would have {size / 1e9:.3g} GB: take larger voxels.")
     return Raster(voxel[::-1], (low * voxel)[::-1], tuple((high - low).astype(int)[::-1]), kind)
 
 
@@ -71,8 +70,7 @@ def filled(raster, bodies, labels):
                    * raster.voxel[k] for k, part in enumerate(box)]
         inside = np.ones([len(axis) for axis in middles], dtype=bool)
         for normal, offset in zip(normals[mine], offsets[mine]):
-            inside &= sum(normal[k] * axis.reshape([-1 if j == k else 1
-                                                    for j in range(dim)])
-                          for k, axis in enumerate(middles)) <= offset
+            inside &= sum(normal[k] * axis.reshape([-1 if j == k else 1 for j in range(dim)]) for k,
+                          axis in enumerate(middles)) <= offset
         image[box][inside] = label
     return image

@@ -26,8 +26,7 @@ ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 
 def parser():
-    result = Parser(allow_abbrev=False,
-                    description=DESCRIPTION,
+    result = Parser(allow_abbrev=False, description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     add = result.add_argument
     add("directory", type=Path, help="output directory of a run, finished or not")
@@ -84,10 +83,8 @@ def export(options):
                   f"{len(found.edges)} edges")
         elif kind_of(file) in TABLES:
             from . import h5ad, vtkhdf
-            rows, columns = (
-                vtkhdf.write(run, range(len(run.times)), file)
-                if kind_of(file) == ".vtkhdf" else
-                h5ad.write(run, chosen_states(run, options), file))
+            rows, columns = (vtkhdf.write(run, range(len(run.times)), file) if kind_of(file)
+                             == ".vtkhdf" else h5ad.write(run, chosen_states(run, options), file))
             print(f"export: {file}: {rows} rows, {columns} columns")
         else:
             from . import images

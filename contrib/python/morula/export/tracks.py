@@ -70,8 +70,7 @@ def tracks_of(run):
         ids = cells["id"].to_numpy()
         _require_known(ids, lineage, time)
         states.append({name: cells[name].to_numpy() for name in cells})
-        rows.append({"cell": ids, "t": np.full(len(ids), time),
-                     "state": np.full(len(ids), number),
+        rows.append({"cell": ids, "t": np.full(len(ids), time), "state": np.full(len(ids), number),
                      "row": np.arange(len(ids))})
     nodes = {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
     return _graph(run, lineage, states, *_merged(nodes, lineage))
@@ -97,9 +96,8 @@ def _merged(nodes, lineage):
     state[births], row[births] = state[seen[births]], row[seen[births]]
     kept = np.flatnonzero(~double)
     order = kept[np.lexsort([nodes["t"][kept], nodes["cell"][kept]])]
-    return ({"cell": nodes["cell"][order], "t": nodes["t"][order],
-             "state": state[order], "row": row[order]},
-            nodes["state"][order] < 0)
+    return ({"cell": nodes["cell"][order], "t": nodes["t"][order], "state": state[order],
+             "row": row[order]}, nodes["state"][order] < 0)
 
 
 def _graph(run, lineage, states, nodes, is_birth):
@@ -108,9 +106,8 @@ def _graph(run, lineage, states, nodes, is_birth):
     last = np.r_[first[1:], len(cell)] - 1
     along = np.flatnonzero(cell[1:] == cell[:-1])
     daughters = np.flatnonzero(lineage.parent >= 0)
-    edges = np.concatenate([
-        np.stack([along, along + 1], axis=1),
-        np.stack([last[lineage.parent[daughters]], first[daughters]], axis=1)])
+    edges = np.concatenate([np.stack([along, along + 1], axis=1),
+                            np.stack([last[lineage.parent[daughters]], first[daughters]], axis=1)])
     properties = {
         "cell": Property(cell, "", "id of the cell"),
         "t": Property(nodes["t"], "day", "time"),
@@ -160,9 +157,8 @@ def _columns(run, lineage, states, nodes, is_birth):
         values = _of_states(name, states, nodes, np.zeros(len(nobody), dtype))
         if born is not None:
             values[is_birth] = born[nodes["cell"][is_birth]]
-        found[name] = Property(values, unit_of(name, run.dimension), "",
-                               None if born is not None or not nobody.any()
-                               else nobody)
+        found[name] = Property(values, unit_of(name, run.dimension), "", None if born is not None or
+                               not nobody.any() else nobody)
     if lineage.type is not None and "type" not in found:
         found["type"] = Property(lineage.type[nodes["cell"]], "", "")
     if "volume" in found:
@@ -183,10 +179,9 @@ def lineage_of(tracks):
     between = cell[source] != cell[target]
     parent[np.searchsorted(ids, cell[target[between]])] = cell[source[between]]
     zero = np.zeros(len(cell))
-    table = {"id": ids, "parent": parent,
-             "generation": values["generation"][first],
-             "birth_time": values["t"][first],
-             **{axis: values.get(axis, zero)[first] for axis in "xyz"}}
+    table = {"id": ids, "parent": parent, "generation": values["generation"][first],
+             "birth_time": values["t"][first], **{axis: values.get(axis, zero)[first] for axis
+                                                  in "xyz"}}
     if "type" in values:
         table["type"] = values["type"][first]
     events = []

@@ -36,12 +36,10 @@ def whole(image, file):
         parts = measure.label(array > 0, connectivity=1)
         if parts.max() < FEWEST:
             raise Refused("The image", file, "a label of its own for each cell",
-                          "It is a mask with a single part: segment it into "
-                          "cells, or fill its surface with a lattice "
-                          "(Tissue/Shape = mesh).")
-        image.words.append(
-            f"It is a mask, with one number: its {parts.max()} parts that are "
-            "not connected count as cells. Cells that touch are one then.")
+                          "It is a mask with a single part: segment it into cells, or fill its "
+                          "surface with a lattice (Tissue/Shape = mesh).")
+        image.words.append(f"It is a mask, with one number: its {parts.max()} parts that are not "
+                           "connected count as cells. Cells that touch are one then.")
         return parts, np.arange(parts.max() + 1)
     labels, _, names = segmentation.relabel_sequential(array.astype(np.int64))
     return labels, np.asarray(names[np.arange(len(values) + 1)])
@@ -81,9 +79,8 @@ def cells_of(labels, names, voxel, smallest, words):
                   table["area"] * voxel.prod(), (centres + 0.5) * voxel)
     crumbs = cells.volumes < smallest * np.median(cells.volumes)
     if crumbs.any():
-        words.append(f"{crumbs.sum()} labels are smaller than {smallest:g} of "
-                     "the median one: these crumbs are left out "
-                     f"({_list(cells.names[crumbs])}).")
+        words.append(f"{crumbs.sum()} labels are smaller than {smallest:g} of the median one: "
+                     f"these crumbs are left out ({_list(cells.names[crumbs])}).")
         cells.keep(~crumbs)
     if len(cells.names) < FEWEST:
         raise Refused("The image", f"{len(cells.names)} cells", f"at least {FEWEST} cells")
@@ -111,14 +108,12 @@ def _join_pieces(cells, words):
     torn = counts[cells.numbers] > 1
     for row in np.flatnonzero(torn):
         part = largest[cells.numbers[row]]
-        cells.places[row] = (np.array(
-            [parts[f"centroid-{d}"][part] for d in range(cells.labels.ndim)])
-            + 0.5) * cells.voxel
+        cells.places[row] = (np.array([parts[f"centroid-{d}"][part] for d
+                                       in range(cells.labels.ndim)]) + 0.5) * cells.voxel
     if torn.any():
-        words.append(f"{torn.sum()} labels are in several pieces "
-                     f"({_list(cells.names[torn])}): each counts as one cell "
-                     "with the volume of all its pieces, which stands in the "
-                     "largest one.")
+        words.append(f"{torn.sum()} labels are in several pieces ({_list(cells.names[torn])}): "
+                     "each counts as one cell with the volume of all its pieces, which stands in "
+                     "the largest one.")
     index = tuple((cells.places / cells.voxel).astype(int).T)
     for row in np.flatnonzero(cells.labels[index] != cells.numbers):
         cells.places[row] = _thickest(cells.labels == cells.numbers[row], cells.voxel)

@@ -76,19 +76,16 @@ def _voxel_of(tiff, series):
         root = ElementTree.fromstring(tiff.ome_metadata)
         for pixels in root.iter():
             if pixels.tag.rpartition("}")[2] == "Pixels":
-                return _edges([
-                    (pixels.get(f"PhysicalSize{axis}"),
-                     pixels.get(f"PhysicalSize{axis}Unit", "µm"))
-                    for axis in "ZYX"])
+                return _edges([(pixels.get(f"PhysicalSize{axis}"),
+                                pixels.get(f"PhysicalSize{axis}Unit", "µm")) for axis in "ZYX"])
     if tiff.imagej_metadata:
         about, tags = tiff.imagej_metadata, series.pages[0].tags
         if "XResolution" not in tags:
             return None
         unit = str(about.get("unit", ""))
         per = [tags[name].value for name in ("YResolution", "XResolution")]
-        return _edges([(about.get("spacing"), unit),
-                       *((low / high if high else None, unit)
-                         for high, low in per)])
+        return _edges([(about.get("spacing"), unit), *((low / high if high else None, unit)
+                                                       for high, low in per)])
     return None
 
 
@@ -107,8 +104,7 @@ def _without_axes(file, array, axes, channel, frame, words):
     """The array without channels, times and axes of length 1."""
     if "S" in axes and array.shape[axes.index("S")] in (2, 3, 4):
         raise Refused("The image", file, "labels: a whole number for each voxel",
-                      "It is a colour picture (RGB): segment it first, and "
-                      "save the labels.")
+                      "It is a colour picture (RGB): segment it first, and save the labels.")
     for axis, choice, option in (("C", channel, "--channel"), ("T", frame, "--frame")):
         if axis in axes:
             at = axes.index(axis)
@@ -119,9 +115,8 @@ def _without_axes(file, array, axes, channel, frame, words):
     single = [i for i, axis in enumerate(axes) if array.shape[i] == 1 and axis not in "YX"]
     array = np.squeeze(array, tuple(single)) if array.ndim > 3 else array
     if array.ndim > 3:
-        raise Refused("The image", file, "axes z, y, x; or y, x",
-                      f"It has {array.ndim} axes of {array.shape}: save one "
-                      "time and one channel.")
+        raise Refused("The image", file, "axes z, y, x; or y, x", f"It has {array.ndim} axes of "
+                      f"{array.shape}: save one time and one channel.")
     return array, words
 
 

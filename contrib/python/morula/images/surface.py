@@ -54,10 +54,8 @@ def tissue_of(cells, smallest_cavity, fill_gaps, words):
     small = sizes < smallest_cavity * cells.volumes.mean()
     small[[0, holes.flat[0]]] = False
     if small.any():
-        words.append(f"{small.sum()} cavities are smaller than "
-                     f"{smallest_cavity:g} cells, together "
-                     f"{sizes[small].sum():.4g} um^{mask.ndim}: they are "
-                     "filled.")
+        words.append(f"{small.sum()} cavities are smaller than {smallest_cavity:g} cells, "
+                     f"together {sizes[small].sum():.4g} um^{mask.ndim}: they are filled.")
         closed |= small[holes]
     gap = (closed & ~mask).sum() / mask.sum()
     if fill_gaps:
@@ -111,9 +109,8 @@ class Field:
         return (self._outlines if values.ndim == 2 else self._meshes)(values, level)
 
     def _meshes(self, values, level):
-        vertices, facets, _, _ = measure.marching_cubes(
-            values, level, gradient_direction="ascent",
-            allow_degenerate=False)
+        vertices, facets, _, _ = measure.marching_cubes(values, level, gradient_direction="ascent",
+                                                        allow_degenerate=False)
         if _volume(vertices, facets) < 0:
             facets = facets[:, ::-1]
         links = sparse.coo_matrix(

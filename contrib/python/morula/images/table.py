@@ -91,9 +91,8 @@ def _with_volumes(file, table, voxel, words):
                      "cells side by side fill more.")
     else:
         table["volume"] = length ** dim
-        words.append("The table has no volumes: all cells get that of a cube "
-                     f"with the median distance to the nearest cell, "
-                     f"{length:.4g} um.")
+        words.append("The table has no volumes: all cells get that of a cube with the median "
+                     f"distance to the nearest cell, {length:.4g} um.")
     if not (table["volume"] > 0).all():
         raise Refused("The table", file, "volumes > 0")
     return table

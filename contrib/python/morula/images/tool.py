@@ -24,9 +24,8 @@ def main(words=None):
                           "that can be read", "Correct its name.")
         directory = output_directory(options, Path(options.file.stem .partition(".")[0]))
         if (directory / "scene.prm").exists() and not options.again:
-            raise Refused("--output", directory, "a directory without a "
-                          "scene.prm", "Choose another one, or replace that "
-                          "one with --again.")
+            raise Refused("--output", directory, "a directory without a scene.prm",
+                          "Choose another one, or replace that one with --again.")
         make_scene(options, directory)
         return 0
     return run_tool("import", tool)
@@ -133,10 +132,8 @@ def _about_parts(parts, dim):
     cavities = [part for part in parts if part.volume < 0]
     words = [f"The tissue is {len(bodies)} bodies that do not touch."] if len(bodies) > 1 else []
     if cavities:
-        words.append(f"It has {len(cavities)} "
-                     + ("cavity" if len(cavities) == 1 else "cavities")
-                     + ", of " + ", ".join(f"{-part.volume:.4g}" for part in
-                                           reversed(cavities))
+        words.append(f"It has {len(cavities)} " + ("cavity" if len(cavities) == 1 else "cavities")
+                     + ", of " + ", ".join(f"{-part.volume:.4g}" for part in reversed(cavities))
                      + f" um^{dim}.")
     return words
 
@@ -157,10 +154,8 @@ def _lumen(parts, words):
         " + ".join(f"({axis} - {value:.6g})^2" for axis, value
                    in zip("XYZ", centre[::-1])) + f" < {radius:.6g}^2"
         for centre, radius in balls)
-    words.append("The largest cavity is a lumen that keeps its volume "
-                 "(Lumen where, Lumen volume = 1)."
-                 + (" The surfaces of the others are free."
-                    if len(cavities) > 1 else ""))
+    words.append("The largest cavity is a lumen that keeps its volume (Lumen where, Lumen volume "
+                 "= 1)." + (" The surfaces of the others are free." if len(cavities) > 1 else ""))
     return {"Boundary conditions/Lumen where": where, "Boundary conditions/Lumen volume": 1}
 
 

@@ -30,9 +30,8 @@ def compose(panels, cut_open, view, colours, title, outline=None):
     with plt.rc_context({"font.family": "sans-serif", "font.size": 10}):
         figure = plt.figure(figsize=total, dpi=DPI, facecolor="white")
         for i, panel in enumerate(panels):
-            axes = figure.add_axes([i * wide / total[0], BOTTOM / total[1],
-                                    wide / total[0],
-                                    height / DPI / total[1]])
+            axes = figure.add_axes([i * wide / total[0], BOTTOM / total[1], wide / total[0], height
+                                    / DPI / total[1]])
             axes.imshow(panel, interpolation="nearest")
             if cut_open[i]:
                 axes.contour(silhouette(panel) if outline is None else outline,

@@ -24,9 +24,8 @@ def film_writer(wanted, stem, rate):
     if write is None:
         raise Refused("--output", path, "a film's name, with " + ", ".join(kinds) + " at its end")
     if write is write_by_ffmpeg and not shutil.which("ffmpeg"):
-        raise Refused("--output", path, "a name with .gif or .ogv at its end, "
-                      "as the program ffmpeg is missing",
-                      "Debian's package ffmpeg has it.")
+        raise Refused("--output", path, "a name with .gif or .ogv at its end, as the program "
+                      "ffmpeg is missing", "Debian's package ffmpeg has it.")
     return path, lambda pictures, target: write(pictures, target, rate)
 
 
@@ -81,13 +80,12 @@ def write_by_ffmpeg(pictures, path, rate):
     for picture in in_blocks(pictures):
         if process is None:
             height, width = picture.shape[:2]
-            process = subprocess.Popen(
-                ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo",
-                 "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
-                 str(rate), "-i", "-", "-vf",
-                 f"tpad=stop_mode=clone:stop_duration={REST}", "-pix_fmt",
-                 "yuv420p", "-r", str(max(rate, 10)), "-f",
-                 path.suffix[1:], str(path)], stdin=subprocess.PIPE)
+            process = subprocess.Popen(["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo",
+                                        "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
+                                        str(rate), "-i", "-", "-vf",
+                                        f"tpad=stop_mode=clone:stop_duration={REST}", "-pix_fmt",
+                                        "yuv420p", "-r", str(max(rate, 10)), "-f", path.suffix[1:],
+                                        str(path)], stdin=subprocess.PIPE)
         try:
             process.stdin.write(picture.tobytes())
         except BrokenPipeError:

@@ -26,9 +26,8 @@ class Frames:
             corners += [outermost.min(axis=0) - cells.margin, outermost.max(axis=0) + cells.margin]
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
-        self.colours = colours_of(
-            self.options.field, np.concatenate(values), request.limits,
-            request.types).in_dimension(2 if self.flat else 3)
+        self.colours = colours_of(self.options.field, np.concatenate(values), request.limits,
+                                  request.types).in_dimension(2 if self.flat else 3)
         angles = self.options.azimuth, self.options.elevation
         if len(request.states) == 1:
             self.view = view_of(outermost, cells.margin, *angles, cells.flat)

@@ -25,9 +25,8 @@ It needs neither a display nor a graphics card; 200,000 cells take half a minute
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(
-        description=DESCRIPTION,
-        formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(description=DESCRIPTION,
+                                     formatter_class=argparse.RawTextHelpFormatter)
     add = parser.add_argument
     add("directory", type=Path, help="output directory of a run")
     add("--field", help="column of the cells that gives the colour; default: type "
@@ -82,9 +81,8 @@ class Request:
             options.field = "type" if self.types else "volume"
         self.film = None
         if options.movie:
-            self.path, self.film = film_writer(
-                options.output, options.directory / options.field,
-                options.fps)
+            self.path, self.film = film_writer(options.output, options.directory / options.field,
+                                               options.fps)
         elif options.all:
             self.path = options.output or options.directory
             if not self.path.is_dir():

@@ -17,9 +17,8 @@ from morula.run import row_at
 from .pictures import colour_bar
 
 # The first that there is gives the colours when the page opens.
-DEFAULT_FIELDS = ("type", "energy_density", "volume", "elastic_volume_ratio",
-                  "growth_volume_ratio", "generation", "phase",
-                  "held_at_checkpoint", "pressure")
+DEFAULT_FIELDS = ("type", "energy_density", "volume", "elastic_volume_ratio", "growth_volume_ratio",
+                  "generation", "phase", "held_at_checkpoint", "pressure")
 PERCENTILES = (0.5, 99.5)
 NO_FIELDS = ("time", "id", "parent", "X", "Y", "Z")
 SHADES = 256
@@ -65,9 +64,8 @@ class Packed:
         self.colours = {}
         for name in self.fields:
             values = self.whole[name].to_numpy()
-            self.colours[name] = colours_of(
-                name, values, limits_of(name, values, PERCENTILES),
-                self.run.type_names)
+            self.colours[name] = colours_of(name, values, limits_of(name, values, PERCENTILES),
+                                            self.run.type_names)
 
     def _table(self, i):
         cells = self.run.cells(i)

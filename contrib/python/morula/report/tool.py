@@ -27,9 +27,8 @@ no network. doc/looking-at-results.md shows one.
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(
-        description=DESCRIPTION,
-        formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(description=DESCRIPTION,
+                                     formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("directory", type=Path, help="output directory of a run")
     parser.add_argument("--output", type=Path, metavar="FILE.html",
                         help="default: report.html in that directory")

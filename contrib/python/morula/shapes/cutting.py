@@ -39,8 +39,7 @@ def cut_faces(bodies, owner, height):
     low = np.minimum.reduceat(height, bodies.starts[:-1])
     kept = (counts >= 3) & (low < 0)
     there &= np.repeat(kept, bodies.counts)[:, None]
-    sides = Polyhedra(points, number[there],
-                      np.concatenate([[0], np.cumsum(counts[kept])]),
+    sides = Polyhedra(points, number[there], np.concatenate([[0], np.cumsum(counts[kept])]),
                       bodies.owner[kept], bodies.beyond[kept])
     on_plane = there & np.stack([height == 0, crossing], axis=1)
     rim = np.unique(np.stack([np.repeat(owner, 2)[on_plane.ravel()],
@@ -75,11 +74,9 @@ def lids(points, owner, rim, normal, beyond):
     first = np.cross(other, along)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     second = np.cross(along, first)
-    angle = np.arctan2(
-        np.einsum("ij,ij->i", arms, np.repeat(second, counts, axis=0)),
-        np.einsum("ij,ij->i", arms, np.repeat(first, counts, axis=0)))
+    angle = np.arctan2(np.einsum("ij,ij->i", arms, np.repeat(second, counts, axis=0)),
+                       np.einsum("ij,ij->i", arms, np.repeat(first, counts, axis=0)))
     rim = rim[np.lexsort([angle, owner])]
     rim = rim[ranges(starts[kept], counts[kept])]
-    return Polyhedra(points, rim,
-                     np.concatenate([[0], np.cumsum(counts[kept])]),
-                     owners[kept], beyond[owners[kept]])
+    return Polyhedra(points, rim, np.concatenate([[0], np.cumsum(counts[kept])]), owners[kept],
+                     beyond[owners[kept]])

@@ -16,8 +16,7 @@ def grid_of(bodies, columns, kept, flat):
     bodies = bodies.select(kept[bodies.owner])
     if flat:  # the top, which goes round counterclockwise seen from above
         bodies = bodies.select((bodies.beyond == FLAT)
-                               & (bodies.points[bodies.corners[
-                                   bodies.starts[:-1]]][:, 2] > 0))
+                               & (bodies.points[bodies.corners[bodies.starts[:-1]]][:, 2] > 0))
     used, corners = np.unique(bodies.corners, return_inverse=True)
     points = bodies.points[used]
     if flat:

@@ -49,10 +49,9 @@ class Polyhedra:
         """The polyhedra of these faces alone, a mask or numbers."""
         faces = np.arange(len(self.owner))[faces]
         counts = self.counts[faces]
-        return Polyhedra(self.points,
-                         self.corners[ranges(self.starts[faces], counts)],
-                         np.concatenate([[0], np.cumsum(counts)]),
-                         self.owner[faces], self.beyond[faces])
+        return Polyhedra(self.points, self.corners[ranges(self.starts[faces], counts)],
+                         np.concatenate([[0], np.cumsum(counts)]), self.owner[faces],
+                         self.beyond[faces])
 
     def turned(self, which):
         """With the faces of this mask the other way round."""

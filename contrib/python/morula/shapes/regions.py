@@ -31,8 +31,7 @@ class Regions:
     @property
     def fields(self):
         """As columns besides those of the cells."""
-        return {"region_volume": self.volume,
-                "neighbours": self.neighbours,
+        return {"region_volume": self.volume, "neighbours": self.neighbours,
                 "touches_surface": self.touches_surface.astype(np.int32)}
 
 
@@ -60,10 +59,8 @@ def require_all(bodies, positions):
     missing = np.bincount(bodies.owner, minlength=len(positions)) == 0
     if missing.any():
         place = positions[missing.argmax()]
-        raise Refused("The cells", f"{len(positions)} cells",
-                      "cells at different places",
-                      f"Several are at ({place[0]:g}, {place[1]:g}, "
-                      f"{place[2]:g}) um.")
+        raise Refused("The cells", f"{len(positions)} cells", "cells at different places",
+                      f"Several are at ({place[0]:g}, {place[1]:g}, {place[2]:g}) um.")
 
 
 def reaching_out(bodies, boundary, lengths):
@@ -86,9 +83,8 @@ def measured(bodies, centres, flat):
     outer = bodies.beyond == SURFACE
     surface_area = np.bincount(bodies.owner[outer], area[outer], number)
     pairs = neighbour_pairs(bodies, area, least)
-    return Regions(bodies, volume,
-                   np.bincount(pairs.ravel(), minlength=number),
-                   surface_area > least)
+    return Regions(bodies, volume, np.bincount(pairs.ravel(), minlength=number), surface_area
+                   > least)
 
 
 def neighbour_pairs(bodies, area, least):

@@ -34,8 +34,7 @@ off, and how well they fill the tissue.
 def arguments(words):
     parser = Parser(description=DESCRIPTION, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("directory", type=Path, help="output directory of a run, finished or not")
-    parser.add_argument("--time", metavar="DAY", help="of the state; default: "
-                        "the last one written")
+    parser.add_argument("--time", metavar="DAY", help="of the state; default: the last one written")
     parser.add_argument("--all", action="store_true", help="all states")
     parser.add_argument("--where", metavar="EXPRESSION", help="write those "
                         "cells alone for which it is true,\nof the columns: "
@@ -96,13 +95,11 @@ def write_state(run, i, options):
     if options.where is not None:
         kept = rows_where(options.where, dict(cells), "--where")
         if not kept.any() and not options.all:
-            raise Refused("--where", options.where, "what is true for some "
-                          "cell", f"On day {time:g} it is for none of "
-                          f"{len(kept)}.")
+            raise Refused("--where", options.where, "what is true for some cell",
+                          f"On day {time:g} it is for none of {len(kept)}.")
     regions = regions_of_state(run, i)
-    grid = grid_of(regions.bodies,
-                   {**with_vectors(cells), **regions.fields}, kept,
-                   run.dimension == 2)
+    grid = grid_of(regions.bodies, {**with_vectors(cells), **regions.fields}, kept, run.dimension
+                   == 2)
     file = options.output or file_of(cells_file)
     write_grid(grid, file)
     return (f"{file}: day {time:g}, {kept.sum()} cells, " f"{file.stat().st_size / 1e6:.1f} MB")

@@ -75,8 +75,7 @@ def ends_of(sides, positions):
     offset = sides.points[corners] - positions[sides.owner]
     order = np.lexsort([np.arctan2(offset[:, 1], offset[:, 0]), sides.owner])
     owner, counts = np.unique(sides.owner, return_counts=True)
-    top = Polyhedra(sides.points, corners[order] + number,
-                    np.concatenate([[0], np.cumsum(counts)]), owner,
-                    np.full(len(owner), FLAT))
+    top = Polyhedra(sides.points, corners[order] + number, np.concatenate([[0], np.cumsum(counts)]),
+                    owner, np.full(len(owner), FLAT))
     bottom = Polyhedra(top.points, top.corners - number, top.starts, owner, top.beyond)
     return bottom.turned(np.ones(len(owner), dtype=bool)), top

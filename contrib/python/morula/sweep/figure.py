@@ -18,9 +18,8 @@ def draw(request, ensembles, file):
     rows = -(-n // 2) if n > 3 else 1
     columns = -(-n // rows)
     with plt.rc_context(RC):
-        figure, panels = plt.subplots(
-            rows, columns, squeeze=False, layout="constrained",
-            figsize=(4.2 * columns + 2.4, 3.6 * rows))
+        figure, panels = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                      figsize=(4.2 * columns + 2.4, 3.6 * rows))
         for axes in panels.flat[n:]:
             axes.remove()
         for axes, column in zip(panels.flat, request.columns):

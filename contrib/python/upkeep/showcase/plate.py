@@ -65,8 +65,7 @@ def row(case, run):
     rows = rows[(rows["time"] > 1.5) & (rows["time"] < CUT - 1e-9)]
     speed = numpy.polyfit(rows["time"], rows["ymax"], 1)[0]
     back = times[(times > CUT + 0.01) & (height >= 0.95 * mean)]
-    return [f"{case.values[0]:g}", f"{mean:.0f}",
-            f"{steady_height(case.values[0] * ANSWER):.0f}",
+    return [f"{case.values[0]:g}", f"{mean:.0f}", f"{steady_height(case.values[0] * ANSWER):.0f}",
             f"{speed:.0f}", f"{GROWTH * mean * LONGER:.0f}",
             f"{back[0] - CUT if len(back) else numpy.nan:.2f}",
             f"{numpy.log(0.95 * mean / LEFT) / GROWTH:.2f}",

@@ -36,8 +36,6 @@ class Morula(CMakePackage):
         depends_on("vtk@9: +python", type="run")
 
     def cmake_args(self):
-        return [self.define("MORULA_TESTS", False),
-                self.define("MORULA_UNITY", True),
+        return [self.define("MORULA_TESTS", False), self.define("MORULA_UNITY", True),
                 self.define("DEAL_II_DIR", self.spec["dealii"].prefix),
-                self.define("RANDOM123_INCLUDE_DIR",
-                            self.spec["random123"].prefix.include)]
+                self.define("RANDOM123_INCLUDE_DIR", self.spec["random123"].prefix.include)]

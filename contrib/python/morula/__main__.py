@@ -2,10 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """Starts a tool: python3 -m morula TOOL WORDS..., or morula-TOOL WORDS...
 
-A tool is a module with a function main(), which returns the exit code. It is
-imported only here, so that what it says of a missing library is said wherever
-that happens.
-"""
+A tool is a module with a function main(), which returns the exit code. It is imported only here,
+so that what it says of a missing library is said wherever that happens."""
 import argparse
 import importlib
 import sys

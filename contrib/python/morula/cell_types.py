@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The types of cells: their names; and what befell cells: changes of type,
-death, removal."""
+"""The types of cells: their names; and what befell cells: changes of type, death, removal."""
 import numpy as np
 
 from .prm import parse

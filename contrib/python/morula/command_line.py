@@ -99,8 +99,9 @@ def like_ctrl_c():
             signal.signal(number, handler)
 
 
-def run_tool(name, tool):
-    """What tool() returns as the exit code; 1 for what makes no sense, 130 if it was stopped."""
+def run_tool(name, tool, stopped="the same command goes on with what is missing"):
+    """What tool() returns as the exit code; 1 for what makes no sense, 130 if it was stopped,
+    with a word on what that means."""
     try:
         with like_ctrl_c():
             return tool()
@@ -108,5 +109,5 @@ def run_tool(name, tool):
         print(f"{name}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"{name}: stopped; the same command goes on with what is missing.", file=sys.stderr)
+        print(f"{name}: stopped; {stopped}.", file=sys.stderr)
         return 130

@@ -2,10 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """How the program is started, by every tool and by every test.
 
-`command` makes the words of a run, `call` runs them to their end, `Processes`
-does that for several at a time and ends what is left when one of them, or the
-user, gives up.
-"""
+`command` makes the words of a run, `call` runs them to their end, `Processes` does that for
+several at a time and ends what is left when one of them, or the user, gives up."""
 import contextlib
 import os
 import signal

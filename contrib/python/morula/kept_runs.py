@@ -81,17 +81,14 @@ class KeptRuns:
         with self._servers_for(left):
             for number, job in enumerate(left, 1):
                 tell(f"{self.name}: checking {number} of {len(left)} ...")
-                server = self._a_server()
                 try:
-                    self.scene.program.explain(self.scene.path, job.overrides, server)
+                    with self._server() as server:
+                        self.scene.program.explain(self.scene.path, job.overrides, server)
                 except Refused as refusal:
                     if not skip:
                         raise
                     refused.add(job)
                     self.say(f"{job.name} is left out: {refusal}")
-                finally:
-                    if server:
-                        self._servers.put(server)
         return [job for job in jobs if job not in refused]
 
     def run(self, jobs):
@@ -132,11 +129,18 @@ class KeptRuns:
             for server in own:
                 server.close()
 
-    def _a_server(self):
+    @contextlib.contextmanager
+    def _server(self):
+        """One that is idle, for as long as it is at work; or None."""
         try:
-            return self._servers.get_nowait()
+            server = self._servers.get_nowait()
         except queue.Empty:
-            return None
+            yield None
+            return
+        try:
+            yield server
+        finally:
+            self._servers.put(server)
 
     def _one(self, job, counter):
         record = Record(self.directory / job.name)
@@ -175,16 +179,12 @@ class KeptRuns:
         # The directory is this object's own.
         words += ["--resume" if resumed else "--replace"]
         cost = record.directory / "cost.json"
-        server = self._a_server()
-        try:
+        with self._server() as server:
             ended = self._processes.call(
                 words, cost=cost, stdout=record.directory / "stdout",
                 stderr=record.directory / "stderr", server=server,
                 # a run that outlives this process keeps the directory locked
                 pass_fds=[self._lock.fileno()])
-        finally:
-            if server:
-                self._servers.put(server)
         if ended is None:
             return
         if not cost.is_file():

@@ -4,8 +4,6 @@
 import json
 from dataclasses import dataclass
 
-from .execute import call
-
 
 @dataclass(frozen=True)
 class Key:
@@ -41,8 +39,3 @@ def defaults_with(keys, method):
     """Path -> default of the keys for a value of the key Method."""
     return {key.path: key.paper if method == "paper"
             and key.paper is not None else key.default for key in keys}
-
-
-def keys_of(morula):
-    """The keys of an executable."""
-    return read_keys(call([morula, "--parameters=json"]).stdout)

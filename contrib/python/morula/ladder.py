@@ -120,7 +120,7 @@ class Plan:
 
     A point is one value for every key that any ladder varies. 'Star': each ladder is varied alone,
     the other keys keep the scene's own values, and the scene's own point belongs to every line.
-    'Grid': every combination. """
+    'Grid': every combination."""
 
     def __init__(self, scene, ladders, full_grid=False):
         self.scene, self.ladders, self.full_grid = scene, ladders, full_grid

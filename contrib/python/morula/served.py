@@ -2,9 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """A process of the program that does runs in forks of itself: `morula --serve`.
 
-A start of the program takes half a second, most of it the linking of two hundred
-libraries; a fork has them already.
-"""
+A start of the program takes half a second, most of it the linking of two hundred libraries; a fork
+has them already."""
 import os
 import subprocess
 import tempfile

@@ -32,7 +32,7 @@ def profile(run, state, points=800):
 
     Each initial latitude holds one boundary point, so that a local line through its neighbours,
     weighted by (1 - d³)³ of their angular distance, gives the mean; held and free points are not
-    mixed. """
+    mixed."""
     _, angle, moved, free = surface_of(run, state)
     parts = [smooth(angle[part], moved[part], points // 2) for part in (~free, free) if part.any()]
     line = np.concatenate(parts)

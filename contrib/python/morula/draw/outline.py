@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The outline of a cut: where the plane of the cut goes through the tissue's
-surface."""
+"""The outline of a cut: where the plane of the cut goes through the tissue's surface."""
 import numpy as np
 from scipy.ndimage import gaussian_filter, zoom
 from scipy.spatial import cKDTree

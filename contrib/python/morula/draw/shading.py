@@ -15,15 +15,16 @@ from vtkmodules.vtkRenderingOpenGL2 import (vtkOpaquePass, vtkRenderStepsPass, v
 LIGHTS = (((-0.6, 1.0, 1.2), 1.0), ((1.2, 0.2, 0.8), 0.35), ((0.0, -1.0, 0.6), 0.2))
 
 
-def poly_data(positions, colours):
-    """Points with a colour (bytes) each."""
+def poly_data(positions, colours=None):
+    """Points, with a colour (bytes) each if there are some."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(positions), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    colour = numpy_to_vtk(np.ascontiguousarray(colours), deep=True)
-    colour.SetName("colour")
-    data.GetPointData().SetScalars(colour)
+    if colours is not None:
+        colour = numpy_to_vtk(np.ascontiguousarray(colours), deep=True)
+        colour.SetName("colour")
+        data.GetPointData().SetScalars(colour)
     return data
 
 

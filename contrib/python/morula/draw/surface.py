@@ -11,7 +11,7 @@ def triangles_of(initial_positions):
     Boundary points are neither lost nor made, so that the triangles of their initial positions are
     those of the deformed surface as well. On a flat face all of the hull's points are corners of
     triangles, too: the points are pushed outward a little, the middle most, which makes them
-    strictly convex. """
+    strictly convex."""
     center = (initial_positions.min(axis=0) + initial_positions.max(axis=0)) / 2
     offset = initial_positions - center
     size = np.abs(offset).max()

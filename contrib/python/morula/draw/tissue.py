@@ -2,11 +2,10 @@
 # Copyright (C) 2026 by the Morula authors
 """The cells of a state as they are drawn: as spheres, or as polyhedra.
 
-Both have `positions` (n, 3) of the cells, their `columns`, whether they are
-`flat`, `outermost` places that a picture must hold, and how far around them
-(`margin`), and `gaps`, the width below which ambient occlusion darkens; µm.
-Their pictures are of the cells of a mask, with a colour (bytes) each.
-"""
+Both have `positions` (n, 3) of the cells, their `columns`, whether they are `flat`, `outermost`
+places that a picture must hold, and how far around them (`margin`), and `gaps`, the width below
+which ambient occlusion darkens; µm. Their pictures are of the cells of a mask, with a colour
+(bytes) each."""
 import numpy as np
 from morula.run import NoStates, Run, places, read_points
 from morula.shapes.regions import regions_of_state

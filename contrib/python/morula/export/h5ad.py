@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Cells as annotated data (AnnData), which scanpy and squidpy read: HDF5 in the
-layout of anndata 0.8 and later.
+"""Cells as annotated data (AnnData), which scanpy and squidpy read: HDF5 in the layout of anndata
+0.8 and later.
 
-A row is a cell in a state. `X` has the columns that are amounts, `var` their
-units; `obs` has what a cell is: its id, mother, generation, phase and type;
-`obsm/spatial` where it is, µm.
-"""
+A row is a cell in a state. `X` has the columns that are amounts, `var` their units; `obs` has what
+a cell is: its id, mother, generation, phase and type; `obsm/spatial` where it is, µm."""
 import numpy as np
 
 from morula.columns import unit_of

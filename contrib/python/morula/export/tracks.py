@@ -2,16 +2,15 @@
 # Copyright (C) 2026 by the Morula authors
 """All cells over time as a graph, and a lineage of such a graph.
 
-A node is a cell at a time: at its birth, and in every state that was written. An
-edge leads from a cell to itself at the next time, and from the last node of a
-mother to the first of each daughter. So cells that no state shows are there, too,
-and exact times of birth are kept.
-"""
+A node is a cell at a time: at its birth, and in every state that was written. An edge leads from a
+cell to itself at the next time, and from the last node of a mother to the first of each daughter.
+So cells that no state shows are there, too, and exact times of birth are kept."""
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from morula.columns import LENGTH, unit_of
+from morula.draw.points import radii_of
 from morula.lineage import Lineage
 from morula.refusal import Refused
 from morula.run import TIME_SLACK
@@ -162,8 +161,7 @@ def _columns(run, lineage, states, nodes, is_birth):
     if lineage.type is not None and "type" not in found:
         found["type"] = Property(lineage.type[nodes["cell"]], "", "")
     if "volume" in found:
-        volume = found["volume"].values.astype(float)
-        radius = (np.sqrt(volume / np.pi) if run.dimension == 2 else np.cbrt(0.75 * volume / np.pi))
+        radius = radii_of(found["volume"].values, run.dimension == 2)
         found["radius"] = Property(radius, LENGTH, "of a ball of its volume",
                                    found["volume"].missing)
     return found

@@ -2,10 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """The smooth closed surface of labelled tissue, and its cavities.
 
-The tissue is filled with 1, smoothed by Gaussians, and cut at the level at
-which the surface encloses just the cells' volume. All lengths are in um, all
-places in the order of the image's axes.
-"""
+The tissue is filled with 1, smoothed by Gaussians, and cut at the level at which the surface
+encloses just the cells' volume. All lengths are in um, all places in the order of the image's
+axes."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -196,18 +195,14 @@ def contains(part, places):
     """Whether places (n, dim) are inside of a closed part."""
     if places.shape[1] == 2:
         return measure.points_in_poly(places, part.vertices)
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from morula.draw.shading import cell_array, poly_data
+    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
-    from morula.images.writing import poly_data
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(places), deep=True))
-    queried = vtkPolyData()
-    queried.SetPoints(points)
+    closed = poly_data(part.vertices)
+    closed.SetPolys(cell_array(part.facets))
     check = vtkSelectEnclosedPoints()
-    check.SetInputData(queried)
-    check.SetSurfaceData(poly_data(part))
+    check.SetInputData(poly_data(places))
+    check.SetSurfaceData(closed)
     check.SetTolerance(1e-9)
     check.Update()
     return vtk_to_numpy(check.GetOutput().GetPointData().GetArray("SelectedPoints")) > 0

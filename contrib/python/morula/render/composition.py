@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Panels with their title, scale bar and colour bar as one picture."""
-import matplotlib
 import numpy as np
+from morula.style import plt
 from scipy.ndimage import gaussian_filter
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
 
 DPI = 200
 TOP, BOTTOM, SIDE = 0.42, 0.5, 1.25  # inches around the panels

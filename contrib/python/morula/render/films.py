@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Films of pictures (height, width, 3), bytes. GIF comes with PIL, and Ogg
-with VTK; MP4 and WebM, which all browsers show and are a tenth of the size,
-need the program ffmpeg."""
+"""Films of pictures (height, width, 3), bytes. GIF comes with PIL, and Ogg with VTK; MP4 and WebM,
+which all browsers show and are a tenth of the size, need the program ffmpeg."""
 import shutil
 import subprocess
 

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Lists of (name, value): the run at a glance, its cost, how far its results can be
-trusted."""
+"""Lists of (name, value): the run at a glance, its cost, how far its results can be trusted."""
 import numpy as np
 from morula.error_in_time import error_in_time
 

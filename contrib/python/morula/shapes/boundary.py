@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The tissue's surface, a cloud of boundary points, and which of their tangent
-planes cut which region.
+"""The tissue's surface, a cloud of boundary points, and which of their tangent planes cut which
+region.
 
-A place is outside the tissue if it is beyond the tangent plane of the boundary
-point nearest to it. So a region is cut by the plane of the boundary point
-nearest to its cell, then by that of the boundary point nearest to the corner
-that is farthest outside, and so on until no corner is outside. Planes of
-boundary points farther away, which would cut off what lies round a concave
-surface, do not come into it.
-"""
+A place is outside the tissue if it is beyond the tangent plane of the boundary point nearest to
+it. So a region is cut by the plane of the boundary point nearest to its cell, then by that of the
+boundary point nearest to the corner that is farthest outside, and so on until no corner is
+outside. Planes of boundary points farther away, which would cut off what lies round a concave
+surface, do not come into it."""
 from dataclasses import replace
 
 import numpy as np

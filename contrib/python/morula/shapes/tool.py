@@ -2,15 +2,14 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/cell-shapes."""
 import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 from morula.columns import COMPONENTS
-from morula.command_line import Parser
+from morula.command_line import Parser, run_tool
 from morula.expressions import rows_where
 from morula.refusal import Refused
-from morula.run import NoStates, Run, states
+from morula.run import Run, states
 
 from .grid import grid_of
 from .regions import regions_of_state
@@ -112,15 +111,9 @@ def write_all(options):
         print("cell-shapes:", write_state(run, i, options), flush=True)
     if options.output is None:
         print("cell-shapes:", write_collection(run.directory))
+    return 0
 
 
 def main(words=None):
-    try:
-        write_all(arguments(words))
-    except (Refused, NoStates, OSError) as refusal:
-        print(f"cell-shapes: {refusal}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("cell-shapes: stopped; files that were written are whole.", file=sys.stderr)
-        return 130
-    return 0
+    return run_tool("cell-shapes", lambda: write_all(arguments(words)),
+                    "files that were written are whole")

@@ -8,7 +8,7 @@ import subprocess
 import textwrap
 
 import pytest
-from morula.keys import keys_of
+from morula.program import Program
 
 from tests.common.program import TESTS
 
@@ -87,7 +87,7 @@ def test_links(page):
 
 def test_keys(runs):
     """doc/parameters.md has them as they are; contrib/upkeep/parameters writes it."""
-    keys = keys_of(runs.options.morula)
+    keys = Program(runs.options.morula).keys
     assert len(keys) > 50 and all(key.meaning for key in keys)
     runs.call([ROOT / "contrib/upkeep/parameters", "--check", "--morula",
                runs.options.morula])

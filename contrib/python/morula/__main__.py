@@ -2,10 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """Starts a tool: python3 -m morula TOOL WORDS..., or morula-TOOL WORDS...
 
-A tool is a module with a function main(), which returns the exit code. It is
-imported only here, so that what it says of a missing library is said wherever
-that happens.
-"""
+A tool is a module with a function main(), which returns the exit code. It is imported only here,
+so that what it says of a missing library is said wherever that happens."""
 import argparse
 import importlib
 import sys
@@ -24,12 +22,10 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool"}
 
-PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)",
-            "numpy": "python3-numpy", "scipy": "python3-scipy",
-            "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
-            "h5py": "python3-h5py", "pandas": "python3-pandas",
-            "jinja2": "python3-jinja2", "skimage": "python3-skimage",
-            "tifffile": "python3-tifffile", "zarr": "python3-zarr"}
+PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)", "numpy": "python3-numpy",
+            "scipy": "python3-scipy", "matplotlib": "python3-matplotlib", "PIL": "python3-pil",
+            "h5py": "python3-h5py", "pandas": "python3-pandas", "jinja2": "python3-jinja2",
+            "skimage": "python3-skimage", "tifffile": "python3-tifffile", "zarr": "python3-zarr"}
 SYSTEM_PYTHON = "/usr/bin/python3"
 
 
@@ -39,8 +35,7 @@ def missing(error):
     package = PACKAGES.get((error.name or "").partition(".")[0])
     if package is None:
         return None
-    text = (f"{error}. Debian's package {package} has it; contrib/setup "
-            "installs what is missing.")
+    text = (f"{error}. Debian's package {package} has it; contrib/setup installs what is missing.")
     if not sys.executable.startswith(SYSTEM_PYTHON):
         text += (f" This is {sys.executable}, which does not see Debian's "
                  f"packages: {SYSTEM_PYTHON} does.")
@@ -56,8 +51,7 @@ def main():
         called = sys.argv[0] if sys.argv else ""
         name = called.removeprefix("morula-")
     if name not in TOOLS:
-        return f"morula: there is no tool '{name}'; there are " + ", ".join(
-            TOOLS)
+        return f"morula: there is no tool '{name}'; there are " + ", ".join(TOOLS)
     sys.argv[0] = name
     if called == name:  # by the script of Morula's tree
         folder = "contrib/upkeep" if TOOLS[name].startswith(("upkeep", "tests")) else "contrib"

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The types of cells: their names; and what befell cells: changes of type,
-death, removal."""
+"""The types of cells: their names; and what befell cells: changes of type, death, removal."""
 import numpy as np
 
 from .prm import parse
@@ -37,8 +36,7 @@ def read_events(file, names):
         table = table[[*EVENTS, *OF_DEATH[:"cause" in table]]].astype(
             {"time": float, "id": np.int64})
     except (ValueError, KeyError) as error:  # pandas' own are ValueErrors
-        raise Refused("The table", file, "the columns " + ", ".join(EVENTS),
-                      f"{error}.") from None
+        raise Refused("The table", file, "the columns " + ", ".join(EVENTS), f"{error}.") from None
     for name in {*table["from"], *table["to"]} - {*names, ""}:
         raise Refused("The table", file, "types of the run: "
                       + ", ".join(names), f"It has '{name}'.")

@@ -7,20 +7,17 @@ from .cell_types import names_in
 LENGTH, VOLUME, STRESS, NUMBER = "um", "um^dim", "kPa", ""
 
 # Results in statistics.csv.
-STATISTICS = {
-    "cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
-    "mean_energy_density": STRESS, "cell_mean_energy_density": STRESS,
-    "max_energy_density": STRESS, "min_elastic_volume_ratio": NUMBER,
-    "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER,
-    "held_at_checkpoint": NUMBER, "xmin": LENGTH, "xmax": LENGTH,
-    "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH, "zmax": LENGTH,
-    "surface_distance": LENGTH, "enclosed_volume": VOLUME}
+STATISTICS = {"cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
+              "mean_energy_density": STRESS, "cell_mean_energy_density": STRESS,
+              "max_energy_density": STRESS, "min_elastic_volume_ratio": NUMBER,
+              "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER, "held_at_checkpoint": NUMBER,
+              "xmin": LENGTH, "xmax": LENGTH, "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH,
+              "zmax": LENGTH, "surface_distance": LENGTH, "enclosed_volume": VOLUME}
 
 
 
 def statistics_of(keys):
-    """The same of a scene with these keys, of which cells may have types and
-    fields."""
+    """The same of a scene with these keys, of which cells may have types and fields."""
     return {**STATISTICS,
             **{f"cells_{name}": NUMBER for name in names_in(keys)},
             **{f"{name}_{value}": NUMBER for name in names_in(keys, "Fields")
@@ -29,34 +26,26 @@ def statistics_of(keys):
 
 # The other columns of statistics.csv: what a step was and what it took. Their
 # "error" would mean nothing.
-EFFORT = (
-    "step", "time", "dt", "active_grid_cells", "inner_splines",
-    "outer_splines", "unknowns", "newton_iterations", "linear_iterations",
-    "rejected_steps", "residual", "wall_seconds", "min_cells_per_spacing",
-    "turns", "proximal_paths", "step_error")
+EFFORT = ("step", "time", "dt", "active_grid_cells", "inner_splines", "outer_splines", "unknowns",
+          "newton_iterations", "linear_iterations", "rejected_steps", "residual", "wall_seconds",
+          "min_cells_per_spacing", "turns", "proximal_paths", "step_error")
 
 _POINTS = {"x": LENGTH, "y": LENGTH, "z": LENGTH, "X": LENGTH, "Y": LENGTH,
            "Z": LENGTH, "radius": LENGTH}
 
 # Columns of cells-NNNN.csv and surface-NNNN.csv that are results; 'radius' is
 # computed from the others: the distance from Tissue/Center.
-POINTS = {
-    "cells": {
-        **_POINTS, "generation": NUMBER, "phase": NUMBER, "type": NUMBER,
-        "initial_volume": VOLUME, "volume": VOLUME,
-        "growth_volume_ratio": NUMBER, "elastic_volume_ratio": NUMBER,
-        "energy_density": STRESS, "sigma_xx": STRESS, "sigma_yy": STRESS,
-        "sigma_zz": STRESS, "sigma_xy": STRESS, "sigma_yz": STRESS,
-        "sigma_zx": STRESS},
-    "surface": {**_POINTS, "nx": NUMBER, "ny": NUMBER, "nz": NUMBER,
-                "area": "um^(dim-1)"}}
+POINTS = {"cells": {**_POINTS, "generation": NUMBER, "phase": NUMBER, "type": NUMBER,
+                    "initial_volume": VOLUME, "volume": VOLUME, "growth_volume_ratio": NUMBER,
+                    "elastic_volume_ratio": NUMBER, "energy_density": STRESS, "sigma_xx": STRESS,
+                    "sigma_yy": STRESS, "sigma_zz": STRESS, "sigma_xy": STRESS, "sigma_yz": STRESS,
+                    "sigma_zx": STRESS}, "surface": {**_POINTS, "nx": NUMBER, "ny": NUMBER,
+                                                     "nz": NUMBER, "area": "um^(dim-1)"}}
 
 # What a VTU file has as one tensor or vector, and CSV files and data frames
 # as columns; other vectors become NAME_x, NAME_y, NAME_z.
-COMPONENTS = {
-    "sigma": ("sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_yz",
-              "sigma_zx"),
-    "normal": ("nx", "ny", "nz")}
+COMPONENTS = {"sigma": ("sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_yz", "sigma_zx"),
+              "normal": ("nx", "ny", "nz")}
 
 # Columns of statistics.csv that are those of the boundary points.
 OF_SURFACE = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")

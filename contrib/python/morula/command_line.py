@@ -69,9 +69,8 @@ def ranks_and_jobs(options):
     ranks = whole_number("--ranks", options.ranks)
     jobs = whole_number("--jobs", options.jobs)
     if jobs > 1 and jobs * ranks > cores():
-        raise Refused("--jobs", options.jobs, f"at most {cores()} cores "
-                      f"for all runs with --ranks {ranks}",
-                      "More would wait for each other, and make every time "
+        raise Refused("--jobs", options.jobs, f"at most {cores()} cores for all runs with --ranks "
+                      f"{ranks}", "More would wait for each other, and make every time "
                       "meaningless.")
     return ranks, jobs
 
@@ -86,8 +85,7 @@ def output_directory(options, default):
 
 @contextlib.contextmanager
 def like_ctrl_c():
-    """Asked to end from outside is like Ctrl-C, so that no run is left
-    over."""
+    """Asked to end from outside is like Ctrl-C, so that no run is left over."""
     def stop(*_):
         raise KeyboardInterrupt
 
@@ -101,9 +99,9 @@ def like_ctrl_c():
             signal.signal(number, handler)
 
 
-def run_tool(name, tool):
-    """What tool() returns as the exit code; 1 for what makes no sense, 130 if
-    it was stopped."""
+def run_tool(name, tool, stopped="the same command goes on with what is missing"):
+    """What tool() returns as the exit code; 1 for what makes no sense, 130 if it was stopped,
+    with a word on what that means."""
     try:
         with like_ctrl_c():
             return tool()
@@ -111,6 +109,5 @@ def run_tool(name, tool):
         print(f"{name}: {error}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print(f"{name}: stopped; the same command goes on with what is "
-              "missing.", file=sys.stderr)
+        print(f"{name}: stopped; {stopped}.", file=sys.stderr)
         return 130

@@ -2,10 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """How the program is started, by every tool and by every test.
 
-`command` makes the words of a run, `call` runs them to their end, `Processes`
-does that for several at a time and ends what is left when one of them, or the
-user, gives up.
-"""
+`command` makes the words of a run, `call` runs them to their end, `Processes` does that for
+several at a time and ends what is left when one of them, or the user, gives up."""
 import contextlib
 import os
 import signal
@@ -41,8 +39,7 @@ def cores():
 def overrides(keys):
     """The words -s KEY=VALUE, of a dictionary or of pairs."""
     pairs = keys.items() if isinstance(keys, dict) else keys
-    return [word for key, value in pairs
-            for word in ("-s", f"{key}={value}")]
+    return [word for key, value in pairs for word in ("-s", f"{key}={value}")]
 
 
 def command(program, *words, ranks=1, mpiexec="mpiexec"):
@@ -67,25 +64,21 @@ class Ended:
 
 
 class Processes:
-    """Runs commands, each in a group of processes of its own, which ends as a
-    whole."""
+    """Runs commands, each in a group of processes of its own, which ends as a whole."""
 
     def __init__(self):
         self.stopped = False
         self._running, self._guard = set(), threading.Lock()
 
-    def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE,
-             stderr=subprocess.PIPE, env=(), cost=None, pass_fds=(),
-             server=None):
-        """Runs a command to its end; None after stop(). stdout and stderr are
-        what subprocess takes, or the paths of files; `env` has variables
-        besides, `cost` is the file for what measure.py says of it. A served.Server
-        does it in a fork, with stdout and stderr in files. If this thread is
-        interrupted, or the timeout (s) is over, the command is ended first; the latter throws
-        subprocess.TimeoutExpired."""
+    def call(self, words, *, cwd=None, timeout=None, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+             env=(), cost=None, pass_fds=(), server=None):
+        """Runs a command to its end; None after stop(). stdout and stderr are what subprocess
+        takes, or the paths of files; `env` has variables besides, `cost` is the file for what
+        measure.py says of it. A served.Server does it in a fork, with stdout and stderr in files.
+        If this thread is interrupted, or the timeout (s) is over, the command is ended first; the
+        latter throws subprocess.TimeoutExpired."""
         if server:
-            return self._serve(server, words, cwd=cwd, stdout=stdout,
-                               stderr=stderr, cost=cost)
+            return self._serve(server, words, cwd=cwd, stdout=stdout, stderr=stderr, cost=cost)
         with contextlib.ExitStack() as files:
             streams = {name: files.enter_context(open(to, "wb"))
                        if isinstance(to, (str, os.PathLike)) else to
@@ -94,8 +87,7 @@ class Processes:
             words = [str(word) for word in words]
             if cost:
                 Path(cost).unlink(missing_ok=True)
-                words = [sys.executable, "-I", "-S", str(MEASURE), str(cost),
-                         *words]
+                words = [sys.executable, "-I", "-S", str(MEASURE), str(cost), *words]
             with self._guard:
                 if self.stopped:
                     return None
@@ -114,8 +106,7 @@ class Processes:
             finally:
                 with self._guard:
                     self._running.discard(child)
-            return None if self.stopped else Ended(
-                child.returncode, out or "", err or "")
+            return None if self.stopped else Ended(child.returncode, out or "", err or "")
 
     def _serve(self, server, words, cost, **files):
         if cost:
@@ -153,8 +144,7 @@ class Processes:
                 raise
 
     def stop(self):
-        """Ends what has been started, and nothing else; starts nothing
-        more."""
+        """Ends what has been started, and nothing else; starts nothing more."""
         with self._guard:
             self.stopped = True
             children = list(self._running)
@@ -167,13 +157,11 @@ def call(words, **options):
 
 
 def end(children, patience):
-    """Asks the groups of processes to end, and kills them after so many
-    seconds."""
+    """Asks the groups of processes to end, and kills them after so many seconds."""
     for number, wait in ((signal.SIGTERM, patience), (signal.SIGKILL, 1.0)):
         children = [child for child in children if _signalled(child, number)]
         until = time.monotonic() + wait
-        while (time.monotonic() < until
-               and any(_signalled(child, 0) for child in children)):
+        while (time.monotonic() < until and any(_signalled(child, 0) for child in children)):
             time.sleep(0.05)
 
 

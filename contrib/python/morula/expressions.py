@@ -18,9 +18,8 @@ def values_of(text, table, option):
         if found.shape not in ((len(table),), ()) or found.dtype.kind not in "bif":
             raise ValueError("it is no number")
     except Exception as error:  # pandas throws what Python does
-        raise Refused(
-            option, text, "what pandas' DataFrame.eval takes, and && || ^; the "
-            "columns are " + ", ".join(table), f"Not so: {error}.") from None
+        raise Refused(option, text, "what pandas' DataFrame.eval takes, and && || ^; the columns "
+                      "are " + ", ".join(table), f"Not so: {error}.") from None
     return np.broadcast_to(found, (len(table),))
 
 
@@ -28,7 +27,6 @@ def rows_where(text, columns, option):
     """A mask of the rows for which a condition holds, from their columns by
     name; a number is true where it is above 0, as with Fixed where."""
     import pandas
-    table = pandas.DataFrame({name: np.asarray(values)
-                              for name, values in columns.items()
+    table = pandas.DataFrame({name: np.asarray(values) for name, values in columns.items()
                               if np.ndim(values) == 1})
     return values_of(text, table, option) > 0

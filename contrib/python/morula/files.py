@@ -34,6 +34,5 @@ def write(file, text):
 
 
 def write_csv(file, rows):
-    with replaced(file) as aside, aside.open("w", encoding="utf-8",
-                                             newline="") as stream:
+    with replaced(file) as aside, aside.open("w", encoding="utf-8", newline="") as stream:
         csv.writer(stream, lineterminator="\n").writerows(rows)

@@ -39,9 +39,8 @@ def in_range(time, values, limits):
     time, values = np.asarray(time), np.asarray(values)
     kept = (time >= low - 1e-6) & (time <= high + 1e-6)
     if kept.sum() < 2:
-        raise NothingToFit(
-            f"{kept.sum()} values between {low:g} and {high:g} days; at least "
-            "2 are needed: has the run reached that time?")
+        raise NothingToFit(f"{kept.sum()} values between {low:g} and {high:g} days; at least 2 "
+                           "are needed: has the run reached that time?")
     return time[kept], values[kept]
 
 

@@ -25,9 +25,8 @@ LONGEST_NAME = 255  # of a file; expressions may be longer
 
 @dataclass(frozen=True)
 class Job:
-    """A scene with overrides; the name is that of its directory. When it has
-    finished, CSV files of the points and the snapshot stay if they are in
-    `keep` ('cells', 'surface', 'snapshot')."""
+    """A scene with overrides; the name is that of its directory. When it has finished, CSV files
+    of the points and the snapshot stay if they are in `keep` ('cells', 'surface', 'snapshot')."""
 
     name: str
     overrides: tuple
@@ -75,34 +74,28 @@ class KeptRuns:
                 and bool(record.repeats) and not record.killed)
 
     def check(self, jobs, skip=False):
-        """Has the program judge the jobs that are not done. Throws Refused with
-        its message, or with `skip` tells it and leaves the job out: the rest is
-        returned."""
+        """Has the program judge the jobs that are not done. Throws Refused with its message, or
+        with `skip` tells it and leaves the job out: the rest is returned."""
         left = [job for job in jobs if not self.is_done(job)]
         refused = set()
         with self._servers_for(left):
             for number, job in enumerate(left, 1):
                 tell(f"{self.name}: checking {number} of {len(left)} ...")
-                server = self._a_server()
                 try:
-                    self.scene.program.explain(self.scene.path, job.overrides,
-                                               server)
+                    with self._server() as server:
+                        self.scene.program.explain(self.scene.path, job.overrides, server)
                 except Refused as refusal:
                     if not skip:
                         raise
                     refused.add(job)
                     self.say(f"{job.name} is left out: {refusal}")
-                finally:
-                    if server:
-                        self._servers.put(server)
         return [job for job in jobs if job not in refused]
 
     def run(self, jobs):
         """The records of the jobs, in their order."""
         with self._alone(), self._servers_for(jobs):
-            return self._processes.each(
-                lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
-                enumerate(jobs, 1), self.n_at_a_time)
+            return self._processes.each(lambda pair: self._one(pair[1], f"[{pair[0]}/{len(jobs)}]"),
+                                        enumerate(jobs, 1), self.n_at_a_time)
 
     @contextlib.contextmanager
     def _alone(self):
@@ -112,11 +105,9 @@ class KeptRuns:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
-                raise Refused("--output", self.directory, "a directory that "
-                              "nobody else writes into", "Another one, or a "
-                              "run that it has left over, is at work there: "
-                              "wait for it, or choose another "
-                              "directory.") from None
+                raise Refused("--output", self.directory, "a directory that nobody else writes "
+                              "into", "Another one, or a run that it has left over, is at work "
+                              "there: wait for it, or choose another directory.") from None
             self._lock = lock
             yield
 
@@ -138,11 +129,18 @@ class KeptRuns:
             for server in own:
                 server.close()
 
-    def _a_server(self):
+    @contextlib.contextmanager
+    def _server(self):
+        """One that is idle, for as long as it is at work; or None."""
         try:
-            return self._servers.get_nowait()
+            server = self._servers.get_nowait()
         except queue.Empty:
-            return None
+            yield None
+            return
+        try:
+            yield server
+        finally:
+            self._servers.put(server)
 
     def _one(self, job, counter):
         record = Record(self.directory / job.name)
@@ -151,8 +149,7 @@ class KeptRuns:
         if record.finished and done >= self.repeats or record.failed:
             self.say(f"{counter} {job.name}: {record.summary()}, from before")
             return record
-        while not self._processes.stopped and len(
-                record.repeats) < self.repeats:
+        while not self._processes.stopped and len(record.repeats) < self.repeats:
             self.say(f"{counter} {job.name} "
                      + ("goes on from its snapshot ..." if resumed else "..."))
             self._execute(job, record, resumed)
@@ -178,31 +175,25 @@ class KeptRuns:
 
     def _execute(self, job, record, resumed):
         overrides = [*job.overrides, ("Output directory", record.output)]
-        words = self.scene.program.command(self.scene.path, overrides,
-                                           self.ranks)
+        words = self.scene.program.command(self.scene.path, overrides, self.ranks)
         # The directory is this object's own.
         words += ["--resume" if resumed else "--replace"]
         cost = record.directory / "cost.json"
-        server = self._a_server()
-        try:
+        with self._server() as server:
             ended = self._processes.call(
                 words, cost=cost, stdout=record.directory / "stdout",
                 stderr=record.directory / "stderr", server=server,
                 # a run that outlives this process keeps the directory locked
                 pass_fds=[self._lock.fileno()])
-        finally:
-            if server:
-                self._servers.put(server)
         if ended is None:
             return
         if not cost.is_file():
             raise RuntimeError(f"the run {job.name} was ended from outside "
                                "together with what measured it")
         if self.scene.program.digest != self.digest:
-            raise Refused("--morula", self.scene.program.executable,
-                          "an executable that nobody replaces while runs "
-                          "go on", "The same command begins anew with the "
-                          "new one.")
+            raise Refused("--morula", self.scene.program.executable, "an executable that nobody "
+                          "replaces while runs go on", "The same command begins anew with the new "
+                          "one.")
         record.add({**json.loads(cost.read_text()), "resumed": resumed},
                    self.ranks, self.n_at_a_time, job.keep)
 
@@ -212,12 +203,10 @@ class KeptRuns:
         keys = {**self.scene.keys, **dict(job.overrides)}
         keys.pop("Output directory", None)
         # as the program does: here, or beside the scene
-        places = {value: next((path for path in (
-            Path(value), self.scene.path.parent / value) if value
-            and len(value) < LONGEST_NAME and path.is_file()), None)
+        places = {value: next((path for path in (Path(value), self.scene.path.parent / value)
+                               if value and len(value) < LONGEST_NAME and path.is_file()), None)
                   for value in keys.values()}
         files = {value: hashlib.sha256(path.read_bytes()).hexdigest()
                  for value, path in places.items() if path}
-        text = json.dumps([self.digest, keys, files, self.ranks,
-                           sorted(job.keep)], sort_keys=True)
+        text = json.dumps([self.digest, keys, files, self.ranks, sorted(job.keep)], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()

@@ -4,16 +4,13 @@
 import json
 from dataclasses import dataclass
 
-from .execute import call
-
 
 @dataclass(frozen=True)
 class Key:
-    """path: full, separated by '/'. type: a word of ParameterKeys::print_json:
-    number, expression, file, ... allowed: a noun phrase, or empty for expressions
-    and texts. choices: the words to choose from. former: paths that it had.
-    paper: its default with Method = paper, or None where that is the
-    same. evaluated, variables: of an expression."""
+    """path: full, separated by '/'. type: a word of ParameterKeys::print_json: number, expression,
+    file, ... allowed: a noun phrase, or empty for expressions and texts. choices: the words to
+    choose from. former: paths that it had. paper: its default with Method = paper, or None where
+    that is the same. evaluated, variables: of an expression."""
 
     path: str
     default: str
@@ -31,20 +28,14 @@ class Key:
 
 def read_keys(text):
     """All keys of the output of `morula --parameters=json`, in order."""
-    return [Key(key["path"], key["default"], key["unit"], key["allowed"],
-                key["meaning"], tuple(key.get("formerly", ())),
-                key.get("default by method", {}).get("paper"),
-                key["type"], tuple(key.get("choices", ())),
-                key.get("components", 1), key.get("evaluated", ""),
-                tuple(key.get("variables", ()))) for key in json.loads(text)]
+    return [Key(key["path"], key["default"], key["unit"], key["allowed"], key["meaning"],
+                tuple(key.get("formerly", ())), key.get("default by method", {}).get("paper"),
+                key["type"], tuple(key.get("choices", ())), key.get("components", 1),
+                key.get("evaluated", ""), tuple(key.get("variables", ()))) for key
+            in json.loads(text)]
 
 
 def defaults_with(keys, method):
     """Path -> default of the keys for a value of the key Method."""
     return {key.path: key.paper if method == "paper"
             and key.paper is not None else key.default for key in keys}
-
-
-def keys_of(morula):
-    """The keys of an executable."""
-    return read_keys(call([morula, "--parameters=json"]).stdout)

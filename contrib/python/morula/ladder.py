@@ -40,10 +40,8 @@ def read_ladder(text, scene):
         raise Refused("--vary", text, FORM)
     _require_once("--vary", keys, scene)
     words = [w.strip() for w in right.split("|" if "|" in right else ",")]
-    rungs = tuple(tuple(v.strip() for v in word.split(":", len(keys) - 1))
-                  for word in words)
-    wrong = [word for word, rung in zip(words, rungs)
-             if len(rung) != len(keys) or not all(rung)]
+    rungs = tuple(tuple(v.strip() for v in word.split(":", len(keys) - 1)) for word in words)
+    wrong = [word for word, rung in zip(words, rungs) if len(rung) != len(keys) or not all(rung)]
     if len(rungs) < 2 or wrong:
         raise Refused("--vary", text, FORM, f"Not so: '{wrong[0]}'." if wrong
                       else "-s sets a single value.")
@@ -63,8 +61,7 @@ def refuse_keys(option, keys, not_varied, allowed):
     """Refuses keys that must not be varied ({key: why}), and those of output."""
     for key in keys:
         if key in not_varied or key.startswith("Output/"):
-            raise Refused(option, key, allowed, not_varied.get(
-                key, "-s sets it for all runs."))
+            raise Refused(option, key, allowed, not_varied.get(key, "-s sets it for all runs."))
 
 
 def _refuse_double(option, text, points):
@@ -79,8 +76,7 @@ def _refuse_double(option, text, points):
 
 
 def read_seeds(text):
-    """'1..8' or '1-8', '1,2,5' or both together; None without the
-    option."""
+    """'1..8' or '1-8', '1,2,5' or both together; None without the option."""
     if text is None:
         return None
     seeds = []
@@ -91,8 +87,7 @@ def read_seeds(text):
                           "of integers >= 0")
         first, last = int(match[1]), int(match[2] or match[1])
         if not first <= last < first + MAX_RUNS:
-            raise Refused("--seeds", text, f"a range from low to high of at most "
-                          f"{MAX_RUNS} seeds")
+            raise Refused("--seeds", text, f"a range from low to high of at most {MAX_RUNS} seeds")
         seeds += range(first, last + 1)
     if len(set(seeds)) < len(seeds):
         raise Refused("--seeds", text, "each seed once")
@@ -113,8 +108,7 @@ def check_seeds(plan, seeds, text, n_samples=None):
 def check_method(plan):
     """Refuses Method beside a key that it stands for: a value that is not
     varied would be the scene's own for one and the method's for the other."""
-    both = [key.path for key in plan.scene.known
-            if key.paper is not None and key.path in plan.keys]
+    both = [key.path for key in plan.scene.known if key.paper is not None and key.path in plan.keys]
     if "Method" in plan.keys and both:
         raise Refused("--vary", f"Method and {both[0]}", "one of them",
                       "Method stands for that key: vary Method alone, or the "
@@ -124,26 +118,23 @@ def check_method(plan):
 class Plan:
     """All points to run, and the lines of points along single ladders.
 
-    A point is one value for every key that any ladder varies. 'Star': each
-    ladder is varied alone, the other keys keep the scene's own values, and the
-    scene's own point belongs to every line. 'Grid': every combination.
-    """
+    A point is one value for every key that any ladder varies. 'Star': each ladder is varied alone,
+    the other keys keep the scene's own values, and the scene's own point belongs to every line.
+    'Grid': every combination."""
 
     def __init__(self, scene, ladders, full_grid=False):
         self.scene, self.ladders, self.full_grid = scene, ladders, full_grid
         self.keys = list(dict.fromkeys(k for lad in ladders for k in lad.keys))
         if full_grid and len(self.keys) < sum(len(x.keys) for x in ladders):
-            raise Refused("--grid", " ".join(self.keys),
-                          "each key in one ladder only")
+            raise Refused("--grid", " ".join(self.keys), "each key in one ladder only")
         self.own = tuple(scene[key] for key in self.keys)
         self._exact = {}
         if full_grid:
             rungs = itertools.product(*(ladder.rungs for ladder in ladders))
             points = [self._point(*zip(ladders, choice)) for choice in rungs]
         else:
-            points = [self._point()] + [
-                self._point((ladder, rung))
-                for ladder in ladders for rung in ladder.rungs]
+            points = [self._point()] + [self._point((ladder, rung)) for ladder in ladders for rung
+                                        in ladder.rungs]
         self.points = list(dict.fromkeys(points))
 
     def _point(self, *choices):
@@ -200,8 +191,7 @@ class Plan:
 
     def overrides(self, point):
         """(key, value) where the point differs from the scene."""
-        return tuple((key, value) for key, value, own
-                     in zip(self.keys, point, self.own)
+        return tuple((key, value) for key, value, own in zip(self.keys, point, self.own)
                      if normal(value) != normal(own))
 
     def label(self, point):
@@ -218,8 +208,7 @@ class SamplesPlan(Plan):
         self.keys = list(keys)
         self.own = tuple(scene[key] for key in keys)
         self._exact = {}
-        self.points = [self._exact.setdefault(tuple(map(normal, point)), point)
-                       for point in points]
+        self.points = [self._exact.setdefault(tuple(map(normal, point)), point) for point in points]
 
 
 def read_samples(file, scene):

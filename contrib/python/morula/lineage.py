@@ -9,15 +9,14 @@ from .refusal import Refused
 
 
 class Lineage:
-    """lineage.csv: a row for every cell that ever lived, in order of its id.
-    Ids count from 0; those of daughters are larger than their mother's.
+    """lineage.csv: a row for every cell that ever lived, in order of its id. Ids count from 0;
+    those of daughters are larger than their mother's.
 
-    `table` is a data frame with id, parent (-1 for founders), generation,
-    birth_time (days) and x, y, z (um) where the cell was born, and in scenes
-    with types the number of the type with which it was born; `type` is None
-    in others. `events` are those of the run: its deaths and removals are
-    arrays `death_time` and `removal_time` (days; infinity for cells that did
-    not die, or are still there)."""
+    `table` is a data frame with id, parent (-1 for founders), generation, birth_time (days) and x,
+    y, z (um) where the cell was born, and in scenes with types the number of the type with which
+    it was born; `type` is None in others. `events` are those of the run: its deaths and removals
+    are arrays `death_time` and `removal_time` (days; infinity for cells that did not die, or are
+    still there)."""
 
     def __init__(self, table, events=None):
         self.table = table.sort_values("id", kind="stable", ignore_index=True)
@@ -27,8 +26,7 @@ class Lineage:
         self.parent = self.table["parent"].to_numpy()
         self.generation = self.table["generation"].to_numpy()
         self.birth_time = self.table["birth_time"].to_numpy()
-        self.type = (self.table["type"].to_numpy() if "type" in self.table
-                     else None)
+        self.type = (self.table["type"].to_numpy() if "type" in self.table else None)
 
         self.death_time = self._times_of("death", events)
         self.removal_time = self._times_of("removal", events)
@@ -37,8 +35,7 @@ class Lineage:
         times = np.full(len(self), np.inf)
         if events is not None:
             # a run that goes on may have events of cells to come
-            rows = events[(events["event"] == event)
-                          & (events["id"] < len(self))]
+            rows = events[(events["event"] == event) & (events["id"] < len(self))]
             times[rows["id"]] = rows["time"]
         return times
 
@@ -60,8 +57,7 @@ class Lineage:
 
     @cached_property
     def end_time(self):
-        """When every cell divided or died, days; infinity for those that
-        have not."""
+        """When every cell divided or died, days; infinity for those that have not."""
         end = self.death_time.copy()
         later = self.parent >= 0
         end[self.parent[later]] = self.birth_time[later]
@@ -69,8 +65,7 @@ class Lineage:
 
     @property
     def living(self):
-        """Ids of the cells that have neither divided nor died until the end of
-        the run."""
+        """Ids of the cells that have neither divided nor died until the end of the run."""
         return np.flatnonzero(np.isinf(self.end_time))
 
     def clone(self, cell):
@@ -93,17 +88,15 @@ class Lineage:
     @cached_property
     def clone_sizes(self):
         """Living cells of every founder (founders)."""
-        return np.bincount(self.founder[self.living],
-                           minlength=self.founders)
+        return np.bincount(self.founder[self.living], minlength=self.founders)
 
     @cached_property
     def clones(self):
         """A data frame, a row a founder: cells that ever lived, and those alive
         at the end of the run."""
         import pandas
-        return pandas.DataFrame({
-            "cells": np.bincount(self.founder, minlength=self.founders),
-            "alive": self.clone_sizes}).rename_axis("founder")
+        return pandas.DataFrame({"cells": np.bincount(self.founder, minlength=self.founders),
+                                 "alive": self.clone_sizes}).rename_axis("founder")
 
     def tree(self, cell):
         """A cell's descendants as dictionaries of dictionaries: of each daughter
@@ -130,11 +123,9 @@ class Lineage:
             stop = min(self.end_time[member], end)
             colour = f"C{self.generation[member] % 10}"
             axes.plot([self.birth_time[member], stop], [row, row], colour)
-            daughters = [rows[other] for other in rows
-                         if self.parent[other] == member]
+            daughters = [rows[other] for other in rows if self.parent[other] == member]
             if daughters:
-                axes.plot([stop, stop], [min(daughters), max(daughters)],
-                          colour)
+                axes.plot([stop, stop], [min(daughters), max(daughters)], colour)
         axes.set(xlabel="time, day", yticks=[], title=f"cell {cell}")
         return axes
 

@@ -25,9 +25,8 @@ def main():
             os.write(2, f"{command[0]}: {error}\n".encode())
             os._exit(127)
     _, status, usage = os.wait4(child, 0)
-    result = {"exit": os.waitstatus_to_exitcode(status),
-              "process_seconds": time.monotonic() - start,
-              "peak_bytes": usage.ru_maxrss * 1024}
+    result = {"exit": os.waitstatus_to_exitcode(status), "process_seconds": time.monotonic()
+              - start, "peak_bytes": usage.ru_maxrss * 1024}
     with open(record, "w", encoding="utf-8") as stream:
         json.dump(result, stream)
 

@@ -14,8 +14,7 @@ def _program():
     if not INSTALLED:
         return ROOT / "build/morula"
     beside = ROOT.parent / "bin/morula"
-    return beside if beside.is_file() else Path(
-        shutil.which("morula") or "morula")
+    return beside if beside.is_file() else Path(shutil.which("morula") or "morula")
 
 
 MORULA = _program()

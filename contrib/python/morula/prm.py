@@ -24,8 +24,7 @@ def parse(text, folder=Path("."), sections=(), depth=0):
         elif word == "include" and depth < MAX_INCLUDES:
             file = Path(rest) if Path(rest).exists() else folder / rest
             if file.is_file():
-                keys.update(parse(file.read_text(), file.parent, sections,
-                                  depth + 1))
+                keys.update(parse(file.read_text(), file.parent, sections, depth + 1))
     return keys
 
 

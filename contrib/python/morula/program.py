@@ -33,8 +33,7 @@ class Program:
         """Tells this build of the program from every other one, now: somebody
         may build it anew while runs go on."""
         about = self.executable.stat()
-        return _digest(self.executable, about.st_ino, about.st_size,
-                       about.st_mtime_ns)
+        return _digest(self.executable, about.st_ino, about.st_size, about.st_mtime_ns)
 
     @functools.cached_property
     def keys(self):
@@ -47,8 +46,7 @@ class Program:
         return {key.path: key.default for key in self.keys}
 
     def keys_with(self, scene, overrides=()):
-        """The same, and those of the types, fields and obstacles that a scene
-        names."""
+        """The same, and those of the types, fields and obstacles that a scene names."""
         return read_keys(self._run("--parameters=json", scene,
                                    *execute.overrides(overrides)).stdout)
 
@@ -63,8 +61,7 @@ class Program:
 
     def command(self, scene, overrides, ranks=1):
         """The words of a run with these (key, value) overrides."""
-        return execute.command(self.executable, scene,
-                               *execute.overrides(overrides), ranks=ranks,
+        return execute.command(self.executable, scene, *execute.overrides(overrides), ranks=ranks,
                                mpiexec=self.mpiexec)
 
     def explain(self, scene, overrides=(), server=None):
@@ -78,15 +75,13 @@ class Program:
         if result.code != 0:
             shown = ", ".join(f"{key}={value}" for key, value in overrides)
             message = result.stderr.strip().removeprefix("morula: ")
-            raise Refused("The scene", f"{scene}"
-                          + (f" with {shown}" if shown else ""),
+            raise Refused("The scene", f"{scene}" + (f" with {shown}" if shown else ""),
                           "what Morula accepts", f"It says: {message}")
         return json.loads(result.stdout)
 
     def _run(self, *arguments):
         result = execute.call([self.executable, *arguments])
         if result.code != 0:
-            raise Refused("--morula", self.executable,
-                          "Morula's executable, but this one fails",
+            raise Refused("--morula", self.executable, "Morula's executable, but this one fails",
                           result.stderr.strip())
         return result

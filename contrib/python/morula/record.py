@@ -19,9 +19,8 @@ class Record:
         self.identity, self.overrides, self.repeats = None, (), []
 
     def load(self, identity):
-        """Takes over what a former run has left, even if it was interrupted;
-        false if there is none, or if it was one of another program or
-        scene."""
+        """Takes over what a former run has left, even if it was interrupted; false if there is
+        none, or if it was one of another program or scene."""
         try:
             stored = json.loads(self.file.read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -43,17 +42,15 @@ class Record:
     def resumable(self):
         """Whether an execution that did not end has left a snapshot. The
         program replaces it as a whole."""
-        return ((self.killed or not self.repeats)
-                and (self.output / "snapshot.h5").is_file())
+        return ((self.killed or not self.repeats) and (self.output / "snapshot.h5").is_file())
 
     def resume(self):
         """The execution that did not end goes on."""
         self.repeats = []
 
     def add(self, cost, ranks, jobs, keep):
-        """One more execution, with what launcher.py says of it. The row times
-        are kept for each, because the files are those of the last one; of
-        these, what is not in `keep` goes."""
+        """One more execution, with what launcher.py says of it. The row times are kept for each,
+        because the files are those of the last one; of these, what is not in `keep` goes."""
         cost.update(ranks=ranks, jobs=jobs)
         if cost["exit"] == 0:
             cost["row_seconds"] = self._computing_seconds()
@@ -66,15 +63,13 @@ class Record:
         self._store()
 
     def _store(self):
-        stored = {"identity": self.identity, "overrides": self.overrides,
-                  "repeats": self.repeats}
+        stored = {"identity": self.identity, "overrides": self.overrides, "repeats": self.repeats}
         write(self.file, json.dumps(stored, indent=1))
 
     def _computing_seconds(self):
-        """Wall time from the start to each row of statistics.csv, less the
-        writing of cells and surface before it, which takes about equally long
-        each time. On a busy machine one file can take far longer than the
-        others: a tenth of the wall time is left at least."""
+        """Wall time from the start to each row of statistics.csv, less the writing of cells and
+        surface before it, which takes about equally long each time. On a busy machine one file can
+        take far longer than the others: a tenth of the wall time is left at least."""
         run = self.run
         spent = run.timings["wall_seconds"].get("output", 0.0)
         return [float(max(seconds - spent * sum(run.times < time)
@@ -112,8 +107,7 @@ class Record:
 
     @property
     def process_seconds(self):
-        """Least wall time of the whole process, start and end of MPI, output
-        and all, seconds."""
+        """Least wall time of the whole process, start and end of MPI, output and all, seconds."""
         return min(repeat["process_seconds"] for repeat in self.repeats)
 
     @property
@@ -124,18 +118,15 @@ class Record:
     def summary(self):
         if self.finished:
             resumed = any(r.get("resumed") for r in self.repeats)
-            return (f"{self.process_seconds:.1f} s"
-                    + (" since it was resumed" if resumed else ""))
+            return (f"{self.process_seconds:.1f} s" + (" since it was resumed" if resumed else ""))
         if not self.repeats:
             return "interrupted"
-        return (f"failed with exit code {self.repeats[-1]['exit']}: "
-                f"{self.last_words()}")
+        return (f"failed with exit code {self.repeats[-1]['exit']}: " f"{self.last_words()}")
 
     def last_words(self):
         """The last line that a failed run wrote to stderr."""
         file = self.directory / "stderr"
-        lines = file.read_text(errors="replace").split("\n") if (
-            file.is_file()) else []
+        lines = file.read_text(errors="replace").split("\n") if (file.is_file()) else []
         words = [line.strip() for line in lines if line.strip()]
         own = [line for line in words if line.startswith("morula")]
         return (own or words or ["it said nothing"])[-1]

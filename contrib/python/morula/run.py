@@ -33,8 +33,7 @@ from .refusal import Refused
 ESSENTIAL = ("parameters.prm", "statistics.csv")
 
 # Written as numbers, and whole ones.
-WHOLE = ("id", "parent", "generation", "phase", "type", "condition",
-         "held_at_checkpoint")
+WHOLE = ("id", "parent", "generation", "phase", "type", "condition", "held_at_checkpoint")
 
 # Two times are equal if they agree to this, relative to the larger of them
 # and a day.
@@ -74,8 +73,7 @@ def row_at(statistics, time):
 
 
 def time_of(file):
-    """The time of a CSV file of cells or surface, or None if nothing is in
-    it."""
+    """The time of a CSV file of cells or surface, or None if nothing is in it."""
     with file.open(encoding="utf-8") as stream:
         stream.readline()
         first = stream.readline()
@@ -90,8 +88,7 @@ def states(directory, name):
         found = [(float(node.get("timestep")), directory / node.get("file"))
                  for node in ElementTree.parse(collection).iter("DataSet")]
     else:
-        found = [(time_of(file), file)
-                 for file in directory.glob(f"{name}-[0-9]*.csv")]
+        found = [(time_of(file), file) for file in directory.glob(f"{name}-[0-9]*.csv")]
         found = [state for state in found if state[0] is not None]
     if not found:
         raise NoStates(f"{directory} has no {name}.pvd and no {name}-*.csv; "
@@ -119,8 +116,7 @@ def _read_vtu(file):
     """VTK takes a second to load, and CSV files do without. (meshio would be
     quicker, but reads no PVTU files, those of several ranks.)"""
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader,
-                                     vtkXMLUnstructuredGridReader)
+    from vtkmodules.vtkIOXML import (vtkXMLPUnstructuredGridReader, vtkXMLUnstructuredGridReader)
     reader = (vtkXMLPUnstructuredGridReader if file.suffix == ".pvtu" else
               vtkXMLUnstructuredGridReader)()
     reader.SetFileName(str(file))
@@ -137,15 +133,13 @@ def _read_vtu(file):
     for i in range(data.GetNumberOfArrays()):
         name, values = data.GetArrayName(i), vtk_to_numpy(data.GetArray(i))
         parts = COMPONENTS.get(name, [f"{name}_{axis}" for axis in "xyz"])
-        found |= ({name: values} if values.ndim == 1 else
-                  dict(zip(parts, values.T)))
+        found |= ({name: values} if values.ndim == 1 else dict(zip(parts, values.T)))
     return found
 
 
 class Run:
-    """The output directory of a run. Everything is read on demand and kept,
-    but of cells and surface only the state read last. Throws Refused if the
-    directory is none of a run."""
+    """The output directory of a run. Everything is read on demand and kept, but of cells and
+    surface only the state read last. Throws Refused if the directory is none of a run."""
 
     def __init__(self, directory):
         self.directory = Path(directory)
@@ -159,8 +153,7 @@ class Run:
     @cached_property
     def keys(self):
         """All keys as used, as text, by full path ("Grid/Spacing")."""
-        return parse((self.directory / "parameters.prm").read_text(
-            encoding="utf-8"))
+        return parse((self.directory / "parameters.prm").read_text(encoding="utf-8"))
 
     def number(self, key):
         """The value of a key that is a number."""
@@ -208,25 +201,22 @@ class Run:
 
     @cached_property
     def field_names(self):
-        """Names of the fields: each is a column of the cells. None in a scene
-        without fields."""
+        """Names of the fields: each is a column of the cells. None in a scene without fields."""
         return names_in(self.keys, "Fields")
 
     @cached_property
     def events(self):
-        """events.csv: every change of a cell's type, its death and its removal,
-        in order of time, day: time, id, event ("transition", "death",
-        "removal"), from, to (names of types), and cause of a death ("rate",
-        "when") where cells die. Types that daughters get when they are born
-        stand in the lineage. Empty in a scene without types or death."""
+        """events.csv: every change of a cell's type, its death and its removal, in order of time,
+        day: time, id, event ("transition", "death", "removal"), from, to (names of types), and
+        cause of a death ("rate", "when") where cells die. Types that daughters get when they are
+        born stand in the lineage. Empty in a scene without types or death."""
         return read_events(self.directory / "events.csv", self.type_names)
 
     @cached_property
     def forces(self):
-        """forces.csv: at each output from the first step on a row for each
-        condition, obstacle, lumen and force on the cells; forces in
-        kPa um^(dim-1), moments in kPa um^dim. Empty in a scene without
-        conditions on the surface."""
+        """forces.csv: at each output from the first step on a row for each condition, obstacle,
+        lumen and force on the cells; forces in kPa um^(dim-1), moments in kPa um^dim. Empty in a
+        scene without conditions on the surface."""
         import pandas
         file = self.directory / "forces.csv"
         return pandas.read_csv(file) if file.is_file() else pandas.DataFrame()
@@ -237,10 +227,8 @@ class Run:
         if self.lineage.type is None:
             return []
         self.lineage.require(cell)
-        changes = self.events[(self.events["id"] == cell)
-                              & (self.events["event"] == "transition")]
-        return [(float(self.lineage.birth_time[cell]),
-                 self.type_names[self.lineage.type[cell]]),
+        changes = self.events[(self.events["id"] == cell) & (self.events["event"] == "transition")]
+        return [(float(self.lineage.birth_time[cell]), self.type_names[self.lineage.type[cell]]),
                 *zip(changes["time"], changes["to"])]
 
     def clone(self, cell):
@@ -249,19 +237,16 @@ class Run:
 
     @cached_property
     def times(self):
-        """When cells and surface were written, days; none with Formats =
-        none."""
+        """When cells and surface were written, days; none with Formats = none."""
         try:
-            return np.array([time for time, _ in states(self.directory,
-                                                        "cells")])
+            return np.array([time for time, _ in states(self.directory, "cells")])
         except NoStates:
             return np.array([])
 
     def cells(self, i):
-        """State i of `times` (-1: the last), in order of the ids; lengths in
-        um, stresses in kPa. From VTU files columns are single precision (ids
-        and other whole numbers are exact) and more: pressure, principal
-        stresses, displacement. Throws NoStates."""
+        """State i of `times` (-1: the last), in order of the ids; lengths in um, stresses in kPa.
+        From VTU files columns are single precision (ids and other whole numbers are exact) and
+        more: pressure, principal stresses, displacement. Throws NoStates."""
         return self._read("cells", i)
 
     def surface(self, i):

@@ -14,14 +14,12 @@ class Scene:
         self.path = Path(path)
         self.program = program
         if not self.path.is_file():
-            raise Refused("The scene", path, "a .prm file that can be read",
-                          "Correct its name.")
+            raise Refused("The scene", path, "a .prm file that can be read", "Correct its name.")
         self.overrides = tuple(read_override(text) for text in overrides)
         self.explained = program.explain(self.path, self.overrides)
         self.known = program.keys_with(self.path, self.overrides)
         self.keys = {**self.explained["keys"],
-                     "Output directory": dict(self.overrides).get(
-                         "Output directory", "")}
+                     "Output directory": dict(self.overrides).get("Output directory", "")}
 
     @property
     def name(self):
@@ -52,8 +50,7 @@ class Scene:
 def read_override(text):
     key, equals, value = text.partition("=")
     if not equals:
-        raise Refused("-s", text, '"Section/Key=value"',
-                      "Put '=' between the key and its value.")
+        raise Refused("-s", text, '"Section/Key=value"', "Put '=' between the key and its value.")
     return clean_path(key), value.strip()
 
 
@@ -62,8 +59,7 @@ def clean_path(key):
 
 
 def normal(value):
-    """A value so written that equal values are equal: '50.0' as '50', lists
-    number by number."""
+    """A value so written that equal values are equal: '50.0' as '50', lists number by number."""
     words = [word.strip() for word in value.split(",")]
     try:
         return ",".join(format(float(word), ".15g") for word in words)

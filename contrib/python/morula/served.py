@@ -2,9 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """A process of the program that does runs in forks of itself: `morula --serve`.
 
-A start of the program takes half a second, most of it the linking of two hundred
-libraries; a fork has them already.
-"""
+A start of the program takes half a second, most of it the linking of two hundred libraries; a fork
+has them already."""
 import os
 import subprocess
 import tempfile
@@ -32,10 +31,9 @@ class Server:
     the descriptors pass_fds. To be closed, as a context or by close()."""
 
     def __init__(self, executable, pass_fds=()):
-        self._process = subprocess.Popen(
-            [str(executable), "--serve"], stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE, env={**environment(), **AT_ONCE},
-            start_new_session=True, pass_fds=pass_fds)
+        self._process = subprocess.Popen([str(executable), "--serve"], stdin=subprocess.PIPE,
+                                         stdout=subprocess.PIPE, env={**environment(), **AT_ONCE},
+                                         start_new_session=True, pass_fds=pass_fds)
         self._guard = threading.Lock()
 
     def __enter__(self):
@@ -50,22 +48,19 @@ class Server:
         self._process.stdout.close()
         self._process.wait()
 
-    def call(self, words, *, cwd=None, stdout=None, stderr=None, cost=None,
-             begun=lambda run: None):
+    def call(self, words, *, cwd=None, stdout=None, stderr=None, cost=None, begun=lambda run: None):
         """Runs a command line (its first word is the program's name) and returns
         execute.Ended. stdout, stderr: files; without them what it said is
         returned. cost: file for what it cost. `begun` is told of the fork."""
         with self._guard, tempfile.TemporaryDirectory() as scratch:
-            files = [Path(stdout or f"{scratch}/out"),
-                     Path(stderr or f"{scratch}/err")]
+            files = [Path(stdout or f"{scratch}/out"), Path(stderr or f"{scratch}/err")]
             for file in files:
                 file.write_bytes(b"")
             places = [cwd or os.getcwd(), *files, cost or ""]
             request = [os.path.abspath(place) if place else ""
                        for place in places] + list(words[1:])
-            self._process.stdin.write(b"".join(
-                os.fsencode(str(word)) + b"\0"
-                for word in [len(request), *request]))
+            self._process.stdin.write(b"".join(os.fsencode(str(word)) + b"\0" for word
+                                               in [len(request), *request]))
             self._process.stdin.flush()
             first = self._process.stdout.readline()
             if not first:

@@ -8,13 +8,11 @@ import matplotlib.pyplot as plt  # noqa: E402,F401 (after the backend)
 from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 # Colours that people who see few colours can tell apart (Okabe & Ito 2008).
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
-           "#8B4513", "#444444")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8B4513", "#444444")
 MARKERS = "osD^vP<>"
-RC = {"font.family": "sans-serif", "font.size": 9, "axes.titlesize": 9,
-      "axes.spines.top": False, "axes.spines.right": False,
-      "axes.linewidth": 0.8, "legend.frameon": False, "savefig.dpi": 120,
-      "figure.facecolor": "white"}
+RC = {"font.family": "sans-serif", "font.size": 9, "axes.titlesize": 9, "axes.spines.top": False,
+      "axes.spines.right": False, "axes.linewidth": 0.8, "legend.frameon": False,
+      "savefig.dpi": 120, "figure.facecolor": "white"}
 
 
 def colour(number):

@@ -2,9 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """Draws panels from runs that are there: python3 -m reproduction.draw DIR PANEL...
 
-Needs a display; contrib/reproduce provides one. A panel that cannot be drawn does not
-keep the others from it; the exit code is 1 then.
-"""
+Needs a display; contrib/reproduce provides one. A panel that cannot be drawn does not keep the
+others from it; the exit code is 1 then."""
 import sys
 import traceback
 from pathlib import Path

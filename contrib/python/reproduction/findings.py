@@ -65,9 +65,8 @@ def large_cells_above(runs):
     limit = 2 * run.number("Tissue/Cell spacing")**3
     low, high = (int((half["volume"] > limit).sum()) for half in halves(run))
     above = high / max(1, low + high)
-    return above > 0.99, (
-        f"{100 * above:.1f} % of the {low + high:,} cells of more than twice a founder's "
-        "initial volume are above the clamp's edge")
+    return above > 0.99, (f"{100 * above:.1f} % of the {low + high:,} cells of more than twice a "
+                          "founder's initial volume are above the clamp's edge")
 
 
 def suppressed_below(runs):
@@ -119,9 +118,8 @@ def slower(runs):
 
 
 def at_equal_number(runs, column, sign, scale, unit, form):
-    """Whether a column, at equal numbers of cells, increases with J_th (sign 1; -1:
-    decreases) for each pair of neighbours, and its values at the largest number that
-    all reach."""
+    """Whether a column, at equal numbers of cells, increases with J_th (sign 1; -1: decreases) for
+    each pair of neighbours, and its values at the largest number that all reach."""
     series = [five_days(runs[scene]) for scene in CHECKPOINTS]
     founders = series[0]["cells"].iloc[0]
     ordered = True
@@ -132,9 +130,8 @@ def at_equal_number(runs, column, sign, scale, unit, form):
         ordered &= bool((sign * (after - before) > 0).all())
     common = min(rows["cells"].iloc[-1] for rows in series)
     values = [scale * np.interp(common, rows["cells"], rows[column]) for rows in series]
-    return ordered, (
-        f"for every N_p above {FROM_RATIO:g} times the founders; at N_p = {common:,.0f} in "
-        f"{unit}: " + by_checkpoint(runs, values, form))
+    return ordered, (f"for every N_p above {FROM_RATIO:g} times the founders; at N_p = "
+                     f"{common:,.0f} in {unit}: " + by_checkpoint(runs, values, form))
 
 
 def larger_volume(runs):

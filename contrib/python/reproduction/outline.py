@@ -27,16 +27,14 @@ def surface_of(run, state):
 
 
 def profile(run, state, points=800):
-    """The outline (n, 2) of r and z of a body of revolution, from bottom to top: the
-    mean over the azimuth as a function of the initial polar angle.
+    """The outline (n, 2) of r and z of a body of revolution, from bottom to top: the mean over the
+    azimuth as a function of the initial polar angle.
 
-    Each initial latitude holds one boundary point, so that a local line through its
-    neighbours, weighted by (1 - d³)³ of their angular distance, gives the mean; held
-    and free points are not mixed.
-    """
+    Each initial latitude holds one boundary point, so that a local line through its neighbours,
+    weighted by (1 - d³)³ of their angular distance, gives the mean; held and free points are not
+    mixed."""
     _, angle, moved, free = surface_of(run, state)
-    parts = [smooth(angle[part], moved[part], points // 2)
-             for part in (~free, free) if part.any()]
+    parts = [smooth(angle[part], moved[part], points // 2) for part in (~free, free) if part.any()]
     line = np.concatenate(parts)
     # The last points are half a patch away from the axis.
     return np.concatenate([[[0, line[0, 1]]], line, [[0, line[-1, 1]]]])

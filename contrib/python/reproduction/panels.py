@@ -204,9 +204,8 @@ def video(scene, cut, runs):
         yield layout.picture_grid("", {"": row}, [time_and_cells(run, state), ""], camera, 200)
 
 
-NUMBER, VOLUME, MEAN_ENERGY = (
-    "Number of cells $N_p$", "Total volume $V_{tot}$ [10⁶ µm³]",
-    "Mean energy density $\\Psi_{ave}$ [kPa]")
+NUMBER, VOLUME, MEAN_ENERGY = ("Number of cells $N_p$", "Total volume $V_{tot}$ [10⁶ µm³]",
+                               "Mean energy density $\\Psi_{ave}$ [kPa]")
 CUBE_FIELDS = {"Generation": GENERATION, "Cell volume $V_p$": ("volume", (300.0, 2200.0)),
                "Energy density $\\Psi_p$": ENERGY}
 SPHERE_FIELDS = {label: ("volume", (200.0, 2400.0), cut)

@@ -67,5 +67,4 @@ class Runs(dict):
             return all((self.directory / scene / file).is_file()
                        for file in ("snapshot.h5", *ESSENTIAL))
 
-        return [scene for scene in scenes
-                if not is_there(scene) or not self[scene].has_ended]
+        return [scene for scene in scenes if not is_there(scene) or not self[scene].has_ended]

@@ -42,8 +42,7 @@ class Camera:
         cells = Spheres(states(run.directory, "cells")[state][1])
         values = cells.columns[field]
         colours = colours_of(field, values, limits)
-        kept = (behind_cut(cells.positions, turn=0) if cut else
-                np.ones(len(values), dtype=bool))
+        kept = (behind_cut(cells.positions, turn=0) if cut else np.ones(len(values), dtype=bool))
         return cells.picture(colours.of(values), kept, self.view,
                              self.view.pixels(self.width)), colours
 

@@ -2,11 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """Growth of the number of cells, from the cell cycle alone.
 
-A cell waits W ~ Exp(Λ) in G0, divides half a cycle of T after its onset of S, and its
-daughters wait anew half a cycle later. Far from the start the number of cells grows
-as e^{rt} with 2 E[e^{-r (W + T)}] = 1 (the renewal equation). Here T = 1 day and
-Λ = 1/day, as in Fig. 3.
-"""
+A cell waits W ~ Exp(Λ) in G0, divides half a cycle of T after its onset of S, and its daughters
+wait anew half a cycle later. Far from the start the number of cells grows as e^{rt} with 2 E[e^{-r
+(W + T)}] = 1 (the renewal equation). Here T = 1 day and Λ = 1/day, as in Fig. 3."""
 import math
 
 import numpy as np
@@ -25,9 +23,8 @@ def rate(step=0.0):
 
 
 def expected_cells(step, end, founders=1.0):
-    """Times (days) and expected numbers of cells if all founders begin to wait at
-    t = 0 and waits end at step ends; a tiny step gives the exact numbers. The step
-    divides half a day."""
+    """Times (days) and expected numbers of cells if all founders begin to wait at t = 0 and waits
+    end at step ends; a tiny step gives the exact numbers. The step divides half a day."""
     cycle = round(1 / step)
     leaving = 1 - math.exp(-step)
     waiting = founders

@@ -23,9 +23,8 @@ def run_scenes(scenes, options, program, folder):
         log.parent.mkdir(parents=True, exist_ok=True)
         keys = [("Output directory", options.output / scene)]
         keys += [text.split("=", 1) for text in options.overrides]
-        ended = processes.call(
-            command(program, folder / f"{file}.prm", word, *overrides(keys)),
-            stdout=log, stderr=subprocess.STDOUT)
+        ended = processes.call(command(program, folder / f"{file}.prm", word, *overrides(keys)),
+                               stdout=log, stderr=subprocess.STDOUT)
         if ended is None or ended.code == 0:
             return None
         lines = log.read_text().strip().splitlines()[-6:]

@@ -38,8 +38,7 @@ def grids(runs):
     theta = runs["fig-2e"].stretch(-1)
     fine = outline.profile(runs["fig-2e"], -1)
     elements = outline.finite_element_outline(theta)
-    rows = [grid_row(runs[scene], fine if scene != "fig-2e" else None, elements)
-            for scene in GRIDS]
+    rows = [grid_row(runs[scene], fine if scene != "fig-2e" else None, elements) for scene in GRIDS]
     values = outline.finite_element_values(theta)
     if values is not None:
         rows.append(["FE", *["–"] * 6, *last_values(values, "apex")])

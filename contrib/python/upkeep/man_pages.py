@@ -14,15 +14,14 @@ from pathlib import Path
 from . import ROOT, said
 
 # What a page says behind the name.
-SUMMARIES = {
-    "morula": "grow and deform tissue of continuum-based cell particles",
-    "morula-accuracy": "errors of a scene against what they cost",
-    "morula-cell-shapes": "the cells of a run as polyhedra, for ParaView",
-    "morula-export": "a run for other programs: tracks, tables, label images",
-    "morula-import": "a scene of a label image or a tracker's table",
-    "morula-render": "pictures and films of a run's cells",
-    "morula-report": "one HTML page about a run",
-    "morula-sweep": "many runs of a scene, with their mean and scatter"}
+SUMMARIES = {"morula": "grow and deform tissue of continuum-based cell particles",
+             "morula-accuracy": "errors of a scene against what they cost",
+             "morula-cell-shapes": "the cells of a run as polyhedra, for ParaView",
+             "morula-export": "a run for other programs: tracks, tables, label images",
+             "morula-import": "a scene of a label image or a tracker's table",
+             "morula-render": "pictures and films of a run's cells",
+             "morula-report": "one HTML page about a run",
+             "morula-sweep": "many runs of a scene, with their mean and scatter"}
 COMMAND = re.compile(r"^  +morula-(?:.*\\\n)*.*\n", re.M)
 ADDED = """[examples]
 .nf
@@ -81,5 +80,4 @@ def main():
     parser.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
     options = parser.parse_args()
     for name in SUMMARIES:
-        (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula),
-                                                encoding="utf-8")
+        (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula), encoding="utf-8")

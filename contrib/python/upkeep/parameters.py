@@ -19,9 +19,8 @@ from . import ROOT
 PAGE = ROOT / "doc/parameters.md"
 
 # Sections that exist where a scene names something, each with one name.
-SCENE = "".join(f"subsection {section}\n  set Names = {names}\nend\n"
-                for section, names in (("Cell types", "NAME, OTHER"),
-                                       ("Fields", "name"), ("Obstacles", "name")))
+SCENE = "".join(f"subsection {section}\n  set Names = {names}\nend\n" for section, names
+                in (("Cell types", "NAME, OTHER"), ("Fields", "name"), ("Obstacles", "name")))
 
 # Keys that a type of cells has because all cells have them.
 OF_TYPE = "For cells of this type; empty: as for all"
@@ -47,14 +46,12 @@ def row(path, key):
 def sections(keys):
     rows = {}
     for key in keys:
-        if not key.path.startswith("Cell types/OTHER/") and not (
-                key.meaning.startswith(OF_TYPE)):
+        if not key.path.startswith("Cell types/OTHER/") and not (key.meaning.startswith(OF_TYPE)):
             path = key.path.replace("/name/", "/NAME/")
             rows.setdefault(path.rpartition("/")[0], []).append(row(path, key))
     header = ["key", "default", "unit", "allowed", "meaning"]
-    return "".join(f"\n## {section or 'Outside all subsections'}\n\n"
-                   f"{markdown(header, table)}\n" for section, table in rows.items()
-                   ).replace("<", "&lt;")
+    return "".join(f"\n## {section or 'Outside all subsections'}\n\n{markdown(header, table)}\n"
+                   for section, table in rows.items()).replace("<", "&lt;")
 
 
 def main():

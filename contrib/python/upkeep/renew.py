@@ -35,8 +35,7 @@ def deeper(text, level):
 
 
 def paper():
-    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula",
-                       "build/morula"), 3)
+    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula", "build/morula"), 3)
 
 
 def ladders():
@@ -56,9 +55,8 @@ def cases(kind, title):
     """What the cases below tests/KIND write at full length, whether limits are met or not."""
     tables = OUTPUT / kind
     shutil.rmtree(tables, ignore_errors=True)
-    subprocess.run(
-        ["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
-         f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
+    subprocess.run(["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
+                    f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
     found = sorted(tables.glob("*.md"))
     if not found:
         raise RuntimeError(f"pytest has written no tables of tests/{kind}")

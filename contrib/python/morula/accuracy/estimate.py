@@ -48,12 +48,10 @@ class Estimate:
         """The point whose value stands for the right one where no ladder tells a
         limit, so that its own error is not known; or None."""
         rounding = ROUNDING * max(abs(self.right), 1e-300)
-        extrapolated = any(len(part.limit.weights) > 1 for part in self.parts
-                           if part.used)
+        extrapolated = any(len(part.limit.weights) > 1 for part in self.parts if part.used)
         if self.from_file or extrapolated or self.uncertainty <= rounding:
             return None
-        return next((point for point, error in self.errors.items()
-                     if abs(error) <= rounding), None)
+        return next((point for point, error in self.errors.items() if abs(error) <= rounding), None)
 
     @property
     def base(self):
@@ -73,8 +71,7 @@ class Estimate:
             return "reference file"
         if not self.compared_with:
             return "ladders"
-        return ("finest run" if any(part.used for part in self.parts)
-                else "scene's run")
+        return ("finest run" if any(part.used for part in self.parts) else "scene's run")
 
     @property
     def floor(self):
@@ -85,8 +82,7 @@ class Estimate:
     def front(self, costs):
         """The points that no other one beats in cost and error, cheapest first;
         errors that cannot be told from zero count alike."""
-        errors = {point: max(abs(error), self.floor)
-                  for point, error in self.errors.items()}
+        errors = {point: max(abs(error), self.floor) for point, error in self.errors.items()}
         best, front = math.inf, []
         for point in sorted(errors, key=lambda p: (costs[p], errors[p])):
             if errors[point] < best:
@@ -101,8 +97,7 @@ class Estimate:
 
 
 def center_of(plan, kinds):
-    """The point that all lines go through: the scene itself, in a full grid the
-    finest corner."""
+    """The point that all lines go through: the scene itself, in a full grid the finest corner."""
     if not plan.full_grid:
         return plan.own
     values = dict(zip(plan.keys, plan.own))
@@ -113,17 +108,15 @@ def center_of(plan, kinds):
         def coarseness(rung):
             """Sizes first; without one the scene's own value."""
             size = size_of(rung[0], kind, plan.scene.dimension)
-            return (math.inf if size is None else size,
-                    list(map(normal, rung)) != own)
+            return (math.inf if size is None else size, list(map(normal, rung)) != own)
         values.update(zip(ladder.keys, min(ladder.rungs, key=coarseness)))
     return plan.known(tuple(values.values()))
 
 
 def estimate(plan, center, kinds, measure, time, values, reference=None):
-    """From the values {point: array over the seeds} of the points that have run.
-    Without a reference file the right value is the centre's with the changes of
-    all ladders added, each to its own limit; of ladders that vary the same key
-    the first one counts."""
+    """From the values {point: array over the seeds} of the points that have run. Without a
+    reference file the right value is the centre's with the changes of all ladders added, each to
+    its own limit; of ladders that vary the same key the first one counts."""
     parts, counted, changes = [], set(), []
     for ladder in plan.ladders if center in values else []:
         part, limit = _part(plan, ladder, center, kinds, values)
@@ -155,9 +148,8 @@ def _part(plan, ladder, center, kinds, values):
     there = [values.get(point) for point in points]
     kind = kinds.get(ladder.keys[0], "none")
     path = plan.path(ladder, center)
-    sizes = [size_of(plan.value(point, ladder.keys[0]), kind,
-                     plan.scene.dimension) if point in path else None
-             for point in points]
+    sizes = [size_of(plan.value(point, ladder.keys[0]), kind, plan.scene.dimension) if point in path
+             else None for point in points]
     known = [float(v.mean()) for v in there if v is not None]
     part = Part(ladder, limit_of(sizes, there, kind), max(known) - min(known))
     if part.limit is None:

@@ -29,11 +29,9 @@ def figure_of(findings, time):
     ladders = plan.ladders if any(e.parts for e in estimates.values()) else []
     directions = "xyz"[:request.scene.dimension] if scatters else ""
     widths = [4.2] * bool(estimates) + [1.9] * len(ladders) + [2.2] * len(directions)
-    rows = [m for m in request.measures
-            if m in estimates or any(s.measure == m for s in scatters)]
-    figure, panels = plt.subplots(
-        len(rows), len(widths), squeeze=False, width_ratios=widths,
-        figsize=(2.4 + sum(widths), 1.6 + 2.6 * len(rows)))
+    rows = [m for m in request.measures if m in estimates or any(s.measure == m for s in scatters)]
+    figure, panels = plt.subplots(len(rows), len(widths), squeeze=False, width_ratios=widths,
+                                  figsize=(2.4 + sum(widths), 1.6 + 2.6 * len(rows)))
     for measure, axes in zip(rows, panels):
         axes, first = iter(axes), None
         if measure in estimates:
@@ -62,8 +60,7 @@ def cost_panel(axes, findings, found):
     largest = max(*shown, found.floor) or 1.0
     low = 0.4 * max(min(filter(None, shown), default=largest), 1e-5 * largest)
     limits = low, 2.2 * largest
-    heights = {point: max(abs(error), 1.25 * low)
-               for point, error in found.errors.items()}
+    heights = {point: max(abs(error), 1.25 * low) for point, error in found.errors.items()}
     axes.set(xscale="log", yscale="log", ylim=limits, xlim=padded(walls.values()),
              xlabel="wall time [s]", ylabel=f"error of {found.measure.text} "
              f"[{pretty(found.measure.unit) or '1'}]")
@@ -73,31 +70,27 @@ def cost_panel(axes, findings, found):
                  label="cannot be told from zero")
     front = findings.front(found)
     x, y = [walls[point] for point in front], [heights[point] for point in front]
-    axes.plot([x[0], *x, 1e3 * max(walls.values())], [limits[1], *y, y[-1]],
-              drawstyle="steps-post", color="0.75", linewidth=5, zorder=1,
-              label="least time for an error (Pareto front)")
+    axes.plot([x[0], *x, 1e3 * max(walls.values())], [limits[1], *y, y[-1]], drawstyle="steps-post",
+              color="0.75", linewidth=5, zorder=1, label="least time for an error (Pareto front)")
     axes.plot(walls.values(), heights.values(), "o", color="0.6", markersize=3)
     for number, ladder in enumerate(plan.ladders):
         points = [p for p in plan.path(ladder, found.center) if p in walls]
         axes.plot([walls[p] for p in points], [heights[p] for p in points],
                   label=ladder.name, **style(number))
         for point in (p for p in points if p != found.center):
-            axes.annotate(plan.rung_label(ladder, point),
-                          (walls[point], heights[point]), (4, 3), fontsize=6,
-                          textcoords="offset points", color=colour(number))
+            axes.annotate(plan.rung_label(ladder, point), (walls[point], heights[point]), (4, 3),
+                          fontsize=6, textcoords="offset points", color=colour(number))
     if wanted:
         axes.axhline(wanted, color="black", linestyle=DASHED, linewidth=0.9)
-    for point, mark, label in (
-            (found.center, "o", "the run that all ladders share"),
-            (findings.cheapest(found), "*", "fastest that is surely as good")):
+    for point, mark, label in ((found.center, "o", "the run that all ladders share"),
+                               (findings.cheapest(found), "*", "fastest that is surely as good")):
         if point in walls:
             axes.plot(walls[point], heights[point], mark, markersize=11, zorder=5,
                       markerfacecolor="none", color="black", label=label)
 
 
 def style(number):
-    return {"color": colour(number), "marker": marker(number), "markersize": 4,
-            "linewidth": 1.2}
+    return {"color": colour(number), "marker": marker(number), "markersize": 4, "linewidth": 1.2}
 
 
 def ladder_panel(axes, plan, found, number):
@@ -121,12 +114,9 @@ def ladder_panel(axes, plan, found, number):
         axes.axhspan(factor * (part.change - part.uncertainty),
                      factor * (part.change + part.uncertainty),
                      color=colour(number), alpha=0.15, linewidth=0)
-        axes.axhline(factor * part.change, color=colour(number), linewidth=0.9,
-                     linestyle=DASHED)
-    axes.errorbar([a for a, _ in pairs],
-                  [factor * (found.values[p] - center) for _, p in pairs],
-                  [factor * found.noise[p] for _, p in pairs],
-                  capsize=2, **style(number))
+        axes.axhline(factor * part.change, color=colour(number), linewidth=0.9, linestyle=DASHED)
+    axes.errorbar([a for a, _ in pairs], [factor * (found.values[p] - center) for _, p in pairs],
+                  [factor * found.noise[p] for _, p in pairs], capsize=2, **style(number))
     axes.set(xlabel=ladder.name.replace("/", "/\n"), ylabel=f"change [{unit or '1'}]")
 
 
@@ -136,9 +126,8 @@ def offsets_panel(axes, plan, scatters, measure, direction):
     for s in (s for s in scatters if s.measure == measure):
         unit, factor = scale_of(s)
         number = plan.points.index(s.point)
-        axes.plot([sample.moved[direction] for sample in s.samples],
-                  factor * (s.values - s.base), linestyle="none", markersize=4,
-                  marker=marker(number), color=colour(number),
+        axes.plot([sample.moved[direction] for sample in s.samples], factor * (s.values - s.base),
+                  linestyle="none", markersize=4, marker=marker(number), color=colour(number),
                   label=plan.label(s.point))
         axes.set(xlabel=f"grid moved along {'xyz'[direction]} [h]",
                  ylabel=f"{measure.text}, difference [{unit or '1'}]")

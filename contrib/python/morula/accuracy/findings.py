@@ -49,20 +49,16 @@ class Findings:
         self.estimates, self.scatters = [], []
         for time in request.times:
             for measure in request.measures:
-                scatters = [self._scatter(measure, time, point)
-                            for point in self.plan.points]
+                scatters = [self._scatter(measure, time, point) for point in self.plan.points]
                 if request.n_offsets:
                     self.scatters += [s for s in scatters if len(s.values)]
                 values = {s.point: s.values for s in scatters if not s.n_failed}
-                if self.plan.ladders and (center in values
-                                          or values and request.reference):
-                    self.estimates.append(estimate(
-                        self.plan, center, request.kinds, measure, time, values,
-                        request.reference))
+                if self.plan.ladders and (center in values or values and request.reference):
+                    self.estimates.append(estimate(self.plan, center, request.kinds, measure, time,
+                                                   values, request.reference))
 
     def _scatter(self, measure, time, point):
-        finished = {sample: self.records[point, sample]
-                    for sample in self.request.samples
+        finished = {sample: self.records[point, sample] for sample in self.request.samples
                     if self.records[point, sample].finished}
         values = [measure.evaluate(record.run, time, self.request.tissue_center)
                   for record in finished.values()]
@@ -81,10 +77,8 @@ class Findings:
         for record in records:
             statistics = record.run.statistics
             row = row_at(statistics, time)
-            costs.append([record.row_seconds(row),
-                          statistics["unknowns"][:row + 1].max(),
-                          record.peak_bytes / 1e6,
-                          error_in_time(statistics, row)])
+            costs.append([record.row_seconds(row), statistics["unknowns"][:row + 1].max(),
+                          record.peak_bytes / 1e6, error_in_time(statistics, row)])
         return Cost(*numpy.mean(numpy.array(costs, dtype=float), axis=0))
 
     def walls(self, found):
@@ -112,15 +106,13 @@ class Findings:
                 continue
             name, best = f"{found.measure.text} to {wanted.text}", self.cheapest(found)
             if best is not None:
-                yield (f"{name}: {self.plan.label(best)}, "
-                       f"{self.cost(best, found.time).wall:.3g} s")
+                yield (f"{name}: {self.plan.label(best)}, {self.cost(best, found.time).wall:.3g} s")
             elif found.uncertainty > self.wanted(found):
                 yield (f"{name}: cannot be judged, the right value ({found.source}) is "
                        f"only known to {found.uncertainty:.2g} {found.measure.unit}")
             else:
                 nearest = min(found.values, key=found.bound)
-                yield (f"{name}: no run is surely as good; nearest is "
-                       f"{self.plan.label(nearest)}")
+                yield (f"{name}: no run is surely as good; nearest is {self.plan.label(nearest)}")
 
     def warnings(self):
         """What a reader must know before believing the tables."""
@@ -140,9 +132,8 @@ class Findings:
     def summary(self):
         """Scatter, verdicts and warnings, line by line."""
         for s in self.scatters:
-            yield (f"{self.plan.label(s.point)}, day {s.time:g}: "
-                   f"{s.measure.text} = {s.values.mean():.6g} "
-                   f"(from {s.values.min():.6g} to {s.values.max():.6g}, "
+            yield (f"{self.plan.label(s.point)}, day {s.time:g}: {s.measure.text} = "
+                   f"{s.values.mean():.6g} (from {s.values.min():.6g} to {s.values.max():.6g}, "
                    f"standard deviation {s.deviation:.2g}) {s.measure.unit}".rstrip())
         yield from self.verdicts()
         yield from (f"warning: {text}" for text in self.warnings())

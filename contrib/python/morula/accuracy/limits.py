@@ -14,10 +14,9 @@ from scipy.optimize import brentq, minimize_scalar
 # they have on the surface. 'tolerance': the smaller the better, by no law.
 # 'none': no value is the right one, as for every key that is not named here.
 KINDS = ("zero", "large", "tolerance", "none")
-DEFAULT_KINDS = {
-    "Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
-    "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
-    "Solver/Linear tolerance": "tolerance"}
+DEFAULT_KINDS = {"Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
+                 "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
+                 "Solver/Linear tolerance": "tolerance"}
 
 # Observed orders outside this range are no sign of convergence.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 4.5
@@ -37,8 +36,7 @@ def read_kinds(options, scene):
         key, _, kind = (word.strip() for word in text.partition("="))
         scene.require_key(key, "--limit")
         if kind not in KINDS:
-            raise Refused("--limit", text, '"Section/Key=kind" with a kind of '
-                          + ", ".join(KINDS))
+            raise Refused("--limit", text, '"Section/Key=kind" with a kind of ' + ", ".join(KINDS))
         kinds[key] = kind
     return kinds
 
@@ -141,8 +139,7 @@ def observed_order(sizes, values):
     (s1, s2, s3), (q1, q2, q3) = sizes, values
 
     def mismatch(p):
-        return (math.log((s3**p - s2**p) / (s2**p - s1**p))
-                - math.log((q3 - q2) / (q2 - q1)))
+        return (math.log((s3**p - s2**p) / (s2**p - s1**p)) - math.log((q3 - q2) / (q2 - q1)))
 
     if (q3 - q2) * (q2 - q1) <= 0 or mismatch(0.05) >= 0 or mismatch(20.0) <= 0:
         return math.nan
@@ -152,6 +149,5 @@ def observed_order(sizes, values):
 def mean_and_noise(values):
     """Mean over the seeds, and two standard errors of it (0 for one seed)."""
     values = numpy.asarray(values)
-    noise = (2.0 * float(values.std(ddof=1)) / math.sqrt(len(values))
-             if len(values) > 1 else 0.0)
+    noise = (2.0 * float(values.std(ddof=1)) / math.sqrt(len(values)) if len(values) > 1 else 0.0)
     return float(values.mean()), noise

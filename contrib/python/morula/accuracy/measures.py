@@ -11,9 +11,8 @@ from morula.refusal import Refused
 from morula.run import places, row_at
 
 OPTION = "--measure"
-HOW = ("a column of statistics.csv, or 'cells:column', "
-       "'cells:reduction(column)', the same with 'surface:'; reductions are "
-       "mean, min, max, sum, std, median, p0 ... p100 (percentiles)")
+HOW = ("a column of statistics.csv, or 'cells:column', 'cells:reduction(column)', the same with "
+       "'surface:'; reductions are mean, min, max, sum, std, median, p0 ... p100 (percentiles)")
 FORM = re.compile(
     r"(?:(?:(cells|surface):)?(\w+))|(?:(cells|surface):"
     r"(mean|min|max|sum|std|median|p\d\d?|p100)\((\w+)\))")
@@ -63,8 +62,7 @@ def read_measure(word, keys):
     kind = match[1] or match[3] or "statistics"
     column = match[2] or match[5]
     dimension = int(keys["Dimension"])
-    known = (columns.statistics_of(keys) if kind == "statistics"
-             else columns.POINTS[kind])
+    known = (columns.statistics_of(keys) if kind == "statistics" else columns.POINTS[kind])
     known = {name: unit for name, unit in known.items()
              if dimension == 3 or name not in columns.FLAT}
     if column not in known:

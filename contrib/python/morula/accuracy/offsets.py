@@ -55,8 +55,7 @@ def samples(seeds, n_offsets, dimension):
 def fractions(number, dimension):
     """The first points of Sobol's sequence: of 2^k points each direction has the
     positions i/2^k once; a larger number has the points of every smaller one."""
-    points = qmc.Sobol(dimension, scramble=False).random_base2(
-        max(1, math.ceil(math.log2(number))))
+    points = qmc.Sobol(dimension, scramble=False).random_base2(max(1, math.ceil(math.log2(number))))
     return [tuple(map(float, point)) for point in points[:number]]
 
 
@@ -65,5 +64,4 @@ def moved_offset(keys, moved):
     own = [as_number(word) or 0.0 for word in keys[KEY].split(",")]
     own += [0.0] * (len(moved) - len(own))
     spacing = float(keys["Grid/Spacing"])
-    return ",".join(format(there + part * spacing, ".15g")
-                    for there, part in zip(own, moved))
+    return ",".join(format(there + part * spacing, ".15g") for there, part in zip(own, moved))

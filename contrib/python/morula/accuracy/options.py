@@ -23,8 +23,7 @@ doc/accuracy-and-cost.md explains the results.""")
         "some); KEY,KEY=VALUE:VALUE,... changes keys together; 'NAME: KEY=...' "
         "names it in the figures; may be repeated")
     add("--measure", required=True, metavar="LIST",
-        help="columns of statistics.csv, or cells:reduction(column), "
-        "surface:reduction(column)")
+        help="columns of statistics.csv, or cells:reduction(column), surface:reduction(column)")
     add("--at", metavar="DAYS", help="times of the comparison; default: the "
         "scene's end. Runs end at the last of them")
     add("--seeds", metavar="1..8", help="means over these random seeds")

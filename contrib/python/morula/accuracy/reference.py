@@ -21,15 +21,12 @@ class Reference:
         try:
             self.table = read_table(OPTION, file).astype(float)
         except ValueError as error:
-            raise Refused(OPTION, file, "a number in every column",
-                          f"Not so: {error}.") from None
+            raise Refused(OPTION, file, "a number in every column", f"Not so: {error}.") from None
         for definition in definitions:
             self._define(definition)
         errors = self.table.filter(regex="_error$")
-        if (not numpy.isfinite(self.table).all(axis=None)
-                or (errors < 0).any(axis=None)):
-            raise Refused(OPTION, file, "a finite number in every column, and "
-                          "errors >= 0")
+        if (not numpy.isfinite(self.table).all(axis=None) or (errors < 0).any(axis=None)):
+            raise Refused(OPTION, file, "a finite number in every column, and " "errors >= 0")
 
     def _define(self, definition):
         new, _, expression = (word.strip() for word in definition.partition("="))
@@ -43,9 +40,8 @@ class Reference:
         """Refuses a file that does not know what is asked for."""
         for measure in measures:
             if measure.text not in self.table:
-                raise Refused(OPTION, self.file, "a file with the column "
-                              f"'{measure.text}'", "It has "
-                              f"{', '.join(self.table)}; {COLUMN_OPTION} renames.")
+                raise Refused(OPTION, self.file, f"a file with the column '{measure.text}'",
+                              f"It has {', '.join(self.table)}; {COLUMN_OPTION} renames.")
         for time in times:
             self._row(time)
 

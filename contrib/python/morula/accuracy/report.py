@@ -27,18 +27,15 @@ def write_tables(findings, directory):
 def markdown(findings):
     request = findings.request
     sections = [f"# Accuracy of {request.scene.name}",
-                f"    {shlex.join(['contrib/accuracy', *request.options.words])}",
-                how(request)]
+                f"    {shlex.join(['contrib/accuracy', *request.options.words])}", how(request)]
     for time in request.times:
         there = [s for s in findings.scatters if s.time == time]
         estimates = [e for e in findings.estimates if e.time == time]
         if there:
-            sections += [f"## Scatter at day {time:g}",
-                         scatter_table(findings, there)]
+            sections += [f"## Scatter at day {time:g}", scatter_table(findings, there)]
         if estimates:
             sections += [f"## Runs at day {time:g}", run_table(findings, estimates),
-                         f"## Each ladder alone at day {time:g}",
-                         ladder_table(findings, estimates)]
+                         f"## Each ladder alone at day {time:g}", ladder_table(findings, estimates)]
     for title, lines in (("Least time for the wanted error", findings.verdicts()),
                          ("Mind", findings.warnings())):
         text = "\n".join(f"- {line}" for line in lines)
@@ -58,10 +55,8 @@ def table(head, rows):
 
 
 def run_table(findings, estimates):
-    """All runs: what they cost, and their errors; in the order of the
-    ladders."""
-    head = ["run", "wall time, s", "unknowns", "memory, MB",
-            "error in time, own estimate",
+    """All runs: what they cost, and their errors; in the order of the ladders."""
+    head = ["run", "wall time, s", "unknowns", "memory, MB", "error in time, own estimate",
             *(f"{e.measure.text}, error" for e in estimates)]
     rows = []
     for point in findings.plan.points:
@@ -120,8 +115,7 @@ def digits(number, sign):
 def scatter_table(findings, there):
     """Mean, extremes and standard deviation of every measure; with a reference
     file also the errors, from the least to the largest."""
-    head = ["run", "measure", "runs", "mean", "smallest", "largest",
-            "standard deviation"]
+    head = ["run", "measure", "runs", "mean", "smallest", "largest", "standard deviation"]
     if findings.request.reference:
         head += ["error of the mean", "errors, from", "to"]
     rows = []
@@ -150,8 +144,7 @@ def ladder_table(findings, estimates):
     cells["**all that count**"] = lambda e: (
         shown(e, *e.sum_of_parts) if any(part.used for part in e.parts) else "–")
     if first.from_file:
-        cells["the reference file"] = lambda e: shown(
-            e, -e.errors[e.center], e.uncertainty)
+        cells["the reference file"] = lambda e: shown(e, -e.errors[e.center], e.uncertainty)
     if findings.request.sampled:
         cells[f"scatter between {findings.request.sampled} (standard deviation)"] = (
             lambda e: shown(e, e.scatter[e.center], sign=False))
@@ -170,10 +163,9 @@ def part_cell(estimate, part):
 
 def rows_of_errors(findings):
     """A row for each run and quantity, with all digits."""
-    yield [*findings.plan.keys, "time", "measure", "unit", "value", "seed_scatter",
-           "right_value", "right_value_uncertainty", "error", "error_noise",
-           "on_front", "least_time_for_wanted", "wall_seconds", "unknowns",
-           "memory_mb", "right_value_from"]
+    yield [*findings.plan.keys, "time", "measure", "unit", "value", "seed_scatter", "right_value",
+           "right_value_uncertainty", "error", "error_noise", "on_front", "least_time_for_wanted",
+           "wall_seconds", "unknowns", "memory_mb", "right_value_from"]
     for e in findings.estimates:
         front, best = findings.front(e), findings.cheapest(e)
         for point in e.values:
@@ -189,10 +181,8 @@ def rows_of_scatter(findings):
     yield [*findings.plan.keys, "time", "measure", "unit", "runs", "failed",
            "mean", "smallest", "largest", "standard_deviation", "right_value"]
     for s in findings.scatters:
-        yield [*s.point, tens(s.time), s.measure.text, s.measure.unit,
-               len(s.values), s.n_failed, *map(tens, (
-                   s.values.mean(), s.values.min(), s.values.max(), s.deviation,
-                   s.right))]
+        yield [*s.point, tens(s.time), s.measure.text, s.measure.unit, len(s.values), s.n_failed,
+               *map(tens, (s.values.mean(), s.values.min(), s.values.max(), s.deviation, s.right))]
 
 
 def rows_of_runs(findings):

@@ -6,8 +6,7 @@ from fractions import Fraction
 
 import numpy
 from morula.command_line import output_directory, ranks_and_jobs, whole_number
-from morula.ladder import (Plan, check_method, check_seeds, read_ladder,
-                           read_seeds, refuse_keys)
+from morula.ladder import (Plan, check_method, check_seeds, read_ladder, read_seeds, refuse_keys)
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
@@ -56,8 +55,7 @@ class Request:
         if self.reference:
             self.reference.check(self.measures, self.times)
         check_seeds(self.plan, self.seeds, options.seeds, len(self.samples))
-        self.output = output_directory(
-            options, OUTPUT / "accuracy" / self.scene.name)
+        self.output = output_directory(options, OUTPUT / "accuracy" / self.scene.name)
 
     @property
     def sampled(self):
@@ -75,9 +73,8 @@ class Request:
         options = self.options
         if not options.vary and (not options.offsets or options.grid
                                  or options.wanted or options.limit):
-            raise Refused("--vary", "", "at least one ladder (--offsets alone "
-                          "estimates no error)", "For instance "
-                          '--vary "Grid/Spacing=100,75,50".')
+            raise Refused("--vary", "", "at least one ladder (--offsets alone estimates no error)",
+                          "For instance " '--vary "Grid/Spacing=100,75,50".')
         ladders = [read_ladder(text, self.scene) for text in options.vary]
         for ladder in ladders:
             refuse_keys("--vary", ladder.keys, NOT_VARIED,
@@ -115,9 +112,8 @@ class Request:
         for time in times[:-1]:
             ratio = time / step
             if abs(ratio - round(ratio)) > 1e-9 * max(1.0, ratio):
-                raise Refused("--at", self.options.at, "multiples of every "
-                              "Time/Step (and any last time)",
-                              f"Day {time:g} is no end of a step of {step:g}.")
+                raise Refused("--at", self.options.at, "multiples of every Time/Step (and any last "
+                              "time)", f"Day {time:g} is no end of a step of {step:g}.")
 
     def keys_at(self, point):
         """All keys of a point."""
@@ -135,8 +131,7 @@ class Request:
 
 
 def output_interval(times):
-    """The longest interval of outputs that meets all times; the last one is
-    always written."""
+    """The longest interval of outputs that meets all times; the last one is always written."""
     if len(times) == 1:
         return "0"
     exact = [Fraction(time).limit_denominator(10**6) for time in times]

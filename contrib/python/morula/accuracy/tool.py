@@ -16,8 +16,7 @@ say = functools.partial(print, flush=True)
 
 
 def main(words=None):
-    """Exit code 0; 1 for what makes no sense; 2 if nothing could be
-    compared."""
+    """Exit code 0; 1 for what makes no sense; 2 if nothing could be compared."""
     def tool():
         options = parser().parse_args(words)
         options.words = sys.argv[1:] if words is None else words
@@ -28,9 +27,8 @@ def main(words=None):
 def measure(request):
     """Does the runs of a request and writes what they say."""
     options = request.options
-    kept = KeptRuns(request.scene, request.output / "runs", request.ranks,
-                    request.jobs, request.repeats, options.again, say=say,
-                    name="accuracy")
+    kept = KeptRuns(request.scene, request.output / "runs", request.ranks, request.jobs,
+                    request.repeats, options.again, say=say, name="accuracy")
     jobs = {(point, sample): job_of(request, point, sample)
             for point in request.plan.points for sample in request.samples}
     kept.check([jobs[point, request.samples[0]] for point in request.plan.points])
@@ -41,9 +39,8 @@ def measure(request):
     findings = Findings(request, dict(zip(jobs, kept.run(list(jobs.values())))))
     write_tables(findings, request.output)
     if not findings.estimates and not findings.scatters:
-        print("accuracy: nothing to compare, as the run that all ladders share has "
-              "failed: table.md says why. Choose other values for it by -s.",
-              file=sys.stderr)
+        print("accuracy: nothing to compare, as the run that all ladders share has failed: "
+              "table.md says why. Choose other values for it by -s.", file=sys.stderr)
         return 2
     from .figure import draw
     draw(findings, request.output)
@@ -54,8 +51,7 @@ def measure(request):
 
 
 def job_of(request, point, sample):
-    special = [*request.plan.overrides(point),
-               *sample.overrides(request.keys_at(point))]
+    special = [*request.plan.overrides(point), *sample.overrides(request.keys_at(point))]
     overrides = (*request.fixed_overrides(), *special)
     kinds = {m.kind for m in request.measures} - {"statistics"}
     return Job(job_name(special, overrides), overrides, tuple(kinds))

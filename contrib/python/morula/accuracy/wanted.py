@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from morula.refusal import Refused
 
 OPTION = "--wanted"
-FORM = re.compile(r"(?:(.+)=)?\s*([0-9.]+(?:e[-+]?\d+)?)\s*(%|[a-z]\w*(?:\^\d)?|)",
-                  re.IGNORECASE)
+FORM = re.compile(r"(?:(.+)=)?\s*([0-9.]+(?:e[-+]?\d+)?)\s*(%|[a-z]\w*(?:\^\d)?|)", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -30,8 +29,7 @@ def read_wanted(text, measures):
     for word in text.split(",") if text else []:
         match = FORM.fullmatch(word.strip())
         name, number, unit = match.groups() if match else ("", "0", "")
-        fitting = [m for m in measures if name in (None, m.text)
-                   and unit in ("", "%", m.unit)]
+        fitting = [m for m in measures if name in (None, m.text) and unit in ("", "%", m.unit)]
         units = {measure.unit for measure in fitting}
         if number.count(".") > 1 or not float(number) > 0 or not fitting or (
                 not unit and len(units) > 1):

@@ -56,8 +56,7 @@ class Function:
         self.parameters = dict(parameters) if isinstance(
             parameters, Mapping) else {path: path for path in parameters}
         self.measure = measure
-        self.directory = Path(directory or
-                              Path("output") / f"{scene.name}-runs")
+        self.directory = Path(directory or Path("output") / f"{scene.name}-runs")
         self.ranks = ranks
         self._shape: tuple[int, ...] = ()
         self._servers: list[Server] = []
@@ -71,22 +70,17 @@ class Function:
         sequence or mapping of them, or by name."""
         return self.map([self._point(values, named)])[0]
 
-    def map(self, points: Iterable[Any], *, jobs: int = 1,
-            progress: bool = False) -> np.ndarray:
-        """The measures at several points, so many runs at the same time, in
-        their order."""
+    def map(self, points: Iterable[Any], *, jobs: int = 1, progress: bool = False) -> np.ndarray:
+        """The measures at several points, so many runs at the same time, in their order."""
         all_points = [self._point((point,), {}) for point in points]
         if len(all_points) > MAX_RUNS:
-            raise Refused("The number of points", len(all_points),
-                          f"at most {MAX_RUNS} at once")
-        found = [self._measured(record) for record
-                 in self._records(all_points, jobs, progress)]
+            raise Refused("The number of points", len(all_points), f"at most {MAX_RUNS} at once")
+        found = [self._measured(record) for record in self._records(all_points, jobs, progress)]
         shapes = [np.shape(value) for value in found if value is not None]
         if shapes:
             self._shape = shapes[0]
         missing = np.full(self._shape, math.nan)
-        return np.array([missing if value is None else value
-                         for value in found])
+        return np.array([missing if value is None else value for value in found])
 
     def run(self, *values: Any, **named: Any) -> Run:
         """The run at a point. Throws RuntimeError if it failed."""
@@ -101,8 +95,7 @@ class Function:
         elif len(values) == 1 and np.ndim(values[0]) == 1:
             values = tuple(values[0])
         point = {**dict(zip(self.parameters, values)), **named}
-        if (set(point) != set(self.parameters)
-                or len(values) > len(self.parameters)):
+        if (set(point) != set(self.parameters) or len(values) > len(self.parameters)):
             raise Refused("The point", point or values, "a value for each of "
                           + ", ".join(self.parameters))
         return {name: point[name] for name in self.parameters}
@@ -112,10 +105,8 @@ class Function:
         keys: dict[str, Any] = dict(self._keys(**point)) if self._keys else {}
         for name, value in () if self._keys else point.items():
             target = self.parameters[name]
-            keys.update(dict.fromkeys(
-                [target] if isinstance(target, str) else target, value))
-        return {scenes.clean_path(key): _plain(value)
-                for key, value in keys.items()}
+            keys.update(dict.fromkeys([target] if isinstance(target, str) else target, value))
+        return {scenes.clean_path(key): _plain(value) for key, value in keys.items()}
 
     def _records(self, points, jobs, progress):
         """Records of the kept runs at points."""
@@ -123,9 +114,8 @@ class Function:
             return []
         while self.ranks == 1 and len(self._servers) < min(jobs, len(points)):
             self._servers.append(Server(self.scene.program.executable))
-        kept = KeptRuns(self._inner, self.directory / "runs", self.ranks, jobs,
-                        resume=True, say=print if progress else _silent,
-                        servers=self._servers)
+        kept = KeptRuns(self._inner, self.directory / "runs", self.ranks, jobs, resume=True,
+                        say=print if progress else _silent, servers=self._servers)
         wanted = [_job(self._inner, self.keys_at(point)) for point in points]
         unique = {job.name: job for job in wanted}
         found = dict(zip(unique, kept.run(list(unique.values()))))
@@ -138,8 +128,7 @@ class Function:
         scene = self.scene
         file = scene.path or scene.save(self.directory / f"{scene.name}.prm")
         overrides = scene._overrides() if scene.path else ()
-        return scenes.Scene(file, scene.program, [
-            f"{key}={value}" for key, value in overrides])
+        return scenes.Scene(file, scene.program, [f"{key}={value}" for key, value in overrides])
 
     def _measured(self, record):
         if not record.finished:
@@ -162,34 +151,28 @@ def _silent(_: str) -> None:
 
 def _job(inner, keys):
     special = list(keys.items())
-    overrides = (*inner.overrides, *special,
-                 *with_snapshots({**inner.keys, **keys}))
-    return Job(job_name(special, overrides), overrides,
-               ("cells", "surface", "snapshot"))
+    overrides = (*inner.overrides, *special, *with_snapshots({**inner.keys, **keys}))
+    return Job(job_name(special, overrides), overrides, ("cells", "surface", "snapshot"))
 
 
 def map(scene: Scene, samples: "pandas.DataFrame | Iterable[Mapping]",
         measure: Callable[[Run], Mapping[str, Any] | Any], *,
         directory: str | Path | None = None, jobs: int = 1, ranks: int = 1,
         progress: bool = True) -> "pandas.DataFrame":
-    """Runs a scene at samples, a data frame whose columns are paths of keys, and
-    returns it with what was measured besides: measure(run) gives a dictionary of
-    columns, or one number, the column `measure`. Rows whose run fails have nan.
-    Runs are kept as those of Function are."""
+    """Runs a scene at samples, a data frame whose columns are paths of keys, and returns it with
+    what was measured besides: measure(run) gives a dictionary of columns, or one number, the
+    column `measure`. Rows whose run fails have nan. Runs are kept as those of Function are."""
     import pandas
     table = pandas.DataFrame(samples).reset_index(drop=True)
     names: list[str] = []
 
     def numbers(run):
         found = measure(run)
-        found = dict(found) if isinstance(found, Mapping) else {
-            "measure": found}
+        found = dict(found) if isinstance(found, Mapping) else {"measure": found}
         names[:] = names or list(found)
         return [found[name] for name in names]
 
-    function = Function(scene, list(table), numbers, directory=directory,
-                        ranks=ranks)
-    values = function.map(table.to_dict("records"), jobs=jobs,
-                          progress=progress)
+    function = Function(scene, list(table), numbers, directory=directory, ranks=ranks)
+    values = function.map(table.to_dict("records"), jobs=jobs, progress=progress)
     measured = values if names else np.empty((len(table), 0))
     return table.join(pandas.DataFrame(measured, columns=names))

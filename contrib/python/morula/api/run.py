@@ -34,14 +34,12 @@ class Picture:
 
 
 class Run(run.Run):
-    """The output directory of a run, finished or not. Tables are data frames of
-    pandas with the columns of the files (doc/glossary.md); lengths in um, times
-    in days, stresses in kPa.
+    """The output directory of a run, finished or not. Tables are data frames of pandas with the
+    columns of the files (doc/glossary.md); lengths in um, times in days, stresses in kPa.
 
-    `statistics`: a row a step. `lineage`: every cell that ever lived. `events`:
-    changes of type, deaths, removals. `timings`: what took how long. `keys`: all
-    keys as used. `times`: days on which cells were written. `surface(i)`: the
-    boundary points of state i.
+    `statistics`: a row a step. `lineage`: every cell that ever lived. `events`: changes of type,
+    deaths, removals. `timings`: what took how long. `keys`: all keys as used. `times`: days on
+    which cells were written. `surface(i)`: the boundary points of state i.
 
     Throws morula.Refused if the directory is none of a run."""
 
@@ -57,8 +55,7 @@ class Run(run.Run):
     @property
     def finished(self) -> bool:
         """Whether the run has come to its end."""
-        with (self.directory / "parameters.prm").open(
-                encoding="utf-8") as file:
+        with (self.directory / "parameters.prm").open(encoding="utf-8") as file:
             return any(line.startswith(MARK) for line, _ in zip(file, range(5)))
 
     @property
@@ -68,27 +65,23 @@ class Run(run.Run):
 
     def show(self, field: str | None = None, t: float | None = None,
              panels: int = 2, width: int = 500) -> Picture:
-        """Draws the cells, coloured by a column (None: their type where there
-        are types, else their volume), from outside and cut open (panels=1: from
-        outside alone). In a notebook the picture is shown.
-        Throws Refused for what contrib/render refuses."""
+        """Draws the cells, coloured by a column (None: their type where there are types, else
+        their volume), from outside and cut open (panels=1: from outside alone). In a notebook the
+        picture is shown. Throws Refused for what contrib/render refuses."""
         with tempfile.TemporaryDirectory() as scratch:
             file = Path(scratch) / "cells.png"
-            words = [sys.executable, "-P", "-m", "morula", "render",
-                     self.directory.resolve(), "--panels", panels, "--width",
-                     width, "--output", file]
+            words = [sys.executable, "-P", "-m", "morula", "render", self.directory.resolve(),
+                     "--panels", panels, "--width", width, "--output", file]
             if field is not None:
                 words += ["--field", field]
             if t is not None:
                 words += ["--time", t]
             import morula
             path = str(Path(morula.__file__).parents[1])
-            ended = execute.call(words, env={"PYTHONPATH": path},
-                                 stderr=subprocess.PIPE)
+            ended = execute.call(words, env={"PYTHONPATH": path}, stderr=subprocess.PIPE)
             if ended.code:
                 raise Refused("The picture", f"{field}, {panels} panels",
-                              "what contrib/render draws",
-                              ended.stderr.strip())
+                              "what contrib/render draws", ended.stderr.strip())
             return Picture(file.read_bytes())
 
     def _about(self) -> dict[str, str]:
@@ -98,16 +91,13 @@ class Run(run.Run):
                 + f", day {last['time']:g} after {int(last['step'])} steps",
                 "cells": f"{int(last['cells']):,}",
                 "total volume": f"{last['total_volume']:.5g} {unit}",
-                "mean energy density":
-                f"{last['mean_energy_density']:.4g} kPa"}
+                "mean energy density": f"{last['mean_energy_density']:.4g} kPa"}
 
     def __repr__(self) -> str:
         about = self._about()
-        return (f"<Run {str(self.directory)!r}: {about['state']}, "
-                f"{about['cells']} cells>")
+        return (f"<Run {str(self.directory)!r}: {about['state']}, " f"{about['cells']} cells>")
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>"
                        for name, text in self._about().items())
-        return (f"<table><caption>Run {html.escape(str(self.directory))}"
-                f"</caption>{rows}</table>")
+        return (f"<table><caption>Run {html.escape(str(self.directory))}</caption>{rows}</table>")

@@ -42,8 +42,7 @@ def state_of(scene, directory, keys):
         there, done = found.keys, found.finished
     except Refused:  # nothing was computed yet
         return "begun"
-    same = all(normal(there.get(key, "")) == normal(value)
-               for key, value in keys.items()
+    same = all(normal(there.get(key, "")) == normal(value) for key, value in keys.items()
                if key != "Output directory")
     if not same:
         return "other"
@@ -61,24 +60,19 @@ def run_scene(scene, directory, ranks, progress, again):
     if state == "finished" and not again:
         return Run(directory)
     if state == "other" and not again:
-        raise Refused("The directory", directory, "one without a run of another "
-                      "scene", "Choose another one, or replace that run: "
-                      "again=True.")
+        raise Refused("The directory", directory, "one without a run of another scene",
+                      "Choose another one, or replace that run: again=True.")
     if again and state == "resumable":
         state = "begun"
     how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])
     with scene_file(scene) as file:
-        overrides = [*scene._overrides(), *snapshots,
-                     ("Output directory", directory)]
+        overrides = [*scene._overrides(), *snapshots, ("Output directory", directory)]
         words = [*scene.program.command(file, overrides, ranks), *how]
-        code, said = _execute(words, directory, float(keys["Time/End time"]),
-                              progress)
+        code, said = _execute(words, directory, float(keys["Time/End time"]), progress)
     if code == 1:
-        raise Refused("The scene", scene.name, "what Morula accepts",
-                      f"It says: {said}")
+        raise Refused("The scene", scene.name, "what Morula accepts", f"It says: {said}")
     if code:
-        raise RuntimeError(f"The run in {directory} ended with exit code {code}:"
-                           f" {said}")
+        raise RuntimeError(f"The run in {directory} ended with exit code {code}:" f" {said}")
     return Run(directory)
 
 
@@ -86,9 +80,8 @@ def _execute(words, directory, end, progress):
     """The exit code, and what was said to stderr. Ctrl-C is passed on as the
     signal after which the program saves its state."""
     with tempfile.TemporaryFile("w+") as errors:
-        child = subprocess.Popen(
-            words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-            stderr=errors, start_new_session=True, env=execute.environment())
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                 stderr=errors, start_new_session=True, env=execute.environment())
         try:
             while child.poll() is None:
                 with contextlib.suppress(subprocess.TimeoutExpired):
@@ -96,8 +89,7 @@ def _execute(words, directory, end, progress):
                 if progress:
                     _tell(directory, end)
         except KeyboardInterrupt:
-            print("\nmorula: saving; the same call goes on ...",
-                  file=sys.stderr, flush=True)
+            print("\nmorula: saving; the same call goes on ...", file=sys.stderr, flush=True)
             execute.end([child], PATIENCE)
             raise
         finally:

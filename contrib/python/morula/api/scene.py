@@ -46,8 +46,7 @@ class Scene(Mapping):
     Throws Refused for a file that cannot be read and for keys that do not exist.
     """
 
-    def __init__(self, source: str | Path | Mapping[str, Any], *,
-                 name: str | None = None,
+    def __init__(self, source: str | Path | Mapping[str, Any], *, name: str | None = None,
                  morula: str | Path = MORULA):
         self.program = program(str(morula))
         self.path: Path | None = None
@@ -62,8 +61,7 @@ class Scene(Mapping):
                               "read", "Correct its name.")
         self.name = name or (self.path.stem if self.path else "scene")
         if isinstance(source, Mapping) and not isinstance(source, Scene):
-            self._set = {scene.clean_path(key): as_text(value)
-                         for key, value in source.items()}
+            self._set = {scene.clean_path(key): as_text(value) for key, value in source.items()}
         self._known = self._find_known()
         for key in self._set:
             self._require(key)
@@ -90,8 +88,7 @@ class Scene(Mapping):
     def __getitem__(self, key: str) -> str:
         key = scene.clean_path(key)
         self._require(key)
-        return self.program.complete(self._written(),
-                                     list(self._known.values()))[key]
+        return self.program.complete(self._written(), list(self._known.values()))[key]
 
     def __setitem__(self, key: str, value: Any) -> None:
         key = scene.clean_path(key)
@@ -112,8 +109,7 @@ class Scene(Mapping):
         return len(self._known)
 
     def about(self, key: str):
-        """What is known of a key: type, unit, allowed, choices, meaning,
-        evaluated, variables."""
+        """What is known of a key: type, unit, allowed, choices, meaning, evaluated, variables."""
         self._require(scene.clean_path(key))
         return self._known[scene.clean_path(key)]
 
@@ -135,8 +131,7 @@ class Scene(Mapping):
         return Path(file)
 
     def _file(self):
-        """A context with a .prm file of the scene, less what _overrides()
-        says."""
+        """A context with a .prm file of the scene, less what _overrides() says."""
         from .running import scene_file
         return scene_file(self)
 
@@ -154,20 +149,17 @@ class Scene(Mapping):
             progress: bool = True, again: bool = False) -> Run:
         """Runs the scene to its end in a directory, default output/NAME.
 
-        A run of the same scene that is there already is given back if it is
-        finished, and goes on from its snapshot if not; again=True begins anew.
-        Ctrl-C (in a notebook: interrupt) lets the program save its state, and
-        raises KeyboardInterrupt: the same call then goes on.
+        A run of the same scene that is there already is given back if it is finished, and goes on
+        from its snapshot if not; again=True begins anew. Ctrl-C (in a notebook: interrupt) lets
+        the program save its state, and raises KeyboardInterrupt: the same call then goes on.
 
-        Throws Refused for a scene that makes no sense, or a directory with a run
-        of another scene, and RuntimeError with the program's last words if the
-        run fails."""
+        Throws Refused for a scene that makes no sense, or a directory with a run of another scene,
+        and RuntimeError with the program's last words if the run fails."""
         return run_scene(self, Path(directory or Path("output") / self.name),
                          ranks, progress, again)
 
     def __repr__(self) -> str:
-        changed = ", ".join(f"{key} = {value}"
-                            for key, value in self._set.items())
+        changed = ", ".join(f"{key} = {value}" for key, value in self._set.items())
         return f"<Scene {self.name!r}" + (f": {changed}>" if changed else ">")
 
     def _repr_html_(self) -> str:
@@ -176,5 +168,4 @@ class Scene(Mapping):
             f"<tr><td>{html.escape(key)}</td><td>{html.escape(value)}</td>"
             f"<td>{html.escape(self._known[key].unit)}</td></tr>"
             for key, value in self._written().items() if key in self._known)
-        return (f"<table><caption>Scene {html.escape(self.name)}</caption>"
-                f"{rows}</table>")
+        return (f"<table><caption>Scene {html.escape(self.name)}</caption>" f"{rows}</table>")

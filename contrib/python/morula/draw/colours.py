@@ -35,8 +35,7 @@ NAMED = {
                            1: ("held", "#D55E00")}}
 # Of cell types by their numbers, from the same source; more types than that
 # get them again, darker.
-OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
-            "#F0E442", "#B8BBC0")
+OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#B8BBC0")
 DARKER = 0.55
 DIVERGING = "coolwarm"
 
@@ -55,8 +54,7 @@ def meanings(field, types=(), values=()):
 def colour_of_type(number):
     again, place = divmod(number, len(OF_TYPES))
     colour = matplotlib.colors.to_rgb(OF_TYPES[place])
-    return matplotlib.colors.to_hex(np.multiply(colour, DARKER if again
-                                                else 1))
+    return matplotlib.colors.to_hex(np.multiply(colour, DARKER if again else 1))
 
 
 def around_zero(field):
@@ -77,8 +75,7 @@ def palette_of(name):
     """Without the darkest end, in which the shading could not be seen; maps
     with a middle have none."""
     ends = (0, 1) if name == DIVERGING else (0.06, 1)
-    return matplotlib.colors.ListedColormap(
-        matplotlib.colormaps[name](np.linspace(*ends, 256)))
+    return matplotlib.colors.ListedColormap(matplotlib.colormaps[name](np.linspace(*ends, 256)))
 
 
 def limits_of(field, values, percentiles=(1, 99)):
@@ -115,8 +112,7 @@ class Colours:
 
     def in_dimension(self, dimension):
         """The same in 2-D, where a volume is an area."""
-        return self if dimension == 3 else replace(
-            self, label=self.label.replace("µm³", "µm²"))
+        return self if dimension == 3 else replace(self, label=self.label.replace("µm³", "µm²"))
 
     def _written(self):
         """The names, none of which is a formula."""
@@ -131,29 +127,24 @@ class Colours:
     def draw_bar(self, figure, axes):
         """The colour bar, in axes of its own; an arrow at an end that stands
         for all beyond it, too."""
-        bar = figure.colorbar(
-            matplotlib.cm.ScalarMappable(self.scale, self.palette), cax=axes,
-            extend=self.extend)
+        bar = figure.colorbar(matplotlib.cm.ScalarMappable(self.scale, self.palette), cax=axes,
+                              extend=self.extend)
         bar.outline.set_linewidth(0.6)
         bar.set_label(self.label)
         if self.names:
             edges = self.scale.boundaries
-            bar.set_ticks((edges[1:] + edges[:-1]) / 2,
-                          labels=self._written())
+            bar.set_ticks((edges[1:] + edges[:-1]) / 2, labels=self._written())
         elif self.whole:
-            numbers = np.arange(np.ceil(self.scale.vmin),
-                                np.floor(self.scale.vmax) + 1)
-            bar.set_ticks(numbers,
-                          labels=[f"{n:.0f}" for n in abs(numbers)])
+            numbers = np.arange(np.ceil(self.scale.vmin), np.floor(self.scale.vmax) + 1)
+            bar.set_ticks(numbers, labels=[f"{n:.0f}" for n in abs(numbers)])
         if self.whole:
             bar.ax.tick_params(which="both", length=0)
         return bar
 
 
 def colours_of(field, values=None, limits=None, types=()):
-    """The colours of a field with these limits, by default from the 1st to
-    the 99th percentile of the values; whole numbers get a colour each. `types`
-    are the names of cell types."""
+    """The colours of a field with these limits, by default from the 1st to the 99th percentile of
+    the values; whole numbers get a colour each. `types` are the names of cell types."""
     known = meanings(field, types, () if values is None else values)
     if known:
         return named(field, known)
@@ -177,7 +168,6 @@ def named(field, known):
                             (numbers[1:] + numbers[:-1]) / 2,
                             [numbers[-1] + 0.5]])
     names, colours = zip(*(known[int(n)] for n in numbers))
-    return Colours(style_of(field)[0],
-                   matplotlib.colors.ListedColormap(colours),
+    return Colours(style_of(field)[0], matplotlib.colors.ListedColormap(colours),
                    matplotlib.colors.BoundaryNorm(edges, len(numbers)), True,
                    names=dict(zip(numbers, names)))

@@ -7,5 +7,4 @@ import numpy as np
 def radii_of(volumes, flat=False):
     """Radii (µm) of the spheres, in 2-D of the discs, of these volumes."""
     volumes = np.asarray(volumes, dtype=float)
-    return (np.sqrt(volumes / np.pi) if flat else
-            np.cbrt(0.75 * volumes / np.pi))
+    return (np.sqrt(volumes / np.pi) if flat else np.cbrt(0.75 * volumes / np.pi))

@@ -24,11 +24,10 @@ def server_for(number):
     reading, writing = os.pipe()
     # The server must not reset when its last client leaves: VTK comes and goes
     # several times.
-    server = subprocess.Popen(
-        ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
-         "640x480x24", "-nolisten", "tcp", "-noreset"],
-        pass_fds=[writing], stdin=subprocess.DEVNULL,
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0",
+                               "640x480x24", "-nolisten", "tcp", "-noreset"], pass_fds=[writing],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL)
     os.close(writing)
     with os.fdopen(reading) as pipe:
         if pipe.readline().strip():
@@ -39,9 +38,8 @@ def server_for(number):
 
 @contextmanager
 def virtual_screen():
-    """While it lasts, this process and those that it starts draw on a screen of their
-    own: VTK's OpenGL needs an X server, and a virtual one gives equal pictures
-    everywhere."""
+    """While it lasts, this process and those that it starts draw on a screen of their own: VTK's
+    OpenGL needs an X server, and a virtual one gives equal pictures everywhere."""
     require_virtual_screen()
     for number in DISPLAYS:
         server = server_for(number)
@@ -62,7 +60,6 @@ def virtual_screen():
 
 
 def run_on_virtual_screen(command):
-    """Runs a command with a virtual screen as its display and returns its
-    exit code."""
+    """Runs a command with a virtual screen as its display and returns its exit code."""
     with virtual_screen():
         return subprocess.call(command)

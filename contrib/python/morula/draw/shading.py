@@ -7,26 +7,24 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
-from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper,
-                                         vtkRenderer, vtkRenderWindow,
-                                         vtkWindowToImageFilter)
-from vtkmodules.vtkRenderingOpenGL2 import (vtkOpaquePass, vtkRenderStepsPass,
-                                            vtkSSAOPass)
+from vtkmodules.vtkRenderingCore import (vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderer,
+                                         vtkRenderWindow, vtkWindowToImageFilter)
+from vtkmodules.vtkRenderingOpenGL2 import (vtkOpaquePass, vtkRenderStepsPass, vtkSSAOPass)
 
 # Direction (right, up, to the viewer) and strength.
-LIGHTS = (((-0.6, 1.0, 1.2), 1.0), ((1.2, 0.2, 0.8), 0.35),
-          ((0.0, -1.0, 0.6), 0.2))
+LIGHTS = (((-0.6, 1.0, 1.2), 1.0), ((1.2, 0.2, 0.8), 0.35), ((0.0, -1.0, 0.6), 0.2))
 
 
-def poly_data(positions, colours):
-    """Points with a colour (bytes) each."""
+def poly_data(positions, colours=None):
+    """Points, with a colour (bytes) each if there are some."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(positions), deep=True))
     data = vtkPolyData()
     data.SetPoints(points)
-    colour = numpy_to_vtk(np.ascontiguousarray(colours), deep=True)
-    colour.SetName("colour")
-    data.GetPointData().SetScalars(colour)
+    if colours is not None:
+        colour = numpy_to_vtk(np.ascontiguousarray(colours), deep=True)
+        colour.SetName("colour")
+        data.GetPointData().SetScalars(colour)
     return data
 
 
@@ -98,8 +96,8 @@ def add_occlusion(renderer, radius):
     renderer.SetPass(steps)
 
 
-def render(actors, view, pixels, occlusion_radius=0.0):
-    """The picture (height, width, 3) of colours from 0 to 1."""
+def drawn(actors, view, pixels, occlusion_radius=0.0):
+    """The picture (height, width, 3), bytes, as it is on the screen."""
     renderer = vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for actor in actors:
@@ -108,11 +106,10 @@ def render(actors, view, pixels, occlusion_radius=0.0):
     aim_camera(renderer, view)
     if occlusion_radius > 0:
         add_occlusion(renderer, occlusion_radius)
-
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
-    window.SetSize(*(2 * n for n in pixels))
+    window.SetSize(*pixels)
     window.AddRenderer(renderer)
     window.Render()
     grab = vtkWindowToImageFilter()
@@ -120,6 +117,26 @@ def render(actors, view, pixels, occlusion_radius=0.0):
     grab.ReadFrontBufferOff()
     grab.Update()
     image = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars())
-    image = image.reshape(2 * pixels[1], 2 * pixels[0], -1)[::-1, :, :3]
+    return image.reshape(pixels[1], pixels[0], -1)[::-1, :, :3]
+
+
+def unlit(actor):
+    """An actor in its plain colours."""
+    look = actor.GetProperty()
+    look.LightingOff()
+    look.SetAmbient(0)
+    look.SetDiffuse(1)
+    return actor
+
+
+def render(actors, view, pixels, occlusion_radius=0.0):
+    """The picture (height, width, 3) of colours from 0 to 1."""
+    fine = drawn(actors, view, [2 * n for n in pixels])
     # Two by two to one: smooth edges.
-    return image.reshape(pixels[1], 2, pixels[0], 2, 3).mean(axis=(1, 3)) / 255
+    image = fine.reshape(pixels[1], 2, pixels[0], 2, 3).mean(axis=(1, 3)) / 255
+    if occlusion_radius > 0:  # by how much it darkens white: smooth enough without
+        for actor in actors:
+            actor.GetMapper().ScalarVisibilityOff()
+            unlit(actor).GetProperty().SetColor(1, 1, 1)
+        image *= drawn(actors, view, pixels, occlusion_radius) / 255
+    return image

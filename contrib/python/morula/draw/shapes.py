@@ -33,8 +33,7 @@ def cut_through(bodies, origin, normal):
 
 def visible(bodies):
     """The faces that have no other of these cells in front of them."""
-    there = np.zeros(max(bodies.owner.max(), bodies.beyond.max()) + 1,
-                     dtype=bool)
+    there = np.zeros(max(bodies.owner.max(), bodies.beyond.max()) + 1, dtype=bool)
     there[bodies.owner] = True
     return bodies.select((bodies.beyond < 0) | ~there[bodies.beyond])
 
@@ -45,9 +44,8 @@ def shape_actors(bodies, colours, width):
     faces = visible(bodies)
     number = len(faces.points)
     # Each cell has corners of its own: edges are those of its faces.
-    used, corners = np.unique(
-        np.repeat(faces.owner, faces.counts) * number + faces.corners,
-        return_inverse=True)
+    used, corners = np.unique(np.repeat(faces.owner, faces.counts) * number + faces.corners,
+                              return_inverse=True)
     data = poly_data(faces.points[used % number], colours[used // number])
     data.SetPolys(lists_of_points(faces.starts, corners))
     mapper = vtkPolyDataMapper()

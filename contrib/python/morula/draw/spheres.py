@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Pictures of cells as spheres and, in 2-D, as flat discs."""
 import numpy as np
+from scipy.spatial import cKDTree
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
@@ -9,14 +10,31 @@ from . import shading
 
 RIM = 0.08     # of a disc's radius ...
 LEAST_RIM = 0.7  # ... but at least so many pixels
+COARSER = 2   # a picture of numbers has so many pixels less, per direction
+BESIDE = 1.5  # radii from the centre of a sphere that is seen to that of a neighbour
 DARKER = 0.62  # a rim is the disc's colour times this
 
 
 def render(positions, radii, colours, view, pixels, gaps):
     """The picture (height, width, 3), colours from 0 to 1, of spheres (µm)
     with a colour (bytes) each; gaps narrower than so many µm become dark."""
-    return shading.render([sphere_actor(positions, radii, colours)], view,
+    kept = not_buried(positions, radii, view, pixels)
+    return shading.render([sphere_actor(positions[kept], radii[kept], colours[kept])], view,
                           pixels, gaps)
+
+
+def not_buried(positions, radii, view, pixels):
+    """A mask of the spheres that a small picture shows, in which each has its number as its
+    colour, and of their neighbours, of which it may miss some. VTK shades all of every
+    sphere, what others hide as well: without a graphics card that takes most of the time."""
+    numbers = np.arange(len(radii))[:, None] >> np.array([0, 8, 16]) & 255
+    image = shading.drawn([shading.unlit(sphere_actor(positions, radii, numbers.astype(np.uint8)))],
+                          view, [max(1, n // COARSER) for n in pixels])
+    found = np.unique(image.astype(int) @ [1, 1 << 8, 1 << 16])
+    seen = found[found < len(radii)]  # the background has the number of white
+    if not len(seen):
+        return np.ones(len(radii), dtype=bool)
+    return cKDTree(positions[seen]).query(positions)[0] < BESIDE * radii
 
 
 def sphere_actor(positions, radii, colours):
@@ -41,9 +59,4 @@ def render_discs(positions, radii, colours, view, pixels):
     lift = np.sqrt(radii**2 - inner**2)[:, None] * np.array([0, 0, 1])
     actors = [sphere_actor(positions, radii, (DARKER * colours).astype(np.uint8)),
               sphere_actor(positions + lift, inner, colours)]
-    for actor in actors:
-        look = actor.GetProperty()
-        look.LightingOff()
-        look.SetAmbient(0)
-        look.SetDiffuse(1)
-    return shading.render(actors, view, pixels)
+    return shading.render(list(map(shading.unlit, actors)), view, pixels)

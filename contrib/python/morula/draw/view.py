@@ -19,8 +19,7 @@ class View:
 
     def pixels(self, width):
         """(width, height) of a picture of even height that it fills."""
-        return width, 2 * round(width / 2 * self.half_height /
-                                self.half_width)
+        return width, 2 * round(width / 2 * self.half_height / self.half_width)
 
 
 def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
@@ -30,9 +29,8 @@ def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
     if flat:
         direction, up = np.array([0., 0, 1]), np.array([0., 1, 0])
     else:
-        direction = np.array([np.cos(elevation) * np.cos(azimuth),
-                              np.cos(elevation) * np.sin(azimuth),
-                              np.sin(elevation)])
+        direction = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation)
+                              * np.sin(azimuth), np.sin(elevation)])
         up = np.array([0., 0, 1])
     right = np.cross(up, direction)
     right /= np.linalg.norm(right)
@@ -47,14 +45,12 @@ def view_of(positions, radius=0.0, azimuth=-60.0, elevation=14.0, flat=False):
     center += over * ((along.min() + along.max()) / 2 - center @ over)
     # Far away, as VTK's ambient occlusion has the background where the viewer is.
     distance = 10 * (np.linalg.norm(high - low) + 2 * radius + 1)
-    return View(center, distance * direction, up, right, half_width,
-                half_height)
+    return View(center, distance * direction, up, right, half_width, half_height)
 
 
 def cut_plane(positions, azimuth=-60.0, turn=30.0):
-    """A point (µm) and the unit normal of the vertical plane through the
-    tissue's middle that faces a viewer at this azimuth, but for a turn to the
-    side (degrees)."""
+    """A point (µm) and the unit normal of the vertical plane through the tissue's middle that
+    faces a viewer at this azimuth, but for a turn to the side (degrees)."""
     angle = np.radians(azimuth + turn)
     normal = np.array([np.cos(angle), np.sin(angle), 0])
     depth = positions @ normal

@@ -18,8 +18,7 @@ from morula.refusal import Refused
 from .tracks import Property, Tracks, lineage_of
 
 VERSION = "1.0"
-UNITS = {"um": "micrometer", "kPa": "kilopascal", "um^3": "micrometer^3",
-         "um^2": "micrometer^2"}
+UNITS = {"um": "micrometer", "kPa": "kilopascal", "um^3": "micrometer^3", "um^2": "micrometer^2"}
 
 
 def write(tracks, file):
@@ -30,12 +29,10 @@ def write(tracks, file):
     if file.exists() and not _is_geff(file):
         raise Refused("The file", file, "a new name, or that of tracks from "
                       "before", "Something else is there.")
-    with tempfile.TemporaryDirectory(dir=file.parent,
-                                     prefix=f".{file.name}.") as scratch:
+    with tempfile.TemporaryDirectory(dir=file.parent, prefix=f".{file.name}.") as scratch:
         aside = Path(scratch) / "graph"
         # zarr 3 writes its own version unless told not to, zarr 2 knows no other
-        version = ({} if zarr.__version__.startswith("2.")
-                   else {"zarr_format": 2})
+        version = ({} if zarr.__version__.startswith("2.") else {"zarr_format": 2})
         root = zarr.open_group(str(aside), mode="w", **version)
         nodes, edges = root.create_group("nodes"), root.create_group("edges")
         nodes["ids"] = np.arange(len(tracks), dtype=np.uint64)
@@ -90,8 +87,7 @@ def _axis(name, kind, unit, tracks):
 
 
 def _property(name, prop):
-    found = {"identifier": name, "dtype": prop.values.dtype.name,
-             "varlength": False}
+    found = {"identifier": name, "dtype": prop.values.dtype.name, "varlength": False}
     if prop.unit:
         found["unit"] = UNITS.get(prop.unit, prop.unit)
     if prop.meaning:
@@ -103,24 +99,20 @@ def read(file):
     """Tracks that were written by this module. Throws Refused for others."""
     import zarr
     if not _is_geff(Path(file)):
-        raise Refused("The file", file, "tracks as GEFF, in Zarr 2",
-                      "contrib/export writes them.")
+        raise Refused("The file", file, "tracks as GEFF, in Zarr 2", "contrib/export writes them.")
     root = zarr.open_group(str(file), mode="r")
     said = root.attrs["geff"]
     ours = said.get("extra", {}).get("morula")
     if ours is None:
-        raise Refused("The file", file, "tracks of contrib/export",
-                      "Those of other programs have no lineage with exact "
-                      "times.")
+        raise Refused("The file", file, "tracks of contrib/export", "Those of other programs have "
+                      "no lineage with exact times.")
     properties = {}
     for name, known in said["node_props_metadata"].items():
         group = root[f"nodes/props/{name}"]
-        properties[name] = Property(
-            group["values"][:], known.get("unit", ""),
-            known.get("description", ""),
-            group["missing"][:] if "missing" in group else None)
-    return Tracks(ours["dimension"], root["edges/ids"][:].astype(np.int64),
-                  properties,
+        properties[name] = Property(group["values"][:], known.get("unit", ""),
+                                    known.get("description", ""), group["missing"][:] if "missing"
+                                    in group else None)
+    return Tracks(ours["dimension"], root["edges/ids"][:].astype(np.int64), properties,
                   tuple(ours["types"]), {"run": ours["run"]})
 
 

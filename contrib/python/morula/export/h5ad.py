@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Cells as annotated data (AnnData), which scanpy and squidpy read: HDF5 in the
-layout of anndata 0.8 and later.
+"""Cells as annotated data (AnnData), which scanpy and squidpy read: HDF5 in the layout of anndata
+0.8 and later.
 
-A row is a cell in a state. `X` has the columns that are amounts, `var` their
-units; `obs` has what a cell is: its id, mother, generation, phase and type;
-`obsm/spatial` where it is, µm.
-"""
+A row is a cell in a state. `X` has the columns that are amounts, `var` their units; `obs` has what
+a cell is: its id, mother, generation, phase and type; `obsm/spatial` where it is, µm."""
 import numpy as np
 
 from morula.columns import unit_of
 from morula.files import replaced
 
 # Of the cells' columns those that are no amounts; places stand in obsm.
-OF_CELL = ("time", "id", "parent", "generation", "phase", "type",
-           "held_at_checkpoint")
+OF_CELL = ("time", "id", "parent", "generation", "phase", "type", "held_at_checkpoint")
 PLACES = ("x", "y", "z", "X", "Y", "Z")
 WITH_NAMES = ("phase", "type", "held_at_checkpoint")
 
@@ -23,9 +20,8 @@ def write(run, numbers, file):
     """Writes these states of a Run."""
     import h5py
     import pandas
-    cells = pandas.concat(
-        [run.cells(i).assign(time=run.times[i]) for i in numbers],
-        ignore_index=True)
+    cells = pandas.concat([run.cells(i).assign(time=run.times[i]) for i in numbers],
+                          ignore_index=True)
     amounts = [name for name in cells if name not in OF_CELL + PLACES]
     names = [f"cell-{cell}" + (f"@{time:g}" if len(numbers) > 1 else "")
              for cell, time in zip(cells["id"], cells["time"])]
@@ -86,15 +82,13 @@ def _array(parent, name, values):
 
 def _string(parent, name, text):
     import h5py
-    _mark(parent.create_dataset(name, data=text, dtype=h5py.string_dtype()),
-          "string", "0.2.0")
+    _mark(parent.create_dataset(name, data=text, dtype=h5py.string_dtype()), "string", "0.2.0")
 
 
 def _strings(parent, name, texts):
     import h5py
     _mark(parent.create_dataset(name, data=np.array(texts, dtype=object),
-                                dtype=h5py.string_dtype()),
-          "string-array", "0.2.0")
+                                dtype=h5py.string_dtype()), "string-array", "0.2.0")
 
 
 def _frame(parent, name, index):
@@ -110,8 +104,7 @@ def _listed(frame, name):
     before = [word.decode() if isinstance(word, bytes) else word
               for word in frame.attrs["column-order"]]
     del frame.attrs["column-order"]
-    frame.attrs.create("column-order", [*before, name],
-                       dtype=h5py.string_dtype())
+    frame.attrs.create("column-order", [*before, name], dtype=h5py.string_dtype())
 
 
 def _column(frame, name, values):

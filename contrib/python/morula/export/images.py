@@ -25,14 +25,11 @@ def write(run, numbers, file, voxel):
         image = filled(raster, bodies, cells["id"].to_numpy() + 1)
         target = file if len(numbers) == 1 else file.with_name(
             f"{file.stem}-{number:04}{file.suffix}")
-        (_write_npy if file.suffix.lower() == ".npy" else _write_tiff)(
-            target, image, raster)
+        (_write_npy if file.suffix.lower() == ".npy" else _write_tiff)(target, image, raster)
         lost = len(cells) - len(np.unique(image[image > 0]))
-        yield target, (
-            f"day {run.times[number]:g}, {' x '.join(map(str, image.shape[::-1]))} "
-            "voxels, corner at " + ", ".join(f"{x:g}" for x in raster.low[::-1])
-            + " um" + (f"; {lost} cells are smaller than a voxel and have none"
-                       if lost else ""))
+        yield target, (f"day {run.times[number]:g}, {' x '.join(map(str, image.shape[::-1]))} "
+                       "voxels, corner at " + ", ".join(f"{x:g}" for x in raster.low[::-1]) + " um"
+                       + (f"; {lost} cells are smaller than a voxel and have none" if lost else ""))
 
 
 def _write_npy(file, image, _):
@@ -47,13 +44,11 @@ def _write_tiff(file, image, raster):
     planes = image.shape[0] if image.ndim == 3 else 1
     about = {"axes": axes, "Name": file.stem}
     for axis, edge in zip(axes, raster.voxel):
-        about |= {f"PhysicalSize{axis}": float(edge),
-                  f"PhysicalSize{axis}Unit": "µm"}
+        about |= {f"PhysicalSize{axis}": float(edge), f"PhysicalSize{axis}Unit": "µm"}
     # where the middle of the first voxel of each plane is
     middle = dict(zip(axes, raster.low + 0.5 * raster.voxel))
-    about["Plane"] = {f"Position{axis}": [
-        float(place + (i * raster.voxel[0] if axis == "Z" else 0))
-        for i in range(planes)] for axis, place in middle.items()}
+    about["Plane"] = {f"Position{axis}": [float(place + (i * raster.voxel[0] if axis == "Z" else 0))
+                                          for i in range(planes)] for axis, place in middle.items()}
     about["Plane"] |= {f"Position{axis}Unit": ["µm"] * planes for axis in axes}
     with replaced(file) as aside:
         tifffile.imwrite(aside, image, ome=True, photometric="minisblack",

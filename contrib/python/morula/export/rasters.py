@@ -26,10 +26,9 @@ class Raster:
 
 
 def raster_around(boxes, voxel, largest):
-    """The Raster of edges `voxel` (x, y, z; um) around boxes (low, high), with
-    a border of one voxel; its corner is a multiple of the edges, so that images
-    of several states fit on each other. `largest` is the largest label. Throws
-    Refused for too many voxels."""
+    """The Raster of edges `voxel` (x, y, z; um) around boxes (low, high), with a border of one
+    voxel; its corner is a multiple of the edges, so that images of several states fit on each
+    other. `largest` is the largest label. Throws Refused for too many voxels."""
     voxel = np.asarray(voxel, dtype=float)
     low = np.floor(np.min([box[0] for box in boxes], axis=0) / voxel + ROUND) - 1
     high = np.ceil(np.max([box[1] for box in boxes], axis=0) / voxel - ROUND) + 1
@@ -38,10 +37,8 @@ def raster_around(boxes, voxel, largest):
     if size > MOST:
         raise Refused("--voxel", ",".join(f"{edge:g}" for edge in voxel),
                       f"images of at most {MOST / 1e9:g} GB",
-                      f"This one would have {size / 1e9:.3g} GB: take larger "
-                      "voxels.")
-    return Raster(voxel[::-1], (low * voxel)[::-1],
-                  tuple((high - low).astype(int)[::-1]), kind)
+                      f"This one would have {size / 1e9:.3g} GB: take larger voxels.")
+    return Raster(voxel[::-1], (low * voxel)[::-1], tuple((high - low).astype(int)[::-1]), kind)
 
 
 def box_of(bodies, dimension):
@@ -73,8 +70,7 @@ def filled(raster, bodies, labels):
                    * raster.voxel[k] for k, part in enumerate(box)]
         inside = np.ones([len(axis) for axis in middles], dtype=bool)
         for normal, offset in zip(normals[mine], offsets[mine]):
-            inside &= sum(normal[k] * axis.reshape([-1 if j == k else 1
-                                                    for j in range(dim)])
-                          for k, axis in enumerate(middles)) <= offset
+            inside &= sum(normal[k] * axis.reshape([-1 if j == k else 1 for j in range(dim)]) for k,
+                          axis in enumerate(middles)) <= offset
         image[box][inside] = label
     return image

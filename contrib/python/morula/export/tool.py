@@ -26,20 +26,16 @@ ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 
 def parser():
-    result = Parser(allow_abbrev=False,
-                    description=DESCRIPTION,
+    result = Parser(allow_abbrev=False, description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     add = result.add_argument
     add("directory", type=Path, help="output directory of a run, finished or not")
     add("file", type=Path, nargs="+", metavar="FILE",
         help=".geff: tracks; .h5ad: annotated data; .vtkhdf: points\n"
         "over time; .tif (OME), .npy: a label image, id + 1, of the cells' regions")
-    add("--time", metavar="DAY", help="of the state; default: the last one "
-        "written")
-    add("--all", action="store_true", help="all states; each one's image is "
-        "FILE-NNNN")
-    add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or "
-        "one for all, um")
+    add("--time", metavar="DAY", help="of the state; default: the last one " "written")
+    add("--all", action="store_true", help="all states; each one's image is " "FILE-NNNN")
+    add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or " "one for all, um")
     add("--again", action="store_true", help="replace files from before")
     return result
 
@@ -55,12 +51,10 @@ def check(options):
     kinds = {kind_of(file) for file in options.file}
     for file in options.file:
         if file.suffix.lower() not in ENDINGS:
-            raise Refused("The file", file, "a name that ends in one of "
-                          + ", ".join(ENDINGS))
+            raise Refused("The file", file, "a name that ends in one of " + ", ".join(ENDINGS))
         if not file.parent.is_dir():
             raise Refused("The file", file, "a file in a directory that exists")
-        if (file.exists() and not options.again) or (
-                file.is_dir() and kind_of(file) != ".geff"):
+        if (file.exists() and not options.again) or (file.is_dir() and kind_of(file) != ".geff"):
             raise Refused("The file", file, "a name that is free",
                           "Choose another one, or replace that one with --again.")
     if options.voxel and "image" not in kinds:
@@ -89,15 +83,12 @@ def export(options):
                   f"{len(found.edges)} edges")
         elif kind_of(file) in TABLES:
             from . import h5ad, vtkhdf
-            rows, columns = (
-                vtkhdf.write(run, range(len(run.times)), file)
-                if kind_of(file) == ".vtkhdf" else
-                h5ad.write(run, chosen_states(run, options), file))
+            rows, columns = (vtkhdf.write(run, range(len(run.times)), file) if kind_of(file)
+                             == ".vtkhdf" else h5ad.write(run, chosen_states(run, options), file))
             print(f"export: {file}: {rows} rows, {columns} columns")
         else:
             from . import images
-            for written, words in images.write(run, chosen_states(run, options),
-                                               file, voxel):
+            for written, words in images.write(run, chosen_states(run, options), file, voxel):
                 print(f"export: {written}: {words}", flush=True)
     return 0
 

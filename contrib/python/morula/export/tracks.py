@@ -2,16 +2,15 @@
 # Copyright (C) 2026 by the Morula authors
 """All cells over time as a graph, and a lineage of such a graph.
 
-A node is a cell at a time: at its birth, and in every state that was written. An
-edge leads from a cell to itself at the next time, and from the last node of a
-mother to the first of each daughter. So cells that no state shows are there, too,
-and exact times of birth are kept.
-"""
+A node is a cell at a time: at its birth, and in every state that was written. An edge leads from a
+cell to itself at the next time, and from the last node of a mother to the first of each daughter.
+So cells that no state shows are there, too, and exact times of birth are kept."""
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from morula.columns import LENGTH, unit_of
+from morula.draw.points import radii_of
 from morula.lineage import Lineage
 from morula.refusal import Refused
 from morula.run import TIME_SLACK
@@ -70,11 +69,9 @@ def tracks_of(run):
         ids = cells["id"].to_numpy()
         _require_known(ids, lineage, time)
         states.append({name: cells[name].to_numpy() for name in cells})
-        rows.append({"cell": ids, "t": np.full(len(ids), time),
-                     "state": np.full(len(ids), number),
+        rows.append({"cell": ids, "t": np.full(len(ids), time), "state": np.full(len(ids), number),
                      "row": np.arange(len(ids))})
-    nodes = {name: np.concatenate([part[name] for part in rows])
-             for name in rows[0]}
+    nodes = {name: np.concatenate([part[name] for part in rows]) for name in rows[0]}
     return _graph(run, lineage, states, *_merged(nodes, lineage))
 
 
@@ -98,9 +95,8 @@ def _merged(nodes, lineage):
     state[births], row[births] = state[seen[births]], row[seen[births]]
     kept = np.flatnonzero(~double)
     order = kept[np.lexsort([nodes["t"][kept], nodes["cell"][kept]])]
-    return ({"cell": nodes["cell"][order], "t": nodes["t"][order],
-             "state": state[order], "row": row[order]},
-            nodes["state"][order] < 0)
+    return ({"cell": nodes["cell"][order], "t": nodes["t"][order], "state": state[order],
+             "row": row[order]}, nodes["state"][order] < 0)
 
 
 def _graph(run, lineage, states, nodes, is_birth):
@@ -109,9 +105,8 @@ def _graph(run, lineage, states, nodes, is_birth):
     last = np.r_[first[1:], len(cell)] - 1
     along = np.flatnonzero(cell[1:] == cell[:-1])
     daughters = np.flatnonzero(lineage.parent >= 0)
-    edges = np.concatenate([
-        np.stack([along, along + 1], axis=1),
-        np.stack([last[lineage.parent[daughters]], first[daughters]], axis=1)])
+    edges = np.concatenate([np.stack([along, along + 1], axis=1),
+                            np.stack([last[lineage.parent[daughters]], first[daughters]], axis=1)])
     properties = {
         "cell": Property(cell, "", "id of the cell"),
         "t": Property(nodes["t"], "day", "time"),
@@ -119,15 +114,13 @@ def _graph(run, lineage, states, nodes, is_birth):
         "lineage": Property(lineage.founder[cell], "", "id of its founder"),
         "seg_id": Property(cell + 1, "", "label in images of contrib/export"),
         **_columns(run, lineage, states, nodes, is_birth)}
-    for name, times in (("death_time", lineage.death_time),
-                        ("removal_time", lineage.removal_time)):
+    for name, times in (("death_time", lineage.death_time), ("removal_time", lineage.removal_time)):
         if np.isfinite(times).any():
             missing = np.isinf(times[cell])
             properties[name] = Property(np.where(missing, 0, times[cell]), "day",
                                         name.replace("_", " of the cell: "),
                                         missing)
-    return Tracks(run.dimension, edges, properties,
-                  run.type_names, {"run": run.name})
+    return Tracks(run.dimension, edges, properties, run.type_names, {"run": run.name})
 
 
 def _of_states(name, states, nodes, values):
@@ -140,13 +133,11 @@ def _of_states(name, states, nodes, values):
 
 
 def _places(run, lineage, states, nodes, is_birth):
-    """x, y and in 3-D z; of a birth that of the lineage, which has more
-    digits than VTU files."""
+    """x, y and in 3-D z; of a birth that of the lineage, which has more digits than VTU files."""
     found = {}
     for axis in "zyx"[3 - run.dimension:]:
         values = _of_states(axis, states, nodes, np.zeros(len(is_birth)))
-        values[is_birth] = lineage.table[axis].to_numpy()[
-            nodes["cell"][is_birth]]
+        values[is_birth] = lineage.table[axis].to_numpy()[nodes["cell"][is_birth]]
         found[axis] = Property(values, LENGTH, f"place of the cell, {axis}")
     return found
 
@@ -165,15 +156,12 @@ def _columns(run, lineage, states, nodes, is_birth):
         values = _of_states(name, states, nodes, np.zeros(len(nobody), dtype))
         if born is not None:
             values[is_birth] = born[nodes["cell"][is_birth]]
-        found[name] = Property(values, unit_of(name, run.dimension), "",
-                               None if born is not None or not nobody.any()
-                               else nobody)
+        found[name] = Property(values, unit_of(name, run.dimension), "", None if born is not None or
+                               not nobody.any() else nobody)
     if lineage.type is not None and "type" not in found:
         found["type"] = Property(lineage.type[nodes["cell"]], "", "")
     if "volume" in found:
-        volume = found["volume"].values.astype(float)
-        radius = (np.sqrt(volume / np.pi) if run.dimension == 2
-                  else np.cbrt(0.75 * volume / np.pi))
+        radius = radii_of(found["volume"].values, run.dimension == 2)
         found["radius"] = Property(radius, LENGTH, "of a ball of its volume",
                                    found["volume"].missing)
     return found
@@ -189,10 +177,9 @@ def lineage_of(tracks):
     between = cell[source] != cell[target]
     parent[np.searchsorted(ids, cell[target[between]])] = cell[source[between]]
     zero = np.zeros(len(cell))
-    table = {"id": ids, "parent": parent,
-             "generation": values["generation"][first],
-             "birth_time": values["t"][first],
-             **{axis: values.get(axis, zero)[first] for axis in "xyz"}}
+    table = {"id": ids, "parent": parent, "generation": values["generation"][first],
+             "birth_time": values["t"][first], **{axis: values.get(axis, zero)[first] for axis
+                                                  in "xyz"}}
     if "type" in values:
         table["type"] = values["type"][first]
     events = []
@@ -202,5 +189,4 @@ def lineage_of(tracks):
             known = first[~prop.missing[first]]
             events.append(pandas.DataFrame({
                 "time": prop.values[known], "id": cell[known], "event": event}))
-    return Lineage(pandas.DataFrame(table),
-                   pandas.concat(events) if events else None)
+    return Lineage(pandas.DataFrame(table), pandas.concat(events) if events else None)

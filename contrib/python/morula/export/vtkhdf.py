@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Cells over time as one file for ParaView and VTK: points in the layout of
-VTKHDF 2.0 for PolyData in steps, in HDF5.
+"""Cells over time as one file for ParaView and VTK: points in the layout of VTKHDF 2.0 for
+PolyData in steps, in HDF5.
 
-A state is a step of one part. Its points are the cells' places, µm, each with a
-vertex, so that they are seen without a filter; the cells' other columns are data
-of the points, and the places in the initial configuration one vector,
-`initial_position`, µm. The steps have the times of the states, days.
-"""
+A state is a step of one part. Its points are the cells' places, µm, each with a vertex, so that
+they are seen without a filter; the cells' other columns are data of the points, and the places in
+the initial configuration one vector, `initial_position`, µm. The steps have the times of the
+states, days."""
 import numpy as np
 
 from morula.files import replaced
@@ -58,8 +57,7 @@ def _columns(cells, dimension):
 
 
 def _append_offsets(steps, time, step, n_points, columns):
-    """Where a step begins in each of the datasets. It has as many vertices as
-    points."""
+    """Where a step begins in each of the datasets. It has as many vertices as points."""
     _append(steps, "Values", [float(time)])
     _append(steps, "PartOffsets", [step])
     _append(steps, "NumberOfParts", [1])

@@ -31,29 +31,24 @@ def whole(image, file):
         array = np.maximum(array, 0)
     values = np.unique(array[array > 0])
     if not len(values):
-        raise Refused("The image", file, "labels of cells",
-                      "All of it is 0, which is no cell.")
+        raise Refused("The image", file, "labels of cells", "All of it is 0, which is no cell.")
     if len(values) == 1:
         parts = measure.label(array > 0, connectivity=1)
         if parts.max() < FEWEST:
             raise Refused("The image", file, "a label of its own for each cell",
-                          "It is a mask with a single part: segment it into "
-                          "cells, or fill its surface with a lattice "
-                          "(Tissue/Shape = mesh).")
-        image.words.append(
-            f"It is a mask, with one number: its {parts.max()} parts that are "
-            "not connected count as cells. Cells that touch are one then.")
+                          "It is a mask with a single part: segment it into cells, or fill its "
+                          "surface with a lattice (Tissue/Shape = mesh).")
+        image.words.append(f"It is a mask, with one number: its {parts.max()} parts that are not "
+                           "connected count as cells. Cells that touch are one then.")
         return parts, np.arange(parts.max() + 1)
-    labels, _, names = segmentation.relabel_sequential(
-        array.astype(np.int64))
+    labels, _, names = segmentation.relabel_sequential(array.astype(np.int64))
     return labels, np.asarray(names[np.arange(len(values) + 1)])
 
 
 @dataclass
 class Cells:
-    """What is measured of labels 1, 2, ...: row i is label numbers[i] of the
-    array, names[i] of the file. places (n, dim) in um, order of the axes;
-    volumes um^dim."""
+    """What is measured of labels 1, 2, ...: row i is label numbers[i] of the array, names[i] of
+    the file. places (n, dim) in um, order of the axes; volumes um^dim."""
 
     labels: np.ndarray
     voxel: np.ndarray
@@ -78,20 +73,17 @@ class Cells:
 
 def cells_of(labels, names, voxel, smallest, words):
     """Measures the labels, leaves out crumbs, and says what is odd."""
-    table = measure.regionprops_table(labels,
-                                      properties=("label", "area", "centroid"))
+    table = measure.regionprops_table(labels, properties=("label", "area", "centroid"))
     centres = np.stack([table[f"centroid-{d}"] for d in range(labels.ndim)], 1)
     cells = Cells(labels, voxel, table["label"], names[table["label"]],
                   table["area"] * voxel.prod(), (centres + 0.5) * voxel)
     crumbs = cells.volumes < smallest * np.median(cells.volumes)
     if crumbs.any():
-        words.append(f"{crumbs.sum()} labels are smaller than {smallest:g} of "
-                     "the median one: these crumbs are left out "
-                     f"({_list(cells.names[crumbs])}).")
+        words.append(f"{crumbs.sum()} labels are smaller than {smallest:g} of the median one: "
+                     f"these crumbs are left out ({_list(cells.names[crumbs])}).")
         cells.keep(~crumbs)
     if len(cells.names) < FEWEST:
-        raise Refused("The image", f"{len(cells.names)} cells",
-                      f"at least {FEWEST} cells")
+        raise Refused("The image", f"{len(cells.names)} cells", f"at least {FEWEST} cells")
     _join_pieces(cells, words)
     _tell_border(cells, words)
     return cells
@@ -103,9 +95,8 @@ def _list(names, most=8):
 
 
 def _join_pieces(cells, words):
-    """A cell in several pieces stands in the largest one. Where a place is not
-    within its own cell, as of a crescent, the cell stands where it is
-    thickest."""
+    """A cell in several pieces stands in the largest one. Where a place is not within its own
+    cell, as of a crescent, the cell stands where it is thickest."""
     pieces = measure.label(cells.labels, connectivity=cells.labels.ndim)
     parts = measure.regionprops_table(
         pieces, cells.labels, ("label", "area", "centroid", "max_intensity"))
@@ -117,18 +108,15 @@ def _join_pieces(cells, words):
     torn = counts[cells.numbers] > 1
     for row in np.flatnonzero(torn):
         part = largest[cells.numbers[row]]
-        cells.places[row] = (np.array(
-            [parts[f"centroid-{d}"][part] for d in range(cells.labels.ndim)])
-            + 0.5) * cells.voxel
+        cells.places[row] = (np.array([parts[f"centroid-{d}"][part] for d
+                                       in range(cells.labels.ndim)]) + 0.5) * cells.voxel
     if torn.any():
-        words.append(f"{torn.sum()} labels are in several pieces "
-                     f"({_list(cells.names[torn])}): each counts as one cell "
-                     "with the volume of all its pieces, which stands in the "
-                     "largest one.")
+        words.append(f"{torn.sum()} labels are in several pieces ({_list(cells.names[torn])}): "
+                     "each counts as one cell with the volume of all its pieces, which stands in "
+                     "the largest one.")
     index = tuple((cells.places / cells.voxel).astype(int).T)
     for row in np.flatnonzero(cells.labels[index] != cells.numbers):
-        cells.places[row] = _thickest(cells.labels == cells.numbers[row],
-                                      cells.voxel)
+        cells.places[row] = _thickest(cells.labels == cells.numbers[row], cells.voxel)
 
 
 def _thickest(mask, voxel):

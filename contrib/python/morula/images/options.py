@@ -22,8 +22,7 @@ doc/from-an-image.md explains what it does, and what it says of the image.
 
 
 def parser():
-    result = Parser(allow_abbrev=False,
-                    description=DESCRIPTION,
+    result = Parser(allow_abbrev=False, description=DESCRIPTION,
                     formatter_class=argparse.RawTextHelpFormatter)
     add = result.add_argument
     add("file", type=Path, metavar="IMAGE|TABLE")
@@ -48,8 +47,7 @@ def parser():
         "cells in which its mean is\nabove a threshold are of another type")
     add("--marker-channel", type=int, metavar="N", help="the same of a channel "
         "of the image itself, or of\nthat of --marker")
-    add("--marker-threshold", type=float, metavar="VALUE",
-        help="default: Otsu's")
+    add("--marker-threshold", type=float, metavar="VALUE", help="default: Otsu's")
     add("--marker-names", default="negative,positive", metavar="BELOW,ABOVE",
         help="names of the two types; default: negative,positive")
     add("--again", action="store_true", help="replace files from before")
@@ -62,8 +60,7 @@ def voxel_of(text, found, dimension):
     if text is None:
         if found is None:
             raise Refused("--voxel", "", "the size of a voxel in um, x,y,z",
-                          "The file does not say it: give it, such as "
-                          "--voxel 0.5,0.5,2.")
+                          "The file does not say it: give it, such as --voxel 0.5,0.5,2.")
         return np.array(found[-dimension:])
     edges = lengths("--voxel", text, sorted({dimension, 3}))
     return np.array(edges[:dimension][::-1])

@@ -28,8 +28,7 @@ def read_image(file, channel=None, frame=None, option="The image"):
     """Throws Refused for a file that holds no image, or more than one."""
     file = Path(file)
     if not file.is_file():
-        raise Refused(option, file, "a file that can be read",
-                      "Correct its name.")
+        raise Refused(option, file, "a file that can be read", "Correct its name.")
     reader = _read_numpy if file.suffix.lower() in (".npy", ".npz") \
         else _read_tiff
     try:
@@ -57,8 +56,7 @@ def _read_numpy(file):
                           "It has " + ", ".join(array.files) + ".")
         array = array[array.files[0]]
     axes = {2: "YX", 3: "ZYX"}.get(array.ndim, "?" * array.ndim)
-    if (array.ndim == 3 and array.shape[-1] in (3, 4)
-            and array.dtype == np.uint8):
+    if (array.ndim == 3 and array.shape[-1] in (3, 4) and array.dtype == np.uint8):
         axes = "YXS"
     return array, axes, None, []
 
@@ -78,19 +76,16 @@ def _voxel_of(tiff, series):
         root = ElementTree.fromstring(tiff.ome_metadata)
         for pixels in root.iter():
             if pixels.tag.rpartition("}")[2] == "Pixels":
-                return _edges([
-                    (pixels.get(f"PhysicalSize{axis}"),
-                     pixels.get(f"PhysicalSize{axis}Unit", "µm"))
-                    for axis in "ZYX"])
+                return _edges([(pixels.get(f"PhysicalSize{axis}"),
+                                pixels.get(f"PhysicalSize{axis}Unit", "µm")) for axis in "ZYX"])
     if tiff.imagej_metadata:
         about, tags = tiff.imagej_metadata, series.pages[0].tags
         if "XResolution" not in tags:
             return None
         unit = str(about.get("unit", ""))
         per = [tags[name].value for name in ("YResolution", "XResolution")]
-        return _edges([(about.get("spacing"), unit),
-                       *((low / high if high else None, unit)
-                         for high, low in per)])
+        return _edges([(about.get("spacing"), unit), *((low / high if high else None, unit)
+                                                       for high, low in per)])
     return None
 
 
@@ -109,24 +104,19 @@ def _without_axes(file, array, axes, channel, frame, words):
     """The array without channels, times and axes of length 1."""
     if "S" in axes and array.shape[axes.index("S")] in (2, 3, 4):
         raise Refused("The image", file, "labels: a whole number for each voxel",
-                      "It is a colour picture (RGB): segment it first, and "
-                      "save the labels.")
-    for axis, choice, option in (("C", channel, "--channel"),
-                                 ("T", frame, "--frame")):
+                      "It is a colour picture (RGB): segment it first, and save the labels.")
+    for axis, choice, option in (("C", channel, "--channel"), ("T", frame, "--frame")):
         if axis in axes:
             at = axes.index(axis)
             array = np.take(array, _chosen(option, choice, array.shape[at]), at)
             axes = axes.replace(axis, "", 1)
         elif choice not in (None, 0):
-            raise Refused(option, choice, "nothing for this image",
-                          f"Its axes are {axes}.")
-    single = [i for i, axis in enumerate(axes)
-              if array.shape[i] == 1 and axis not in "YX"]
+            raise Refused(option, choice, "nothing for this image", f"Its axes are {axes}.")
+    single = [i for i, axis in enumerate(axes) if array.shape[i] == 1 and axis not in "YX"]
     array = np.squeeze(array, tuple(single)) if array.ndim > 3 else array
     if array.ndim > 3:
-        raise Refused("The image", file, "axes z, y, x; or y, x",
-                      f"It has {array.ndim} axes of {array.shape}: save one "
-                      "time and one channel.")
+        raise Refused("The image", file, "axes z, y, x; or y, x", f"It has {array.ndim} axes of "
+                      f"{array.shape}: save one time and one channel.")
     return array, words
 
 

@@ -2,10 +2,9 @@
 # Copyright (C) 2026 by the Morula authors
 """The smooth closed surface of labelled tissue, and its cavities.
 
-The tissue is filled with 1, smoothed by Gaussians, and cut at the level at
-which the surface encloses just the cells' volume. All lengths are in um, all
-places in the order of the image's axes.
-"""
+The tissue is filled with 1, smoothed by Gaussians, and cut at the level at which the surface
+encloses just the cells' volume. All lengths are in um, all places in the order of the image's
+axes."""
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,8 +37,7 @@ class Part:
         edges = corners[:, 1:] - corners[:, :1]
         if edges.shape[1] == 1:
             return float(np.linalg.norm(edges[:, 0], axis=1).sum())
-        return float(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]),
-                                          axis=1).sum())
+        return float(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum())
 
 
 def tissue_of(cells, smallest_cavity, fill_gaps, words):
@@ -55,10 +53,8 @@ def tissue_of(cells, smallest_cavity, fill_gaps, words):
     small = sizes < smallest_cavity * cells.volumes.mean()
     small[[0, holes.flat[0]]] = False
     if small.any():
-        words.append(f"{small.sum()} cavities are smaller than "
-                     f"{smallest_cavity:g} cells, together "
-                     f"{sizes[small].sum():.4g} um^{mask.ndim}: they are "
-                     "filled.")
+        words.append(f"{small.sum()} cavities are smaller than {smallest_cavity:g} cells, "
+                     f"together {sizes[small].sum():.4g} um^{mask.ndim}: they are filled.")
         closed |= small[holes]
     gap = (closed & ~mask).sum() / mask.sum()
     if fill_gaps:
@@ -96,28 +92,24 @@ class Field:
         size = np.array(mask.shape) * voxel
         axes = [np.arange(0.5 * edge, whole - 0.5 * edge, self.step)
                 for edge, whole in zip(voxel, size)]
-        where = np.meshgrid(*(axis / edge - 0.5 for axis, edge
-                              in zip(axes, voxel)), indexing="ij")
+        where = np.meshgrid(*(axis / edge - 0.5 for axis, edge in zip(axes, voxel)), indexing="ij")
         self.values = ndimage.map_coordinates(smooth, where, order=3)
         self.origin = 0.5 * voxel - pad * voxel
 
     def at(self, places):
         """The values at places (n, dim)."""
-        return ndimage.map_coordinates(
-            self.values, ((places - self.origin) / self.step).T, order=1)
+        return ndimage.map_coordinates(self.values, ((places - self.origin) / self.step).T, order=1)
 
     def parts(self, level):
         """The closed parts of the surface at a level."""
         values = self.values.astype(float)
         near = np.abs(values - level) < CLEAR
         values[near] = level + np.where(values[near] < level, -CLEAR, CLEAR)
-        return (self._outlines if values.ndim == 2 else self._meshes)(
-            values, level)
+        return (self._outlines if values.ndim == 2 else self._meshes)(values, level)
 
     def _meshes(self, values, level):
-        vertices, facets, _, _ = measure.marching_cubes(
-            values, level, gradient_direction="ascent",
-            allow_degenerate=False)
+        vertices, facets, _, _ = measure.marching_cubes(values, level, gradient_direction="ascent",
+                                                        allow_degenerate=False)
         if _volume(vertices, facets) < 0:
             facets = facets[:, ::-1]
         links = sparse.coo_matrix(
@@ -134,8 +126,7 @@ class Field:
 
     def _outlines(self, values, level):
         # the order of the axes is y, x: areas change their sign
-        for line in measure.find_contours(values, level,
-                                          positive_orientation="low"):
+        for line in measure.find_contours(values, level, positive_orientation="low"):
             places = self.origin + self.step * line[:-1]
             n = np.arange(len(places))
             facets = np.stack([n, np.roll(n, -1)], 1)
@@ -144,8 +135,7 @@ class Field:
 
 def _volume(vertices, facets):
     corners = (vertices - vertices.mean(0))[facets]
-    return float(np.linalg.det(corners).sum() / (6 if corners.shape[1] == 3
-                                                 else 2))
+    return float(np.linalg.det(corners).sum() / (6 if corners.shape[1] == 3 else 2))
 
 
 def surface_of(cells, mask, pad, words):
@@ -163,8 +153,7 @@ def surface_of(cells, mask, pad, words):
     except ValueError:  # of one sign at both ends
         level = low if abs(excess(low)) < abs(excess(high)) else high
     parts = list(field.parts(level))
-    parts = [part for part in parts if part.volume > 0
-             or -part.volume > 0.1 * cells.volumes.mean()]
+    parts = [part for part in parts if part.volume > 0 or -part.volume > 0.1 * cells.volumes.mean()]
     _keep_inside(cells, field, level, words)
     parts = _with_cells(parts, cells, words)
     if not parts:
@@ -181,8 +170,7 @@ def _keep_inside(cells, field, level, words):
     greatest; those that are outside as a whole are left out."""
     inside = field.at(cells.places) > level + CLEAR
     for row in np.flatnonzero(~inside):
-        places = (np.argwhere(cells.labels == cells.numbers[row])
-                  + 0.5) * cells.voxel
+        places = (np.argwhere(cells.labels == cells.numbers[row]) + 0.5) * cells.voxel
         values = field.at(places)
         if values.max() > level + CLEAR:
             cells.places[row], inside[row] = places[values.argmax()], True
@@ -194,13 +182,11 @@ def _keep_inside(cells, field, level, words):
 
 def _with_cells(parts, cells, words):
     """Bodies without a cell's place, and the cavities in them, go."""
-    holds = np.array([part.volume < 0 or contains(part, cells.places).any()
-                      for part in parts])
+    holds = np.array([part.volume < 0 or contains(part, cells.places).any() for part in parts])
     if not holds.all():
         words.append(f"{(~holds).sum()} bodies hold no cell's place, such as "
                      "pieces of torn labels: they are left out.")
-    bodies = [part for part, held in zip(parts, holds)
-              if held and part.volume > 0]
+    bodies = [part for part, held in zip(parts, holds) if held and part.volume > 0]
     return bodies + [part for part in parts if part.volume < 0 and any(
         contains(body, part.vertices[:1])[0] for body in bodies)]
 
@@ -209,22 +195,17 @@ def contains(part, places):
     """Whether places (n, dim) are inside of a closed part."""
     if places.shape[1] == 2:
         return measure.points_in_poly(places, part.vertices)
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    from morula.draw.shading import cell_array, poly_data
+    from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
-    from morula.images.writing import poly_data
-    points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(places), deep=True))
-    queried = vtkPolyData()
-    queried.SetPoints(points)
+    closed = poly_data(part.vertices)
+    closed.SetPolys(cell_array(part.facets))
     check = vtkSelectEnclosedPoints()
-    check.SetInputData(queried)
-    check.SetSurfaceData(poly_data(part))
+    check.SetInputData(poly_data(places))
+    check.SetSurfaceData(closed)
     check.SetTolerance(1e-9)
     check.Update()
-    return vtk_to_numpy(check.GetOutput().GetPointData().GetArray(
-        "SelectedPoints")) > 0
+    return vtk_to_numpy(check.GetOutput().GetPointData().GetArray("SelectedPoints")) > 0
 
 
 def balls_around(cavity, others):
@@ -240,8 +221,7 @@ def balls_around(cavity, others):
     radii = 0.9 * tree.query(candidates)[0]
     found = []
     while len(left):
-        covered = np.linalg.norm(
-            left[None] - candidates[:, None], axis=2) < 0.97 * radii[:, None]
+        covered = np.linalg.norm(left[None] - candidates[:, None], axis=2) < 0.97 * radii[:, None]
         best = covered.sum(1).argmax()
         if not covered[best].any():
             return None  # a wall as thin as nothing

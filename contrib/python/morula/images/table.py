@@ -153,8 +153,7 @@ def _with_volumes(file, table, voxel, words):
     if voxel is not None:
         table[axes] *= voxel[::-1][:len(axes)]
     if len(table) < 2:
-        raise Refused("The table", file, "at least 2 cells",
-                      f"It has {len(table)}.")
+        raise Refused("The table", file, "at least 2 cells", f"It has {len(table)}.")
     places, dim = table[axes].to_numpy(), len(axes)
     nearest = spatial.cKDTree(places).query(places, 2)[0][:, 1]
     length = float(np.median(nearest))
@@ -167,16 +166,14 @@ def _with_volumes(file, table, voxel, words):
     if "volume" in table:
         pass
     elif "radius" in table or "diameter" in table:
-        radius = (table["radius"] if "radius" in table
-                  else 0.5 * table["diameter"])
+        radius = (table["radius"] if "radius" in table else 0.5 * table["diameter"])
         table["volume"] = ball * radius ** dim
         words.append("Volumes are those of balls with the radii of the table; "
                      "cells side by side fill more.")
     else:
         table["volume"] = length ** dim
-        words.append("The table has no volumes: all cells get that of a cube "
-                     f"with the median distance to the nearest cell, "
-                     f"{length:.4g} um.")
+        words.append("The table has no volumes: all cells get that of a cube with the median "
+                     f"distance to the nearest cell, {length:.4g} um.")
     if not (table["volume"] > 0).all():
         raise Refused("The table", file, "volumes > 0")
     return table

@@ -22,12 +22,10 @@ def main(words=None):
         if not options.file.is_file():
             raise Refused("The file", options.file, "a label image or a table "
                           "that can be read", "Correct its name.")
-        directory = output_directory(options, Path(options.file.stem
-                                                   .partition(".")[0]))
+        directory = output_directory(options, Path(options.file.stem .partition(".")[0]))
         if (directory / "scene.prm").exists() and not options.again:
-            raise Refused("--output", directory, "a directory without a "
-                          "scene.prm", "Choose another one, or replace that "
-                          "one with --again.")
+            raise Refused("--output", directory, "a directory without a scene.prm",
+                          "Choose another one, or replace that one with --again.")
         make_scene(options, directory)
         return 0
     return run_tool("import", tool)
@@ -57,8 +55,7 @@ def scene_of_image(options, directory):
     types = _types(options, cells, words)
     if types is not None:
         types = dict(zip(cells.names, types))
-    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps,
-                          words)
+    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps, words)
     parts = surface_of(cells, mask, pad, words)
     directory.mkdir(parents=True, exist_ok=True)
     kinds = [types[name] for name in cells.names] if types else None
@@ -73,8 +70,7 @@ def scene_of_image(options, directory):
         sum(part.area for part in parts) / (0.5 * cells.length)
         ** (labels.ndim - 1))
     keys |= _lumen(parts, words)
-    return _finish(options, directory, keys, cells.length, len(cells.volumes),
-                   cells.volumes, words)
+    return _finish(options, directory, keys, cells.length, len(cells.volumes), cells.volumes, words)
 
 
 def scene_of_table(options, directory):
@@ -86,8 +82,7 @@ def scene_of_table(options, directory):
     if options.types:
         from .types import types_of_table
         if "id" not in table:
-            raise Refused("--types", options.types, "nothing for a table "
-                          "without a column id")
+            raise Refused("--types", options.types, "nothing for a table " "without a column id")
         types = types_of_table(options.types, table["id"], words)
     elif "type" in table:
         from .types import checked
@@ -103,8 +98,7 @@ def scene_of_table(options, directory):
     words.append("A table has no surface: the program makes one around the "
                  "cells, in which narrow gaps and cavities are closed.")
     keys = scene_keys(len(axes), length, "always", types)
-    return _finish(options, directory, keys, length, len(table), volumes,
-                   words)
+    return _finish(options, directory, keys, length, len(table), volumes, words)
 
 
 def _types(options, cells, words):
@@ -140,13 +134,10 @@ def scene_keys(dimension, length, surface, types):
 def _about_parts(parts, dim):
     bodies = [part for part in parts if part.volume > 0]
     cavities = [part for part in parts if part.volume < 0]
-    words = [f"The tissue is {len(bodies)} bodies that do not touch."] if len(
-        bodies) > 1 else []
+    words = [f"The tissue is {len(bodies)} bodies that do not touch."] if len(bodies) > 1 else []
     if cavities:
-        words.append(f"It has {len(cavities)} "
-                     + ("cavity" if len(cavities) == 1 else "cavities")
-                     + ", of " + ", ".join(f"{-part.volume:.4g}" for part in
-                                           reversed(cavities))
+        words.append(f"It has {len(cavities)} " + ("cavity" if len(cavities) == 1 else "cavities")
+                     + ", of " + ", ".join(f"{-part.volume:.4g}" for part in reversed(cavities))
                      + f" um^{dim}.")
     return words
 
@@ -167,12 +158,9 @@ def _lumen(parts, words):
         " + ".join(f"({axis} - {value:.6g})^2" for axis, value
                    in zip("XYZ", centre[::-1])) + f" < {radius:.6g}^2"
         for centre, radius in balls)
-    words.append("The largest cavity is a lumen that keeps its volume "
-                 "(Lumen where, Lumen volume = 1)."
-                 + (" The surfaces of the others are free."
-                    if len(cavities) > 1 else ""))
-    return {"Boundary conditions/Lumen where": where,
-            "Boundary conditions/Lumen volume": 1}
+    words.append("The largest cavity is a lumen that keeps its volume (Lumen where, Lumen volume "
+                 "= 1)." + (" The surfaces of the others are free." if len(cavities) > 1 else ""))
+    return {"Boundary conditions/Lumen where": where, "Boundary conditions/Lumen volume": 1}
 
 
 def _finish(options, directory, keys, length, n, volumes, words):

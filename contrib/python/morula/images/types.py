@@ -25,8 +25,7 @@ def types_of_table(file, names, words):
     table.columns = [name.strip().lower() for name in table]
     key = "label" if "label" in table else "id"
     if key not in table or "type" not in table:
-        raise Refused("--types", file, "columns label and type",
-                      "It has " + ", ".join(table) + ".")
+        raise Refused("--types", file, "columns label and type", "It has " + ", ".join(table) + ".")
     types = dict(zip(table[key].str.strip(), table["type"].str.strip()))
     missing = [str(name) for name in names if str(name) not in types]
     if missing:
@@ -61,7 +60,6 @@ def types_of_marker(cells, options, words):
     if threshold is None:
         threshold = filters.threshold_otsu(means) if np.ptp(means) else means[0]
     high = means > threshold
-    words.append(f"The marker's mean is above {threshold:.6g} in {high.sum()} "
-                 f"of {len(high)} cells: these are {names[1]}, the others "
-                 f"{names[0]}.")
+    words.append(f"The marker's mean is above {threshold:.6g} in {high.sum()} of {len(high)} "
+                 f"cells: these are {names[1]}, the others {names[0]}.")
     return [names[int(one)] for one in high]

@@ -46,8 +46,7 @@ def write_off(file, parts):
             np.savetxt(stream, part.vertices[:, ::-1], "%.9g")
         before = 0
         for part in parts:
-            np.savetxt(stream, np.insert(part.facets + before, 0, 3, axis=1),
-                       "%d")
+            np.savetxt(stream, np.insert(part.facets + before, 0, 3, axis=1), "%d")
             before += len(part.vertices)
 
 
@@ -56,11 +55,9 @@ def write_wkt(file, parts):
     from .surface import contains
     bodies = [[part] for part in parts if part.volume > 0]
     for cavity in (part for part in parts if part.volume < 0):
-        around = [body for body in bodies
-                  if contains(body[0], cavity.vertices[:1])[0]]
+        around = [body for body in bodies if contains(body[0], cavity.vertices[:1])[0]]
         min(around, key=lambda body: body[0].volume).append(cavity)
-    text = ",\n".join("(" + ",\n ".join(map(_ring, body)) + ")"
-                      for body in bodies)
+    text = ",\n".join("(" + ",\n ".join(map(_ring, body)) + ")" for body in bodies)
     write(file, f"MULTIPOLYGON({text})\n")
 
 
@@ -73,10 +70,8 @@ def prm(keys, comments):
     """A .prm text of keys by full path; comments stand at its begin. Keys that
     follow each other in a section share it."""
     lines = [*(f"# {line}" for line in comments), ""]
-    for sections, group in itertools.groupby(keys.items(),
-                                             lambda item: item[0].split("/")[:-1]):
-        lines += ["  " * depth + f"subsection {section}"
-                  for depth, section in enumerate(sections)]
+    for sections, group in itertools.groupby(keys.items(), lambda item: item[0].split("/")[:-1]):
+        lines += ["  " * depth + f"subsection {section}" for depth, section in enumerate(sections)]
         lines += ["  " * len(sections) + f"set {path.split('/')[-1]} = {value}"
                   for path, value in group]
         lines += ["  " * depth + "end" for depth in reversed(range(len(sections)))]

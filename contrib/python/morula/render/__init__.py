@@ -2,7 +2,6 @@
 # Copyright (C) 2026 by the Morula authors
 """Pictures and films of a run's cells, for contrib/render.
 
-`tool` is the command and `request` what it is asked for; `frames` makes the
-picture of a state, `composition` puts panels, scales and words together,
-`films` writes pictures one after the other.
+`tool` is the command and `request` what it is asked for; `frames` makes the picture of a state,
+`composition` puts panels, scales and words together, `films` writes pictures one after the other.
 """

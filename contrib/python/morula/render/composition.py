@@ -1,12 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """Panels with their title, scale bar and colour bar as one picture."""
-import matplotlib
 import numpy as np
+from morula.style import plt
 from scipy.ndimage import gaussian_filter
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402 (after the backend)
 
 DPI = 200
 TOP, BOTTOM, SIDE = 0.42, 0.5, 1.25  # inches around the panels
@@ -21,9 +18,8 @@ def round_length(length):
 
 
 def compose(panels, cut_open, view, colours, title, outline=None):
-    """The picture (height, width, 3), bytes. `outline` is that of the cut, 1
-    within and 0 outside (height, width); without it, a cut-open panel gets the
-    outline of what it shows."""
+    """The picture (height, width, 3), bytes. `outline` is that of the cut, 1 within and 0 outside
+    (height, width); without it, a cut-open panel gets the outline of what it shows."""
     height, width = panels[0].shape[:2]
     wide = width / DPI
     side = max(SIDE, BESIDE_NAMES + colours.longest_name)
@@ -31,9 +27,8 @@ def compose(panels, cut_open, view, colours, title, outline=None):
     with plt.rc_context({"font.family": "sans-serif", "font.size": 10}):
         figure = plt.figure(figsize=total, dpi=DPI, facecolor="white")
         for i, panel in enumerate(panels):
-            axes = figure.add_axes([i * wide / total[0], BOTTOM / total[1],
-                                    wide / total[0],
-                                    height / DPI / total[1]])
+            axes = figure.add_axes([i * wide / total[0], BOTTOM / total[1], wide / total[0], height
+                                    / DPI / total[1]])
             axes.imshow(panel, interpolation="nearest")
             if cut_open[i]:
                 axes.contour(silhouette(panel) if outline is None else outline,
@@ -42,8 +37,7 @@ def compose(panels, cut_open, view, colours, title, outline=None):
         draw_scale(figure, view, width, height, total)
         figure.text(0.04 * wide / total[0], 1 - 0.12 / total[1], title,
                     ha="left", va="top", fontsize=11, parse_math=False)
-        bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2,
-                               0.14 / total[0], 0.6])
+        bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2, 0.14 / total[0], 0.6])
         colours.draw_bar(figure, bar)
         figure.canvas.draw()
         picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
@@ -64,5 +58,4 @@ def draw_scale(figure, view, width, height, total):
     axes.set(xlim=(0, width), ylim=(0, 1))
     axes.plot([0.04 * width, 0.04 * width + length / unit], [0.45, 0.45],
               color="black", linewidth=2, solid_capstyle="butt")
-    axes.text(0.05 * width + length / unit, 0.43, f"{length:g} µm", ha="left",
-              va="center")
+    axes.text(0.05 * width + length / unit, 0.43, f"{length:g} µm", ha="left", va="center")

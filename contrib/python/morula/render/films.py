@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Films of pictures (height, width, 3), bytes. GIF comes with PIL, and Ogg
-with VTK; MP4 and WebM, which all browsers show and are a tenth of the size,
-need the program ffmpeg."""
+"""Films of pictures (height, width, 3), bytes. GIF comes with PIL, and Ogg with VTK; MP4 and WebM,
+which all browsers show and are a tenth of the size, need the program ffmpeg."""
 import shutil
 import subprocess
 
@@ -17,18 +16,15 @@ BLOCK = 16   # videos consist of blocks of so many pixels
 def film_writer(wanted, stem, rate):
     """(file, what writes the pictures to it). Throws Refused if the kind is
     unknown, or what it needs is missing."""
-    path = wanted or stem.with_name(
-        stem.name + (".mp4" if shutil.which("ffmpeg") else ".gif"))
+    path = wanted or stem.with_name(stem.name + (".mp4" if shutil.which("ffmpeg") else ".gif"))
     kinds = {".gif": write_gif, ".ogv": write_ogg, ".mp4": write_by_ffmpeg,
              ".webm": write_by_ffmpeg}
     write = kinds.get(path.suffix.lower())
     if write is None:
-        raise Refused("--output", path, "a film's name, with "
-                      + ", ".join(kinds) + " at its end")
+        raise Refused("--output", path, "a film's name, with " + ", ".join(kinds) + " at its end")
     if write is write_by_ffmpeg and not shutil.which("ffmpeg"):
-        raise Refused("--output", path, "a name with .gif or .ogv at its end, "
-                      "as the program ffmpeg is missing",
-                      "Debian's package ffmpeg has it.")
+        raise Refused("--output", path, "a name with .gif or .ogv at its end, as the program "
+                      "ffmpeg is missing", "Debian's package ffmpeg has it.")
     return path, lambda pictures, target: write(pictures, target, rate)
 
 
@@ -83,13 +79,12 @@ def write_by_ffmpeg(pictures, path, rate):
     for picture in in_blocks(pictures):
         if process is None:
             height, width = picture.shape[:2]
-            process = subprocess.Popen(
-                ["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo",
-                 "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
-                 str(rate), "-i", "-", "-vf",
-                 f"tpad=stop_mode=clone:stop_duration={REST}", "-pix_fmt",
-                 "yuv420p", "-r", str(max(rate, 10)), "-f",
-                 path.suffix[1:], str(path)], stdin=subprocess.PIPE)
+            process = subprocess.Popen(["ffmpeg", "-y", "-loglevel", "error", "-f", "rawvideo",
+                                        "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
+                                        str(rate), "-i", "-", "-vf",
+                                        f"tpad=stop_mode=clone:stop_duration={REST}", "-pix_fmt",
+                                        "yuv420p", "-r", str(max(rate, 10)), "-f", path.suffix[1:],
+                                        str(path)], stdin=subprocess.PIPE)
         try:
             process.stdin.write(picture.tobytes())
         except BrokenPipeError:

@@ -23,13 +23,11 @@ class Frames:
             cells = self._cells(state)
             self._require_field(cells, state)
             outermost = cells.outermost
-            corners += [outermost.min(axis=0) - cells.margin,
-                        outermost.max(axis=0) + cells.margin]
+            corners += [outermost.min(axis=0) - cells.margin, outermost.max(axis=0) + cells.margin]
             values.append(np.asarray(cells.columns[self.options.field]))
             self.flat = cells.flat
-        self.colours = colours_of(
-            self.options.field, np.concatenate(values), request.limits,
-            request.types).in_dimension(2 if self.flat else 3)
+        self.colours = colours_of(self.options.field, np.concatenate(values), request.limits,
+                                  request.types).in_dimension(2 if self.flat else 3)
         angles = self.options.azimuth, self.options.elevation
         if len(request.states) == 1:
             self.view = view_of(outermost, cells.margin, *angles, cells.flat)
@@ -50,8 +48,7 @@ class Frames:
                 if self.options.shapes else tissue.Spheres(file))
 
     def _require_field(self, cells, state):
-        there = sorted(name for name, values in cells.columns.items()
-                       if np.ndim(values) == 1)
+        there = sorted(name for name, values in cells.columns.items() if np.ndim(values) == 1)
         if self.options.field not in there:
             raise Refused("--field", self.options.field,
                           f"a column of {state[2].name}: " + ", ".join(there))
@@ -80,8 +77,7 @@ class Frames:
     def _outline(self, cells, state):
         """That of the cut, or None for tissue without boundary points."""
         try:
-            surface = read_points(states(self.options.directory,
-                                         "surface")[state[0]][1])
+            surface = read_points(states(self.options.directory, "surface")[state[0]][1])
         except (NoStates, IndexError):
             return None
         return inside_of_cut(

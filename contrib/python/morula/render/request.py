@@ -25,9 +25,8 @@ It needs neither a display nor a graphics card; 200,000 cells take half a minute
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(
-        description=DESCRIPTION,
-        formatter_class=argparse.RawTextHelpFormatter)
+    parser = argparse.ArgumentParser(description=DESCRIPTION,
+                                     formatter_class=argparse.RawTextHelpFormatter)
     add = parser.add_argument
     add("directory", type=Path, help="output directory of a run")
     add("--field", help="column of the cells that gives the colour; default: type "
@@ -35,8 +34,7 @@ def arguments(words):
     add("--range", help="LOW,HIGH of the colours; default: the field's 1st to "
         "99th\npercentile, for pressure and stress as far on both sides of 0")
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--time", type=float, help="day; default: the last "
-                       "state written")
+    which.add_argument("--time", type=float, help="day; default: the last " "state written")
     which.add_argument("--all", action="store_true",
                        help="a picture of every state, FIELD-NNNN.png")
     which.add_argument("--movie", action="store_true",
@@ -50,12 +48,9 @@ def arguments(words):
     add("--shapes", action="store_true", help="cells as polyhedra, as "
         "contrib/cell-shapes writes them;\n--field can be one of its fields, "
         "too")
-    add("--section", action="store_true",
-        help="with --shapes: cut through cells, not round them")
-    add("--azimuth", type=float, default=-60,
-        help="degrees from the x axis; the viewer is there")
-    add("--elevation", type=float, default=14,
-        help="degrees above the xy plane")
+    add("--section", action="store_true", help="with --shapes: cut through cells, not round them")
+    add("--azimuth", type=float, default=-60, help="degrees from the x axis; the viewer is there")
+    add("--elevation", type=float, default=14, help="degrees above the xy plane")
     add("--title", help="default: time and number of cells")
     add("--width", type=int, default=1000, help="of a panel, pixels")
     add("--output", type=Path, help="file to write; default: FIELD.png in the "
@@ -71,16 +66,14 @@ class Request:
     def __init__(self, options):
         self.options = options
         if options.section and not options.shapes:
-            raise Refused("--section", "on", "it with --shapes alone",
-                          "Spheres are drawn whole.")
+            raise Refused("--section", "on", "it with --shapes alone", "Spheres are drawn whole.")
         if not 20 <= options.width <= 20000:
             raise Refused("--width", options.width, "20 to 20000 pixels")
         if not 0 < options.fps <= 100:
             raise Refused("--fps", options.fps, "a number above 0, up to 100")
         for name in ("azimuth", "elevation"):
             if not math.isfinite(getattr(options, name)):
-                raise Refused(f"--{name}", getattr(options, name),
-                              "a number of degrees")
+                raise Refused(f"--{name}", getattr(options, name), "a number of degrees")
         self.limits = limits_of(options.range)
         self.states = self._chosen(states(options.directory, "cells"))
         self.types = names_of_run(options.directory)
@@ -88,26 +81,22 @@ class Request:
             options.field = "type" if self.types else "volume"
         self.film = None
         if options.movie:
-            self.path, self.film = film_writer(
-                options.output, options.directory / options.field,
-                options.fps)
+            self.path, self.film = film_writer(options.output, options.directory / options.field,
+                                               options.fps)
         elif options.all:
             self.path = options.output or options.directory
             if not self.path.is_dir():
                 raise Refused("--output", self.path, "a directory that exists")
         else:
-            self.path = (options.output
-                         or options.directory / f"{options.field}.png")
+            self.path = (options.output or options.directory / f"{options.field}.png")
         folder = self.path if options.all else self.path.parent
         if not folder.is_dir():
-            raise Refused("--output", self.path, "a file in a directory that "
-                          "exists")
+            raise Refused("--output", self.path, "a file in a directory that " "exists")
 
     @property
     def cut_open(self):
         """For every panel, whether it is cut open."""
-        return ([False, True] if self.options.panels == 2
-                else [self.options.cut])
+        return ([False, True] if self.options.panels == 2 else [self.options.cut])
 
     def _chosen(self, found):
         """(number, time, file) of the states to draw."""
@@ -133,6 +122,5 @@ def limits_of(text):
     except ValueError:
         low = high = math.nan
     if not (low < high and math.isfinite(high - low)):
-        raise Refused("--range", text, "LOW,HIGH, two numbers, the smaller "
-                      "one first")
+        raise Refused("--range", text, "LOW,HIGH, two numbers, the smaller " "one first")
     return low, high

@@ -34,8 +34,7 @@ def draw(request):
         def pictures():
             start = time.monotonic()
             for done, (_, picture) in enumerate(frames, 1):
-                tell(progress(done, len(request.states),
-                              time.monotonic() - start))
+                tell(progress(done, len(request.states), time.monotonic() - start))
                 yield picture
 
         with replaced(request.path) as unfinished:
@@ -43,8 +42,7 @@ def draw(request):
         print(f"render: {request.path}, {len(request.states)} states")
         return
     for number, picture in frames:
-        path = (request.path / f"{options.field}-{number:04}.png"
-                if options.all else request.path)
+        path = (request.path / f"{options.field}-{number:04}.png" if options.all else request.path)
         Image.fromarray(picture).save(path, "PNG")
         print(f"render: {path}", flush=True)
 

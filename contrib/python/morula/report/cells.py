@@ -17,9 +17,8 @@ from morula.run import row_at
 from .pictures import colour_bar
 
 # The first that there is gives the colours when the page opens.
-DEFAULT_FIELDS = ("type", "energy_density", "volume", "elastic_volume_ratio",
-                  "growth_volume_ratio", "generation", "phase",
-                  "held_at_checkpoint", "pressure")
+DEFAULT_FIELDS = ("type", "energy_density", "volume", "elastic_volume_ratio", "growth_volume_ratio",
+                  "generation", "phase", "held_at_checkpoint", "pressure")
 PERCENTILES = (0.5, 99.5)
 NO_FIELDS = ("time", "id", "parent", "X", "Y", "Z")
 SHADES = 256
@@ -37,8 +36,7 @@ class Packed:
 
     def __init__(self, run, fields, wanted, limit):
         self.run, self.fields, self.flat = run, fields, run.dimension == 2
-        counts = [int(run.statistics["cells"][row_at(run.statistics, time)])
-                  for time in run.times]
+        counts = [int(run.statistics["cells"][row_at(run.statistics, time)]) for time in run.times]
         while counts[-1] == 0:  # all cells are dead: nothing to show
             counts.pop()
         last = len(counts) - 1
@@ -66,9 +64,8 @@ class Packed:
         self.colours = {}
         for name in self.fields:
             values = self.whole[name].to_numpy()
-            self.colours[name] = colours_of(
-                name, values, limits_of(name, values, PERCENTILES),
-                self.run.type_names)
+            self.colours[name] = colours_of(name, values, limits_of(name, values, PERCENTILES),
+                                            self.run.type_names)
 
     def _table(self, i):
         cells = self.run.cells(i)
@@ -81,8 +78,7 @@ class Packed:
         other: deflated, and written in base64."""
         table = self.tables[i][::stride]
         places = quantised(table.iloc[:, :4], self.low, self.high, "<u2")
-        values = [quantised(table[name], *self._limits(name), np.uint8)
-                  for name in self.fields]
+        values = [quantised(table[name], *self._limits(name), np.uint8) for name in self.fields]
         content = b"".join(part.tobytes() for part in (places, *values))
         return base64.b64encode(zlib.compress(content, 9)).decode()
 
@@ -122,10 +118,9 @@ class Selection:
 
 
 def choose(times, counts, bytes_per_cell, wanted, limit):
-    """As many states as fit into the limit (bytes), spread evenly, with the
-    first and the last one; if not even these two fit, the last one alone, and
-    if that does not, every second, third ... cell of it. `counts` are the
-    cells of each state, `wanted` the most states, or None."""
+    """As many states as fit into the limit (bytes), spread evenly, with the first and the last
+    one; if not even these two fit, the last one alone, and if that does not, every second, third
+    ... cell of it. `counts` are the cells of each state, `wanted` the most states, or None."""
     total, words, stride = len(counts), [], 1
     for number in range(min(total, wanted or total), 0, -1):
         states = sorted({round(i) for i in np.linspace(total - 1, 0, number)})

@@ -97,8 +97,7 @@ def picture(rows, curve, fit):
                       linestyle="-" if i < len(COLOURS) else ":")
         if fit and fit.exponential:
             time = np.linspace(fit.low, fit.high, 100)
-            axes.plot(time, fit.factor * np.exp(fit.rate * time), "k--",
-                      label="exponential fit")
+            axes.plot(time, fit.factor * np.exp(fit.rate * time), "k--", label="exponential fit")
         if curve.log and (rows[[*curve.columns]] > 0).any(axis=None):
             axes.set_yscale("log")
         if curve.zero:

@@ -15,8 +15,7 @@ from .cells import DEFAULT_FIELDS, Packed, fields_of
 from .pictures import pictures
 
 PAGE = Path(__file__).with_name("page")
-TEMPLATES = Environment(loader=FileSystemLoader(PAGE), autoescape=True,
-                        undefined=StrictUndefined)
+TEMPLATES = Environment(loader=FileSystemLoader(PAGE), autoescape=True, undefined=StrictUndefined)
 # Debian's package; its own files hold the notice of its licence.
 THREE = Path("/usr/share/javascript/three")
 LIBRARIES = (THREE / "build/three.min.js", THREE / "examples/js/controls/OrbitControls.js")
@@ -61,8 +60,7 @@ def why_no_view(options):
 
 
 def scripts():
-    """The library with its licence, which must go with every copy, then the page's
-    own."""
+    """The library with its licence, which must go with every copy, then the page's own."""
     if not all(file.is_file() for file in LIBRARIES):
         raise Refused("three.js", LIBRARIES[0], "Debian's package libjs-three",
                       "contrib/setup installs it; --states 0 makes a page without the 3-D view.")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Lists of (name, value): the run at a glance, its cost, how far its results can be
-trusted."""
+"""Lists of (name, value): the run at a glance, its cost, how far its results can be trusted."""
 import numpy as np
 from morula.error_in_time import error_in_time
 
@@ -58,8 +57,7 @@ def timings(run):
     rest = seconds - found["wall_seconds"].sum()
     rows = [*found.itertuples(name=None), ("all else", calls, rest, rest / seconds),
             ("total", calls, seconds, 1.0)]
-    return [(name, number(n), f"{s:.2f}", f"{100 * share:.1f} %")
-            for name, n, s, share in rows]
+    return [(name, number(n), f"{s:.2f}", f"{100 * share:.1f} %") for name, n, s, share in rows]
 
 
 def accuracy(run):
@@ -99,8 +97,7 @@ def condition(run):
 
 
 def cells_per_edge(run, row):
-    """h over the mean cell's edge, which is L_p at first; of the rows that
-    have cells."""
+    """h over the mean cell's edge, which is L_p at first; of the rows that have cells."""
     state = run.statistics[run.statistics["cells"] > 0].iloc[row]
     edge = (state["total_volume"] / state["cells"]) ** (1 / run.dimension)
     return run.number("Grid/Spacing") / edge

@@ -11,9 +11,8 @@ def changed_keys(run, program):
     """(key, value, default) where the value is not that by default; of all keys
     without the program."""
     defaults = program.defaults if program else {}
-    return [(key, value or "(empty)", defaults.get(key, "(unknown)") or "(empty)")
-            for key, value in run.keys.items()
-            if key not in defaults or normal(value) != normal(defaults[key])]
+    return [(key, value or "(empty)", defaults.get(key, "(unknown)") or "(empty)") for key, value
+            in run.keys.items() if key not in defaults or normal(value) != normal(defaults[key])]
 
 
 def effects(run, program):

@@ -2,16 +2,16 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/report."""
 import argparse
-import os
 import shutil
 import sys
 from pathlib import Path
 
+from morula.command_line import run_tool
 from morula.files import write
 from morula.places import MORULA
 from morula.program import Program
 from morula.refusal import Refused
-from morula.run import NoStates, Run
+from morula.run import Run
 
 from .cells import fields_of
 from .document import page
@@ -27,11 +27,9 @@ no network. doc/looking-at-results.md shows one.
 
 
 def arguments(words):
-    parser = argparse.ArgumentParser(
-        description=DESCRIPTION,
-        formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("directory", type=Path,
-                        help="output directory of a run")
+    parser = argparse.ArgumentParser(description=DESCRIPTION,
+                                     formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("directory", type=Path, help="output directory of a run")
     parser.add_argument("--output", type=Path, metavar="FILE.html",
                         help="default: report.html in that directory")
     parser.add_argument("--states", type=int, metavar="N", help="at most so "
@@ -57,8 +55,7 @@ def check(run, options):
         raise Refused("--limit", options.limit, "a number of MB > 0")
     options.output = options.output or run.directory / "report.html"
     if options.output.is_dir() or not options.output.parent.is_dir():
-        raise Refused("--output", options.output, "a file in a directory "
-                      "that exists")
+        raise Refused("--output", options.output, "a file in a directory " "that exists")
     if options.fields is not None:
         options.fields = [f.strip() for f in options.fields.split(",")]
         if not len(run.times):
@@ -67,37 +64,32 @@ def check(run, options):
         there = fields_of(run.cells(-1))
         for field in options.fields:
             if field not in there:
-                raise Refused("--fields", field, "a column of the cells: "
-                              + ", ".join(there))
+                raise Refused("--fields", field, "a column of the cells: " + ", ".join(there))
 
 
 def find_program(wanted):
     """The program that was named, or the one that is found, or None."""
     if wanted is not None:
         return Program(wanted)
-    found = shutil.which("morula")
-    for file in (MORULA, *([Path(found)] if found else [])):
-        if os.access(file, os.X_OK) and file.is_file():
-            try:
-                program = Program(file)
-                program.defaults  # an executable of another machine fails
-                return program
-            except (Refused, OSError):
-                continue
+    for file in filter(None, (MORULA, shutil.which("morula"))):
+        try:
+            program = Program(file)  # which must be an executable
+            program.defaults  # that of another machine fails
+            return program
+        except (Refused, OSError):
+            continue
     return None
 
 
 def main(words=None):
     sys.stdout.reconfigure(errors="backslashreplace")
     options = arguments(words)
-    try:
-        run = Run(options.directory)
-        check(run, options)
-        program = find_program(options.morula)
-        write(options.output, page(run, program, options))
-    except (Refused, NoStates) as refusal:
-        print(f"report: {refusal}", file=sys.stderr)
-        return 1
-    size = options.output.stat().st_size / 1e6
-    print(f"report: {options.output}, {size:.1f} MB")
+    return run_tool("report", lambda: report(options), "no page was written")
+
+
+def report(options):
+    run = Run(options.directory)
+    check(run, options)
+    write(options.output, page(run, find_program(options.morula), options))
+    print(f"report: {options.output}, {options.output.stat().st_size / 1e6:.1f} MB")
     return 0

@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The tissue's surface, a cloud of boundary points, and which of their tangent
-planes cut which region.
+"""The tissue's surface, a cloud of boundary points, and which of their tangent planes cut which
+region.
 
-A place is outside the tissue if it is beyond the tangent plane of the boundary
-point nearest to it. So a region is cut by the plane of the boundary point
-nearest to its cell, then by that of the boundary point nearest to the corner
-that is farthest outside, and so on until no corner is outside. Planes of
-boundary points farther away, which would cut off what lies round a concave
-surface, do not come into it.
-"""
+A place is outside the tissue if it is beyond the tangent plane of the boundary point nearest to
+it. So a region is cut by the plane of the boundary point nearest to its cell, then by that of the
+boundary point nearest to the corner that is farthest outside, and so on until no corner is
+outside. Planes of boundary points farther away, which would cut off what lies round a concave
+surface, do not come into it."""
 from dataclasses import replace
 
 import numpy as np
@@ -49,8 +47,7 @@ class Boundary:
 
     def height(self, points, places):
         """How far (um) places are outside of the planes of boundary points."""
-        return np.einsum("ij,ij->i", places - self.positions[points],
-                         self.normals[points])
+        return np.einsum("ij,ij->i", places - self.positions[points], self.normals[points])
 
     def outside(self, places, distance):
         """Whether places are more than a distance (um) outside."""
@@ -70,12 +67,10 @@ class Planes:
         self.astray = own_height > ASTRAY * lengths
 
     def _own_points(self):
-        """For each cell, the nearest boundary point that does not have it far
-        outside, or else the nearest of all; and how far (um) it is outside of
-        that one's plane."""
+        """For each cell, the nearest boundary point that does not have it far outside, or else the
+        nearest of all; and how far (um) it is outside of that one's plane."""
         near = self.boundary.near(self.centres)
-        height = self.boundary.height(
-            near.ravel(), np.repeat(self.centres, near.shape[1], axis=0))
+        height = self.boundary.height(near.ravel(), np.repeat(self.centres, near.shape[1], axis=0))
         height = height.reshape(near.shape)
         first = (height <= BEYOND * self.lengths[:, None]).argmax(axis=1)
         rows = np.arange(len(near))
@@ -98,10 +93,8 @@ class Planes:
         """Whether planes of boundary points may cut cells: those that have the
         cell inside, and those of the cell's own part of the surface."""
         normals = self.boundary.normals
-        same_side = np.einsum("ij,ij->i", normals[points],
-                              normals[self.own[cells]]) > SAME_SIDE
-        slack = np.where(same_side & ~self.astray[cells],
-                         self.slack[cells], 0)
+        same_side = np.einsum("ij,ij->i", normals[points], normals[self.own[cells]]) > SAME_SIDE
+        slack = np.where(same_side & ~self.astray[cells], self.slack[cells], 0)
         return self.boundary.height(points, self.centres[cells]) <= slack
 
     def cut(self, bodies, points):
@@ -113,8 +106,7 @@ class Planes:
         shift = self.shift(np.arange(len(points)), points)
         normal = self.boundary.normals[points]
         origin = self.boundary.positions[points] + shift[:, None] * normal
-        changed = cut(bodies.select(cut_now), origin, normal,
-                      np.full(len(points), SURFACE))
+        changed = cut(bodies.select(cut_now), origin, normal, np.full(len(points), SURFACE))
         rest = bodies.select(~cut_now)
         return joined([rest, changed])
 
@@ -135,16 +127,13 @@ class Planes:
         owner, corner = np.divmod(pairs, len(bodies.points))
         places = bodies.points[corner]
         points = self.boundary.nearest(places)
-        height = (self.boundary.height(points, places)
-                  - self.shift(owner, points))
+        height = (self.boundary.height(points, places) - self.shift(owner, points))
         outside = height > OUTSIDE * self.lengths[owner]
         owner, places, points = owner[outside], places[outside], points[outside]
         allowed = self.allowed(owner, points)
         points[~allowed] = self.other_points(owner[~allowed], places[~allowed])
-        height = (self.boundary.height(points, places)
-                  - self.shift(owner, points))
-        cuts = ((height > OUTSIDE * self.lengths[owner])
-                & self.allowed(owner, points))
+        height = (self.boundary.height(points, places) - self.shift(owner, points))
+        cuts = ((height > OUTSIDE * self.lengths[owner]) & self.allowed(owner, points))
         owner, points, height = owner[cuts], points[cuts], height[cuts]
         order = np.lexsort([height, owner])
         chosen = np.full(len(self.own), -1)
@@ -163,8 +152,7 @@ def cut_at_surface(bodies, boundary, centres, lengths, volumes):
     low = result.volumes(centres) < LEAST * volumes
     if low.any():
         again = replace(bodies.select(low[bodies.owner]), points=result.points)
-        again = cut_by_planes(again, Planes(boundary, centres, lengths,
-                                            raised=True))
+        again = cut_by_planes(again, Planes(boundary, centres, lengths, raised=True))
         again = cut_to_cube(again, centres, RAISED * lengths)
         result = joined([result.select(~low[result.owner]), again])
     # Cells that are lost far outside have no surface near them.

@@ -13,8 +13,7 @@ def cut(bodies, origin, normal, beyond):
     goes through `origin`, with outward unit `normal`, both (n, 3) for owners 0
     to n - 1. `beyond` (n) says what is on the other side of the new faces."""
     owner = np.repeat(bodies.owner, bodies.counts)  # of each corner
-    height = np.einsum("ij,ij->i", bodies.points[bodies.corners]
-                       - origin[owner], normal[owner])
+    height = np.einsum("ij,ij->i", bodies.points[bodies.corners] - origin[owner], normal[owner])
     height[np.abs(height) <= ON_PLANE] = 0
     sides, rims = cut_faces(bodies, owner, height)
     return joined([sides, lids(sides.points, *rims, normal, beyond)])
@@ -40,8 +39,7 @@ def cut_faces(bodies, owner, height):
     low = np.minimum.reduceat(height, bodies.starts[:-1])
     kept = (counts >= 3) & (low < 0)
     there &= np.repeat(kept, bodies.counts)[:, None]
-    sides = Polyhedra(points, number[there],
-                      np.concatenate([[0], np.cumsum(counts[kept])]),
+    sides = Polyhedra(points, number[there], np.concatenate([[0], np.cumsum(counts[kept])]),
                       bodies.owner[kept], bodies.beyond[kept])
     on_plane = there & np.stack([height == 0, crossing], axis=1)
     rim = np.unique(np.stack([np.repeat(owner, 2)[on_plane.ravel()],
@@ -54,12 +52,9 @@ def crossings(bodies, owner, height, crossing):
     on each crossing edge, equal for the two faces of the edge."""
     here, there = np.flatnonzero(crossing), bodies.following()[crossing]
     swapped = bodies.corners[here] > bodies.corners[there]
-    here, there = (np.where(swapped, there, here),
-                   np.where(swapped, here, there))
-    edge = np.stack([owner[here], bodies.corners[here],
-                     bodies.corners[there]], axis=1)
-    _, index, of_edge = np.unique(edge, axis=0, return_index=True,
-                                  return_inverse=True)
+    here, there = (np.where(swapped, there, here), np.where(swapped, here, there))
+    edge = np.stack([owner[here], bodies.corners[here], bodies.corners[there]], axis=1)
+    _, index, of_edge = np.unique(edge, axis=0, return_index=True, return_inverse=True)
     here, there = here[index], there[index]
     part = (height[here] / (height[here] - height[there]))[:, None]
     return ((1 - part) * bodies.points[bodies.corners[here]]
@@ -79,11 +74,9 @@ def lids(points, owner, rim, normal, beyond):
     first = np.cross(other, along)
     first /= np.linalg.norm(first, axis=1, keepdims=True)
     second = np.cross(along, first)
-    angle = np.arctan2(
-        np.einsum("ij,ij->i", arms, np.repeat(second, counts, axis=0)),
-        np.einsum("ij,ij->i", arms, np.repeat(first, counts, axis=0)))
+    angle = np.arctan2(np.einsum("ij,ij->i", arms, np.repeat(second, counts, axis=0)),
+                       np.einsum("ij,ij->i", arms, np.repeat(first, counts, axis=0)))
     rim = rim[np.lexsort([angle, owner])]
     rim = rim[ranges(starts[kept], counts[kept])]
-    return Polyhedra(points, rim,
-                     np.concatenate([[0], np.cumsum(counts[kept])]),
-                     owners[kept], beyond[owners[kept]])
+    return Polyhedra(points, rim, np.concatenate([[0], np.cumsum(counts[kept])]), owners[kept],
+                     beyond[owners[kept]])

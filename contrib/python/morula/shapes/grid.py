@@ -16,8 +16,7 @@ def grid_of(bodies, columns, kept, flat):
     bodies = bodies.select(kept[bodies.owner])
     if flat:  # the top, which goes round counterclockwise seen from above
         bodies = bodies.select((bodies.beyond == FLAT)
-                               & (bodies.points[bodies.corners[
-                                   bodies.starts[:-1]]][:, 2] > 0))
+                               & (bodies.points[bodies.corners[bodies.starts[:-1]]][:, 2] > 0))
     used, corners = np.unique(bodies.corners, return_inverse=True)
     points = bodies.points[used]
     if flat:
@@ -49,8 +48,7 @@ def add_polyhedra(grid, bodies, corners, number):
     """Gives the grid a polyhedron for each owner. VTK wants the points of each
     one, and a stream: for each polyhedron the number of faces, and for each
     face the number of corners and the corners."""
-    owners, first, faces = np.unique(bodies.owner, return_index=True,
-                                     return_counts=True)
+    owners, first, faces = np.unique(bodies.owner, return_index=True, return_counts=True)
     rank = np.repeat(np.arange(len(owners)), faces)
 
     pairs = np.unique(np.repeat(rank, bodies.counts) * number + corners)
@@ -65,8 +63,7 @@ def add_polyhedra(grid, bodies, corners, number):
     stream[cell_at] = faces
     stream[face_at] = bodies.counts
     stream[ranges(face_at + 1, bodies.counts)] = corners
-    kinds = numpy_to_vtk(np.full(len(owners), VTK_POLYHEDRON, dtype=np.uint8),
-                         deep=True)
+    kinds = numpy_to_vtk(np.full(len(owners), VTK_POLYHEDRON, dtype=np.uint8), deep=True)
     grid.SetCells(kinds, lists_of_points(starts, points),
                   numpy_to_vtkIdTypeArray(cell_at, deep=True),
                   numpy_to_vtkIdTypeArray(stream, deep=True))

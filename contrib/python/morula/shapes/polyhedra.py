@@ -19,16 +19,14 @@ def row_sums(values, starts):
 def ranges(starts, counts):
     """All of start, start + 1, ... start + count - 1, one after the other."""
     ends = np.cumsum(counts)
-    return (np.arange(ends[-1] if len(ends) else 0)
-            + np.repeat(starts - (ends - counts), counts))
+    return (np.arange(ends[-1] if len(ends) else 0) + np.repeat(starts - (ends - counts), counts))
 
 
 @dataclass(frozen=True)
 class Polyhedra:
-    """Faces of polyhedra. Face f has the corners[starts[f]:starts[f + 1]],
-    rows of `points` (um), in a circle and counterclockwise from outside; it
-    belongs to the polyhedron `owner[f]`, and `beyond[f]` is the cell on its
-    other side, or SURFACE, FLAT, FAR."""
+    """Faces of polyhedra. Face f has the corners[starts[f]:starts[f + 1]], rows of `points` (um),
+    in a circle and counterclockwise from outside; it belongs to the polyhedron `owner[f]`, and
+    `beyond[f]` is the cell on its other side, or SURFACE, FLAT, FAR."""
 
     points: np.ndarray   # (n, 3), um
     corners: np.ndarray
@@ -51,36 +49,29 @@ class Polyhedra:
         """The polyhedra of these faces alone, a mask or numbers."""
         faces = np.arange(len(self.owner))[faces]
         counts = self.counts[faces]
-        return Polyhedra(self.points,
-                         self.corners[ranges(self.starts[faces], counts)],
-                         np.concatenate([[0], np.cumsum(counts)]),
-                         self.owner[faces], self.beyond[faces])
+        return Polyhedra(self.points, self.corners[ranges(self.starts[faces], counts)],
+                         np.concatenate([[0], np.cumsum(counts)]), self.owner[faces],
+                         self.beyond[faces])
 
     def turned(self, which):
         """With the faces of this mask the other way round."""
         counts = self.counts
         place = np.arange(len(self.corners))
-        mirror = np.repeat(self.starts[:-1] + self.starts[1:] - 1,
-                           counts) - place
-        corners = self.corners[np.where(np.repeat(which, counts), mirror,
-                                        place)]
-        return Polyhedra(self.points, corners, self.starts, self.owner,
-                         self.beyond)
+        mirror = np.repeat(self.starts[:-1] + self.starts[1:] - 1, counts) - place
+        corners = self.corners[np.where(np.repeat(which, counts), mirror, place)]
+        return Polyhedra(self.points, corners, self.starts, self.owner, self.beyond)
 
     def area_vectors(self):
         """Area (um^2) times outward unit normal of each face."""
-        first = np.repeat(self.points[self.corners[self.starts[:-1]]],
-                          self.counts, axis=0)
+        first = np.repeat(self.points[self.corners[self.starts[:-1]]], self.counts, axis=0)
         arms = self.points[self.corners] - first
-        return 0.5 * row_sums(np.cross(arms, arms[self.following()]),
-                              self.starts)
+        return 0.5 * row_sums(np.cross(arms, arms[self.following()]), self.starts)
 
     def volumes(self, centres):
         """Volumes (um^3) of the polyhedra round the centres (n, 3), which
         may be any points: that of a cone for each face."""
         corner = self.points[self.corners[self.starts[:-1]]]
-        cones = np.einsum("ij,ij->i", corner - centres[self.owner],
-                          self.area_vectors()) / 3
+        cones = np.einsum("ij,ij->i", corner - centres[self.owner], self.area_vectors()) / 3
         return np.bincount(self.owner, cones, len(centres))
 
 

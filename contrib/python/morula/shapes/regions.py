@@ -31,8 +31,7 @@ class Regions:
     @property
     def fields(self):
         """As columns besides those of the cells."""
-        return {"region_volume": self.volume,
-                "neighbours": self.neighbours,
+        return {"region_volume": self.volume, "neighbours": self.neighbours,
                 "touches_surface": self.touches_surface.astype(np.int32)}
 
 
@@ -49,12 +48,10 @@ def regions_of(positions, volumes, boundary, flat):
     outer = at_surface[bodies.owner]
     inner, outer = bodies.select(~outer), bodies.select(outer)
     outer = replace(outer, owner=number[outer.owner])
-    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells],
-                           volumes[cells])
+    outer = cut_at_surface(outer, boundary, centres[cells], lengths[cells], volumes[cells])
     outer = replace(outer, owner=cells[outer.owner])
     bodies = joined([inner, outer])
-    return measured(bodies.select(np.argsort(bodies.owner, kind="stable")),
-                    centres, flat)
+    return measured(bodies.select(np.argsort(bodies.owner, kind="stable")), centres, flat)
 
 
 def require_all(bodies, positions):
@@ -62,21 +59,17 @@ def require_all(bodies, positions):
     missing = np.bincount(bodies.owner, minlength=len(positions)) == 0
     if missing.any():
         place = positions[missing.argmax()]
-        raise Refused("The cells", f"{len(positions)} cells",
-                      "cells at different places",
-                      f"Several are at ({place[0]:g}, {place[1]:g}, "
-                      f"{place[2]:g}) um.")
+        raise Refused("The cells", f"{len(positions)} cells", "cells at different places",
+                      f"Several are at ({place[0]:g}, {place[1]:g}, {place[2]:g}) um.")
 
 
 def reaching_out(bodies, boundary, lengths):
     """Which cells have regions with corners outside of the surface."""
     used = np.unique(bodies.corners)
     outside = np.zeros(len(bodies.points), dtype=bool)
-    outside[used] = boundary.outside(bodies.points[used],
-                                     OUTSIDE * lengths.min())
+    outside[used] = boundary.outside(bodies.points[used], OUTSIDE * lengths.min())
     result = np.zeros(len(lengths), dtype=bool)
-    result[np.repeat(bodies.owner, bodies.counts)[outside[bodies.corners]]] = (
-        True)
+    result[np.repeat(bodies.owner, bodies.counts)[outside[bodies.corners]]] = (True)
     return result
 
 
@@ -90,9 +83,8 @@ def measured(bodies, centres, flat):
     outer = bodies.beyond == SURFACE
     surface_area = np.bincount(bodies.owner[outer], area[outer], number)
     pairs = neighbour_pairs(bodies, area, least)
-    return Regions(bodies, volume,
-                   np.bincount(pairs.ravel(), minlength=number),
-                   surface_area > least)
+    return Regions(bodies, volume, np.bincount(pairs.ravel(), minlength=number), surface_area
+                   > least)
 
 
 def neighbour_pairs(bodies, area, least):

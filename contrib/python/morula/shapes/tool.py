@@ -2,15 +2,14 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/cell-shapes."""
 import argparse
-import sys
 from pathlib import Path
 
 import numpy as np
 from morula.columns import COMPONENTS
-from morula.command_line import Parser
+from morula.command_line import Parser, run_tool
 from morula.expressions import rows_where
 from morula.refusal import Refused
-from morula.run import NoStates, Run, states
+from morula.run import Run, states
 
 from .grid import grid_of
 from .regions import regions_of_state
@@ -32,12 +31,9 @@ off, and how well they fill the tissue.
 
 
 def arguments(words):
-    parser = Parser(description=DESCRIPTION,
-                    formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("directory", type=Path,
-                        help="output directory of a run, finished or not")
-    parser.add_argument("--time", metavar="DAY", help="of the state; default: "
-                        "the last one written")
+    parser = Parser(description=DESCRIPTION, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("directory", type=Path, help="output directory of a run, finished or not")
+    parser.add_argument("--time", metavar="DAY", help="of the state; default: the last one written")
     parser.add_argument("--all", action="store_true", help="all states")
     parser.add_argument("--where", metavar="EXPRESSION", help="write those "
                         "cells alone for which it is true,\nof the columns: "
@@ -74,11 +70,9 @@ def check_output(options):
     if file is None:
         return
     if options.all:
-        raise Refused("--output", file, "a name for a single state",
-                      "Leave it out with --all.")
+        raise Refused("--output", file, "a name for a single state", "Leave it out with --all.")
     if file.suffix != ".vtu" or file.is_dir() or not file.parent.is_dir():
-        raise Refused("--output", file, "a name that ends in .vtu, in a "
-                      "directory that exists")
+        raise Refused("--output", file, "a name that ends in .vtu, in a " "directory that exists")
 
 
 def with_vectors(cells):
@@ -88,8 +82,7 @@ def with_vectors(cells):
     if "displacement_x" in cells:
         columns["displacement"] = np.stack(
             [columns[f"displacement_{axis}"] for axis in "xyz"], axis=1)
-        columns["sigma"] = np.stack([columns[name] for name
-                                     in COMPONENTS["sigma"]], axis=1)
+        columns["sigma"] = np.stack([columns[name] for name in COMPONENTS["sigma"]], axis=1)
     return columns
 
 
@@ -101,17 +94,14 @@ def write_state(run, i, options):
     if options.where is not None:
         kept = rows_where(options.where, dict(cells), "--where")
         if not kept.any() and not options.all:
-            raise Refused("--where", options.where, "what is true for some "
-                          "cell", f"On day {time:g} it is for none of "
-                          f"{len(kept)}.")
+            raise Refused("--where", options.where, "what is true for some cell",
+                          f"On day {time:g} it is for none of {len(kept)}.")
     regions = regions_of_state(run, i)
-    grid = grid_of(regions.bodies,
-                   {**with_vectors(cells), **regions.fields}, kept,
-                   run.dimension == 2)
+    grid = grid_of(regions.bodies, {**with_vectors(cells), **regions.fields}, kept, run.dimension
+                   == 2)
     file = options.output or file_of(cells_file)
     write_grid(grid, file)
-    return (f"{file}: day {time:g}, {kept.sum()} cells, "
-            f"{file.stat().st_size / 1e6:.1f} MB")
+    return (f"{file}: day {time:g}, {kept.sum()} cells, " f"{file.stat().st_size / 1e6:.1f} MB")
 
 
 def write_all(options):
@@ -121,16 +111,9 @@ def write_all(options):
         print("cell-shapes:", write_state(run, i, options), flush=True)
     if options.output is None:
         print("cell-shapes:", write_collection(run.directory))
+    return 0
 
 
 def main(words=None):
-    try:
-        write_all(arguments(words))
-    except (Refused, NoStates, OSError) as refusal:
-        print(f"cell-shapes: {refusal}", file=sys.stderr)
-        return 1
-    except KeyboardInterrupt:
-        print("cell-shapes: stopped; files that were written are whole.",
-              file=sys.stderr)
-        return 130
-    return 0
+    return run_tool("cell-shapes", lambda: write_all(arguments(words)),
+                    "files that were written are whole")

@@ -15,8 +15,7 @@ def voronoi_regions(positions, length, flat):
     """The regions of cells at positions (n, 3), um, of at most this length;
     flat ones, with z = 0, as prisms from z = -1/2 to z = 1/2."""
     dim = 2 if flat else 3
-    diagram = Voronoi(np.vstack([positions[:, :dim],
-                                 far_points(positions[:, :dim], length)]))
+    diagram = Voronoi(np.vstack([positions[:, :dim], far_points(positions[:, :dim], length)]))
     walls, pairs = walls_of(diagram, dim)
     cells = len(positions)
     # Each wall is a face of the regions on both of its sides.
@@ -25,8 +24,7 @@ def voronoi_regions(positions, length, flat):
                                       + walls.starts[-1]]),
                       pairs.T.ravel(), pairs[:, ::-1].T.ravel())
     sides = sides.select(sides.owner < cells)
-    to_other = (diagram.points[sides.beyond]
-                - diagram.points[sides.owner]) @ np.eye(dim, 3)
+    to_other = (diagram.points[sides.beyond] - diagram.points[sides.owner]) @ np.eye(dim, 3)
     inward = np.einsum("ij,ij->i", sides.area_vectors(), to_other) < 0
     sides = sides.turned(inward)
     sides.beyond[sides.beyond >= cells] = FAR
@@ -59,8 +57,7 @@ def walls_of(diagram, dim):
         number, corners = len(points), corners.reshape(-1, 2)
         corners = np.hstack([corners, corners[:, ::-1] + number]).ravel()
         starts = 2 * starts
-        points = np.vstack([np.insert(points, 2, z, axis=1)
-                            for z in (-0.5, 0.5)])
+        points = np.vstack([np.insert(points, 2, z, axis=1) for z in (-0.5, 0.5)])
     nobody = np.zeros(len(counts), dtype=np.int64)
     walls = Polyhedra(points, corners, starts, nobody, nobody).select(kept)
     return walls, diagram.ridge_points[kept].astype(np.int64)
@@ -78,9 +75,7 @@ def ends_of(sides, positions):
     offset = sides.points[corners] - positions[sides.owner]
     order = np.lexsort([np.arctan2(offset[:, 1], offset[:, 0]), sides.owner])
     owner, counts = np.unique(sides.owner, return_counts=True)
-    top = Polyhedra(sides.points, corners[order] + number,
-                    np.concatenate([[0], np.cumsum(counts)]), owner,
-                    np.full(len(owner), FLAT))
-    bottom = Polyhedra(top.points, top.corners - number, top.starts, owner,
-                       top.beyond)
+    top = Polyhedra(sides.points, corners[order] + number, np.concatenate([[0], np.cumsum(counts)]),
+                    owner, np.full(len(owner), FLAT))
+    bottom = Polyhedra(top.points, top.corners - number, top.starts, owner, top.beyond)
     return bottom.turned(np.ones(len(owner), dtype=bool)), top

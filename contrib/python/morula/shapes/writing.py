@@ -18,8 +18,7 @@ def write_grid(grid, file):
         writer.SetInputData(grid)
         writer.SetDataModeToAppended()
         writer.EncodeAppendedDataOff()
-        if (not writer.Write() or writer.GetErrorCode()
-                or not os.path.getsize(name)):
+        if (not writer.Write() or writer.GetErrorCode() or not os.path.getsize(name)):
             raise OSError(f"{file} could not be written: is the disk full?")
 
 
@@ -34,8 +33,7 @@ def write_collection(directory):
     lines = []
     for time, cells in states(directory, "cells"):
         file = file_of(cells)
-        if (file.is_file()
-                and file.stat().st_mtime_ns >= cells.stat().st_mtime_ns):
+        if (file.is_file() and file.stat().st_mtime_ns >= cells.stat().st_mtime_ns):
             lines.append(f'    <DataSet timestep="{time:.10g}" group="" '
                          f'part="0" file="{file.name}"/>\n')
     collection = directory / f"{NAME}.pvd"

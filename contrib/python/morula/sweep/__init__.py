@@ -2,7 +2,5 @@
 # Copyright (C) 2026 by the Morula authors
 """Ensembles of runs: contrib/sweep.
 
-The way through the package: `options` is the command line, `request` checks
-it, `ensemble` what the seeds of one combination have in common, `report` and
-`figure` the tables and the picture.
-"""
+The way through the package: `options` is the command line, `request` checks it, `ensemble` what
+the seeds of one combination have in common, `report` and `figure` the tables and the picture."""

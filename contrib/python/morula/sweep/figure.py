@@ -18,9 +18,8 @@ def draw(request, ensembles, file):
     rows = -(-n // 2) if n > 3 else 1
     columns = -(-n // rows)
     with plt.rc_context(RC):
-        figure, panels = plt.subplots(
-            rows, columns, squeeze=False, layout="constrained",
-            figsize=(4.2 * columns + 2.4, 3.6 * rows))
+        figure, panels = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                      figsize=(4.2 * columns + 2.4, 3.6 * rows))
         for axes in panels.flat[n:]:
             axes.remove()
         for axes, column in zip(panels.flat, request.columns):
@@ -51,7 +50,5 @@ def _legend(axes, shown):
     handles, names = axes.get_legend_handles_labels()
     if len(handles) > MAX_NAMES:
         handles = handles[:MAX_NAMES]
-        names = names[:MAX_NAMES - 1] + [f"... {len(shown) - MAX_NAMES + 1} "
-                                         "more, see table.md"]
-    axes.legend(handles, names, loc="upper left", bbox_to_anchor=(1.02, 1),
-                fontsize=7)
+        names = names[:MAX_NAMES - 1] + [f"... {len(shown) - MAX_NAMES + 1} " "more, see table.md"]
+    axes.legend(handles, names, loc="upper left", bbox_to_anchor=(1.02, 1), fontsize=7)

@@ -31,8 +31,7 @@ doc/sweeps.md explains the results.""")
         "hypercubes and posterior samples are")
     add("--skip-refused", action="store_true", help="leave out combinations "
         "that the program refuses, with a word, instead of giving up")
-    add("--seeds", metavar="1-5", help="random seeds of each combination; "
-        "default: the scene's own")
+    add("--seeds", metavar="1-5", help="random seeds of each combination; default: the scene's own")
     add("--columns", default="cells,total_volume", metavar="LIST",
         help="columns of statistics.csv to draw against time, and to show in "
         "table.md; default: cells,total_volume")

@@ -10,16 +10,13 @@ from morula.tables import markdown as table_of
 
 
 def write_tables(request, ensembles, directory):
-    """table.csv, runs.csv and table.md; each replaces the old one as a
-    whole."""
+    """table.csv, runs.csv and table.md; each replaces the old one as a whole."""
     keys = request.plan.keys
-    write_csv(directory / "table.csv", [
-        [*keys, "column", "unit", "runs", "failed", "mean",
-         "standard_deviation", "standard_error", "smallest", "largest"],
-        *_rows_of_ends(request, ensembles)])
-    write_csv(directory / "runs.csv", [
-        [*keys, "seed", "directory", "exit", *request.all_columns],
-        *_rows_of_runs(request, ensembles)])
+    write_csv(directory / "table.csv", [[*keys, "column", "unit", "runs", "failed", "mean",
+                                         "standard_deviation", "standard_error", "smallest",
+                                         "largest"], *_rows_of_ends(request, ensembles)])
+    write_csv(directory / "runs.csv", [[*keys, "seed", "directory", "exit", *request.all_columns],
+                                       *_rows_of_runs(request, ensembles)])
     write(directory / "table.md", markdown(request, ensembles))
 
 
@@ -27,9 +24,8 @@ def _rows_of_ends(request, ensembles):
     for ensemble in ensembles:
         for column in request.all_columns:
             n, *numbers = ensemble.end(column)
-            yield [*ensemble.point, column, unit(request, column), n,
-                   len(ensemble.records) - len(ensemble.tables),
-                   *(format(number, ".10g") for number in numbers)]
+            yield [*ensemble.point, column, unit(request, column), n, len(ensemble.records)
+                   - len(ensemble.tables), *(format(number, ".10g") for number in numbers)]
 
 
 def _rows_of_runs(request, ensembles):
@@ -37,12 +33,10 @@ def _rows_of_runs(request, ensembles):
     for ensemble in ensembles:
         for seed, record in zip(seeds(request), ensemble.records):
             table = record.run.statistics if record.finished else {}
-            yield [*ensemble.point, seed,
-                   record.output.relative_to(request.output),
-                   record.repeats[-1]["exit"],
-                   *(format(table[column].iloc[-1] if column in table
-                            else math.nan, ".10g")
-                     for column in request.all_columns)]
+            yield [*ensemble.point, seed, record.output.relative_to(request.output),
+                   record.repeats[-1]["exit"], *(format(table[column].iloc[-1] if column in table
+                                                        else math.nan, ".10g") for column
+                                                 in request.all_columns)]
 
 
 def seeds(request):

@@ -28,15 +28,13 @@ class Request:
         program = Program(options.morula, options.mpiexec)
         self.scene = Scene(options.scene, program, options.set)
         self.seeds = read_seeds(options.seeds)
-        self.plan = (SamplesPlan(self.scene, *self._samples())
-                     if options.samples else
-                     Plan(self.scene, self._ladders(), full_grid=True))
+        self.plan = (SamplesPlan(self.scene, *self._samples()) if options.samples
+                     else Plan(self.scene, self._ladders(), full_grid=True))
         self.results = self._results()
         self.columns = read_columns(options.columns, self.all_columns[1:])
         check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
-        self.output = output_directory(
-            options, OUTPUT / "sweep" / self.scene.name)
+        self.output = output_directory(options, OUTPUT / "sweep" / self.scene.name)
 
     @property
     def all_columns(self):
@@ -47,8 +45,7 @@ class Request:
 
     def _results(self):
         """Those that are results in all runs, with their units."""
-        found = [columns.statistics_of(
-            {**self.scene.keys, **dict(zip(self.plan.keys, point))})
+        found = [columns.statistics_of({**self.scene.keys, **dict(zip(self.plan.keys, point))})
                  for point in self.plan.points]
         return {name: unit for name, unit in found[0].items()
                 if all(name in other for other in found)}
@@ -63,9 +60,8 @@ class Request:
 
     def _ladders(self):
         if not self.options.vary and not self.seeds:
-            raise Refused("--vary", "", "at least one key with its values, "
-                          "--samples, or --seeds", "For instance --vary "
-                          '"Grid/Spacing=60,40" --seeds 1-5.')
+            raise Refused("--vary", "", "at least one key with its values, --samples, or --seeds",
+                          "For instance --vary " '"Grid/Spacing=60,40" --seeds 1-5.')
         ladders = [read_ladder(text, self.scene) for text in self.options.vary]
         for ladder in ladders:
             refuse_keys("--vary", ladder.keys, NOT_VARIED, CHANGES)
@@ -83,8 +79,7 @@ class Request:
             special.append(("Random seed", str(seed)))
         overrides = (*self.scene.overrides, *special,
                      *with_snapshots({**self.scene.keys, **dict(special)}))
-        return Job(job_name(special, overrides), overrides,
-                   ("cells", "surface", "snapshot"))
+        return Job(job_name(special, overrides), overrides, ("cells", "surface", "snapshot"))
 
 
 def read_columns(text, known):
@@ -93,8 +88,7 @@ def read_columns(text, known):
     for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            raise Refused("--columns", name, "a column of statistics.csv: "
-                          + ", ".join(known),
+            raise Refused("--columns", name, "a column of statistics.csv: " + ", ".join(known),
                           f"Did you mean '{near[0]}'?" if near else "")
     if len(set(names)) < len(names):
         raise Refused("--columns", text, "each column once")

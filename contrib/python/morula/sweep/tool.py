@@ -30,25 +30,21 @@ def sweep(request):
     seeds = request.seeds or [None]
     points = request.plan.points
     runs = [request.run(point, seed) for point in points for seed in seeds]
-    kept = KeptRuns(request.scene, request.output / "runs", request.ranks,
-                    request.jobs, again=request.options.again, resume=True,
-                    say=_say, name="sweep")
+    kept = KeptRuns(request.scene, request.output / "runs", request.ranks, request.jobs,
+                    again=request.options.again, resume=True, say=_say, name="sweep")
     allowed = set(kept.check(runs[::len(seeds)], request.options.skip_refused))
-    points = [point for point, run in zip(points, runs[::len(seeds)])
-              if run in allowed]
+    points = [point for point, run in zip(points, runs[::len(seeds)]) if run in allowed]
     runs = [request.run(point, seed) for point in points for seed in seeds]
     if not runs:
-        raise Refused("--skip-refused", "all combinations", "some that Morula "
-                      "accepts")
+        raise Refused("--skip-refused", "all combinations", "some that Morula " "accepts")
     if request.options.plan:
         for run in runs:
             _say(run.name)
         return 0
     records = kept.run(runs)
     n = len(seeds)
-    ensembles = [Ensemble(point, request.label(point),
-                          records[i * n:(i + 1) * n])
-                 for i, point in enumerate(points)]
+    ensembles = [Ensemble(point, request.label(point), records[i * n:(i + 1) * n]) for i, point
+                 in enumerate(points)]
     write_tables(request, ensembles, request.output)
     failures = list(failed_runs(request, ensembles))
     for line in failures:

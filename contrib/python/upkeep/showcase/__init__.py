@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 
 class Case(NamedTuple):
-    """A run: the keys besides those of the file, and the values that tell it from
-    others."""
+    """A run: the keys besides those of the file, and the values that tell it from others."""
 
     name: str
     keys: dict

@@ -77,9 +77,8 @@ def power_of(height, place, degree):
         n, index = degree - order, order + 0.5
         values = (1 - cosine**2)**(order / 2) * eval_gegenbauer(n, index, cosine)
         mean = numpy.mean(height * values * numpy.exp(1j * order * angle))
-        norm = (n + index) * numpy.exp(
-            2 * index * numpy.log(2) + gammaln(n + 1) + 2 * gammaln(index)
-            - gammaln(n + 2 * index)) / numpy.pi
+        norm = (n + index) * numpy.exp(2 * index * numpy.log(2) + gammaln(n + 1) + 2
+                                       * gammaln(index) - gammaln(n + 2 * index)) / numpy.pi
         total += (2 if order else 1) * norm * abs(mean)**2
     return total
 

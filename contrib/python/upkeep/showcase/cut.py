@@ -39,8 +39,7 @@ def opening(run):
     now = run.cells(-1).set_index("id").loc[lips.index]
     moved = 2 * (abs(now["y"]) - abs(lips["y"])).mean()
     rows = run.statistics
-    return moved, moved / numpy.interp(run.times[first], rows["time"],
-                                       rows["zmax"] - rows["zmin"])
+    return moved, moved / numpy.interp(run.times[first], rows["time"], rows["zmax"] - rows["zmin"])
 
 
 def row(case, run):

@@ -65,8 +65,7 @@ def row(case, run):
     rows = rows[(rows["time"] > 1.5) & (rows["time"] < CUT - 1e-9)]
     speed = numpy.polyfit(rows["time"], rows["ymax"], 1)[0]
     back = times[(times > CUT + 0.01) & (height >= 0.95 * mean)]
-    return [f"{case.values[0]:g}", f"{mean:.0f}",
-            f"{steady_height(case.values[0] * ANSWER):.0f}",
+    return [f"{case.values[0]:g}", f"{mean:.0f}", f"{steady_height(case.values[0] * ANSWER):.0f}",
             f"{speed:.0f}", f"{GROWTH * mean * LONGER:.0f}",
             f"{back[0] - CUT if len(back) else numpy.nan:.2f}",
             f"{numpy.log(0.95 * mean / LEFT) / GROWTH:.2f}",
@@ -76,8 +75,7 @@ def row(case, run):
 def draw(pairs):
     canvas, axes = plt.subplots(figsize=(6.4, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
-        axes.plot(*heights(run), color=COLOURS[i],
-                  label=f"PTHrP answers {case.values[0]:g} times")
+        axes.plot(*heights(run), color=COLOURS[i], label=f"PTHrP answers {case.values[0]:g} times")
         axes.axhline(steady_height(case.values[0] * ANSWER), linestyle=":", color=COLOURS[i])
     axes.axvline(CUT, color="#444444", linewidth=0.6)
     axes.set(xlabel="day", ylabel="height of proliferation, µm", ylim=(0, None))

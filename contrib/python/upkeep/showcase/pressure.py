@@ -27,8 +27,7 @@ def volume_ratio(pressure):
     """J_e of the neo-Hookean cells where all stress is this pressure, kPa."""
     shear = MODULUS / (2 * (1 + RATIO))
     lame_lambda = 2 * shear * RATIO / (1 - 2 * RATIO)
-    return brentq(lambda J: pressure + (lame_lambda * numpy.log(J)
-                                        + shear * (J**(2 / 3) - 1)) / J,
+    return brentq(lambda J: pressure + (lame_lambda * numpy.log(J) + shear * (J**(2 / 3) - 1)) / J,
                   0.2, 1.5, xtol=1e-14)
 
 
@@ -78,32 +77,27 @@ def found_rate(run):
 def row(case, run):
     rows = run.statistics
     volume = rows["total_volume"].iloc[-1] / rows["total_volume"].iloc[0]
-    return [case.name.removeprefix("pressure ").replace(" kPa", ""),
-            f"{found_rate(run):.3f}", f"{growth_rate(case.values[0]):.3f}",
-            f"{volume:.2f}", f"{course(*case.values, rows['time'])[-1]:.2f}",
-            f"{rows['cells'].iloc[-1]:,.0f}"]
+    return [case.name.removeprefix("pressure ").replace(" kPa", ""), f"{found_rate(run):.3f}",
+            f"{growth_rate(case.values[0]):.3f}", f"{volume:.2f}",
+            f"{course(*case.values, rows['time'])[-1]:.2f}", f"{rows['cells'].iloc[-1]:,.0f}"]
 
 
 def draw(pairs):
     canvas, (left, right) = plt.subplots(1, 2, figsize=(7.6, 3.4), layout="constrained")
     for i, (case, run) in enumerate(pairs):
         rows = run.statistics
-        left.semilogy(rows["time"], course(*case.values, rows["time"]), ":",
-                      color=COLOURS[i])
+        left.semilogy(rows["time"], course(*case.values, rows["time"]), ":", color=COLOURS[i])
         left.semilogy(rows["time"], rows["total_volume"] / rows["total_volume"].iloc[0],
                       color=COLOURS[i], label=case.name.removeprefix("pressure "))
         if case.keys:
             right.plot(case.values[0], found_rate(run), "o", color=COLOURS[i])
     pressures = numpy.linspace(0, 18, 181)
-    below, chosen, above = ([growth_rate(p, stopping) for p in pressures]
-                            for stopping in STOPPING)
-    right.plot(pressures, chosen, ":", color="#444444",
-               label=f"from J_e, stop at {CHOSEN:g} kPa")
+    below, chosen, above = ([growth_rate(p, stopping) for p in pressures] for stopping in STOPPING)
+    right.plot(pressures, chosen, ":", color="#444444", label=f"from J_e, stop at {CHOSEN:g} kPa")
     right.fill_between(pressures, below, above, color="#444444", alpha=0.15, linewidth=0,
                        label=f"stop at {STOPPING[0]:g} to {STOPPING[-1]:g} kPa")
     left.set(xlabel="day", ylabel="volume, of the first")
     left.legend(loc="upper left")
-    right.set(xlabel="pressure, kPa", ylabel="growth rate, of the free one",
-              ylim=(0, None))
+    right.set(xlabel="pressure, kPa", ylabel="growth rate, of the free one", ylim=(0, None))
     right.legend(loc="upper right")
     return canvas

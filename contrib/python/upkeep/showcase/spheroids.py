@@ -39,10 +39,8 @@ class Line(NamedTuple):
 
 # Least squares of the radii to all series of a line, with an outer radius on the first
 # day of each: by the number of cells seeded, um.
-LINES = {"WM983b": Line(221.2, 187.2, 0.3684, 0.2336),
-         "WM793b": Line(250.1, 202.3, 0.1668, 0.0481)}
-STARTS = {"WM983b": {2500: 132.4, 10000: 194.9},
-          "WM793b": {2500: 133.2, 5000: 176.8, 10000: 216.7}}
+LINES = {"WM983b": Line(221.2, 187.2, 0.3684, 0.2336), "WM793b": Line(250.1, 202.3, 0.1668, 0.0481)}
+STARTS = {"WM983b": {2500: 132.4, 10000: 194.9}, "WM793b": {2500: 133.2, 5000: 176.8, 10000: 216.7}}
 
 
 def radii(outer, line):
@@ -53,8 +51,7 @@ def radii(outer, line):
     necrotic = outer * (0.5 + numpy.cos((numpy.arccos(2 * thin - 1) - 2 * numpy.pi) / 3))
     square = numpy.maximum(outer**2 + 2 * necrotic**3 / outer - line.arrest**2, 1e-12)
     angle = numpy.arccos(numpy.maximum(-necrotic**3 * (3 / square)**1.5, -1))
-    return numpy.array([outer, necrotic,
-                        2 * numpy.sqrt(square / 3) * numpy.cos(angle / 3)])
+    return numpy.array([outer, necrotic, 2 * numpy.sqrt(square / 3) * numpy.cos(angle / 3)])
 
 
 def course(start, days, line):
@@ -63,8 +60,7 @@ def course(start, days, line):
         _, necrotic, arrested = radii(outer, line)[:, 0]
         grown = outer**3 - max(necrotic, arrested)**3
         return (line.growth / 3 * grown - line.loss * necrotic**3) / outer**2
-    solution = solve_ivp(rate, (days[0], days[-1]), [start], t_eval=days, rtol=1e-8,
-                         max_step=0.2)
+    solution = solve_ivp(rate, (days[0], days[-1]), [start], t_eval=days, rtol=1e-8, max_step=0.2)
     return radii(solution.y[0], line)
 
 

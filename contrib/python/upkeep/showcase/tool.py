@@ -41,8 +41,7 @@ def main():
     for name in options.names or SUBJECTS:
         subject = SUBJECTS[name]
         pairs = [(case, run_of(subject, case, options.again)) for case in subject.cases()]
-        rows = [[*subject.row(case, run),
-                 f"{run.statistics['wall_seconds'].iloc[-1] / 60:.1f}"]
+        rows = [[*subject.row(case, run), f"{run.statistics['wall_seconds'].iloc[-1] / 60:.1f}"]
                 for case, run in pairs]
         print(f"### Published data: {name}\n\n{markdown(subject.HEADER, rows)}\n", flush=True)
         subject.draw(pairs).savefig(ROOT / f"doc/images/showcase/{name}.png")

@@ -5,8 +5,7 @@ from spack.package import *
 
 
 class Morula(CMakePackage):
-    """Growth and proliferation of tissues with continuum-based cell
-    particles."""
+    """Growth and proliferation of tissues with continuum-based cell particles."""
 
     license("GPL-3.0-or-later")
 
@@ -37,8 +36,6 @@ class Morula(CMakePackage):
         depends_on("vtk@9: +python", type="run")
 
     def cmake_args(self):
-        return [self.define("MORULA_TESTS", False),
-                self.define("MORULA_UNITY", True),
+        return [self.define("MORULA_TESTS", False), self.define("MORULA_UNITY", True),
                 self.define("DEAL_II_DIR", self.spec["dealii"].prefix),
-                self.define("RANDOM123_INCLUDE_DIR",
-                            self.spec["random123"].prefix.include)]
+                self.define("RANDOM123_INCLUDE_DIR", self.spec["random123"].prefix.include)]

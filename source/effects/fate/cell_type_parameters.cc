@@ -63,9 +63,9 @@ namespace Morula
                                    other +
                                    ", an expression of their state; not "
                                    "negative. Units: 1/day.",
-                                 Evaluated::step);
-        transitions.back().not_negative("1/day",
-                                        "0 lets cells keep their type.");
+                                 Evaluated::step,
+                                 not_negative("1/day",
+                                              "0 lets cells keep their type."));
       }
     place_in(list(), section_of_types + name);
     for (const ExpressionKey *key : of_cells)

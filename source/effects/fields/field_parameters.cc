@@ -37,8 +37,6 @@ namespace Morula
   {
     // The keys stand in the section of the field's name.
     place_in(list(), "Fields/" + name);
-    for (ExpressionKey *key : {&initial, &value})
-      key->not_negative("(a concentration)", "0 is none at all.");
   }
 
 

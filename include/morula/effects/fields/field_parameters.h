@@ -58,7 +58,8 @@ namespace Morula
       "0",
       "The field at t = 0, at which a steady field is sought first; not "
       "negative. An expression of X, Y, Z (um).",
-      Evaluated::founder};
+      Evaluated::founder,
+      not_negative("(a concentration)", "0 is none at all.")};
 
     ExpressionKey fixed_where{
       {this, "Fixed where"},
@@ -73,7 +74,8 @@ namespace Morula
       "The field at the fixed boundary points, and outside of the others "
       "if there is a Transfer; not negative. An expression of X, Y, Z "
       "(um), t (day).",
-      Evaluated::place};
+      Evaluated::place,
+      not_negative("(a concentration)", "0 is none at all.")};
 
     ExpressionKey transfer{
       {this, "Transfer"},

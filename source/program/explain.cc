@@ -101,7 +101,7 @@ namespace Morula
                                            tissue.bodies);
       if (!tissue.mesh.empty())
         add_effect(rows, "surface mesh", tissue.mesh);
-      if (!tissue.cuts->empty())
+      if (!tissue.cuts.empty())
         add_effect(rows, "cuts", tissue.cuts);
     }
 

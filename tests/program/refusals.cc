@@ -63,10 +63,10 @@ namespace
   };
 
   /** Reads the rows, with what they name filled in. */
-  class Table
+  class TableOfRefusals
   {
   public:
-    explicit Table(const std::string &files)
+    explicit TableOfRefusals(const std::string &files)
     {
       texts = {{"{files}", files},
                {"\\n", "\n"},
@@ -172,7 +172,7 @@ namespace
 TEST(Refusals, AreSaidAtOnceWithKeyValueAndRemedy)
 {
   const ScratchDirectory directory;
-  const Table            table(directory / "");
+  const TableOfRefusals  table(directory / "");
   fs::current_path(tests / "scenes"); // whose files rows name
   ASSERT_GE(table.rows.size(), 240u);
   for (const std::string &row : table.rows)

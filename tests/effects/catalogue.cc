@@ -33,7 +33,8 @@ TEST(Catalogue, GivesTheSceneKeysAndEffects)
 {
   const Scene scene = read({"Growth/Law=dose", "Growth/Dose/Uptake=3"});
   const auto  law   = effects_of<3>(scene).development.law;
-  EXPECT_NE(law, nullptr);
+  const GrowingCell<3> cell{{}, Tensor<2, 3>(unit_symmetric_tensor<3>()), {}};
+  EXPECT_DOUBLE_EQ(law->growth(cell, 0., 1.)[0][0], 4.);
   EXPECT_EQ(scene.keys<Own::DoseKeys>().uptake.path(), "Growth/Dose/Uptake");
   EXPECT_EQ(effects_of<2>(read({})).development.law, nullptr);
 

@@ -171,7 +171,7 @@ namespace Morula
       }
     else
       prepare_directory(scene.output_directory, setup(), comm);
-    for (const Table &table : tables_of(model))
+    for (const Table &table : tables_of(model.scene, model.tables))
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
@@ -231,7 +231,7 @@ namespace Morula
     // that the snapshot counts. So a table that does not fit leaves all others
     // whole.
     for (const bool check : {true, false})
-      for (const Table &table : tables_of(model))
+      for (const Table &table : tables_of(model.scene, model.tables))
         {
           const std::string &name = table.name;
           const std::string  file = path(name + ".csv");

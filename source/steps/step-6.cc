@@ -38,7 +38,7 @@ namespace Step6
   unsigned int
   layer_of(const Point<dim> &X, const TissueParameters &sphere)
   {
-    const double bottom = sphere.center[2] - sphere.radius;
+    const double bottom = sphere.center.value()[2] - sphere.radius;
     const double part   = (X[2] - bottom) / (2. * sphere.radius);
     return std::min<unsigned int>(n_layers - 1, n_layers * part);
   }

@@ -303,15 +303,6 @@ namespace Morula
       return *this;
     }
 
-    /** An entry of a list. */
-    template <typename Value = T>
-    auto
-    operator[](const std::size_t i) const
-      -> decltype(std::declval<const Value &>()[i])
-    {
-      return value_[i];
-    }
-
     const T *
     operator->() const
     {

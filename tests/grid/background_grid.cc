@@ -63,7 +63,7 @@ expect_tables(const BackgroundGrid<dim> &grid)
       EXPECT_NEAR(grid_cell->extent_in_direction(0), h, 1e-10);
       for (unsigned int d = 0; d < dim; ++d)
         EXPECT_NEAR(grid_cell->center()[d],
-                    grid_parameters().offset[d] + (i[d] + 0.5) * h,
+                    grid_parameters().offset.value()[d] + (i[d] + 0.5) * h,
                     1e-10);
     }
   EXPECT_EQ(sum_over_ranks(n_owned), grid.box().size());

@@ -105,7 +105,7 @@ TEST(Scene, PrintsParametersThatReadBackExactly)
   const Scene changed = read(scene.parameters());
   EXPECT_EQ(changed.time.step, 0.25);
   EXPECT_EQ(changed.tissue.radius, 77.);
-  EXPECT_EQ(changed.tissue.center[0], 1. / 3.);
+  EXPECT_EQ(changed.tissue.center.value()[0], 1. / 3.);
 }
 
 

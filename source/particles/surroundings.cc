@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/grid/point_bins.h>
 #include <morula/particles/surroundings.h>
 
-#include <deal.II/base/bounding_box.h>
-#include <deal.II/boost_adaptors/bounding_box.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
-
 #include <algorithm>
-#include <iterator>
 
 namespace Morula
 {
@@ -22,19 +17,6 @@ namespace Morula
      *  the squared reach: cells that are all about equally far from the surface
      *  say nothing of a slope. */
     constexpr double least_variance = 1e-3;
-
-    template <int dim>
-    BoundingBox<dim>
-    box_around(const Point<dim> &x, const double radius)
-    {
-      std::pair<Point<dim>, Point<dim>> corners(x, x);
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          corners.first[d] -= radius;
-          corners.second[d] += radius;
-        }
-      return BoundingBox<dim>(corners);
-    }
 
     /** Changes weights that fall off with the distance so that they reproduce
      *  linear functions: doc/theory.md (4.6c). @param s ways from the place to
@@ -75,7 +57,7 @@ namespace Morula
     , grid(tissue.grid())
   {
     // Cells within reach are at most in the neighbouring grid cells, of this or
-    // another rank; they come with their volumes. A tree finds those around
+    // another rank; they come with their volumes. Bins find those around
     // each place. Their weights fall to zero at the reach, so that no cell
     // enters or leaves with a jump, and are made linear after that,
     // doc/theory.md (4.6c). A place without cells keeps an empty list.
@@ -86,13 +68,15 @@ namespace Morula
     };
     const PointList<dim> near =
       near_points(places, cells, {2, volume, Ties::lowest_id}, grid, 1);
-    const auto tree = pack_rtree_of_indices(near.positions);
+    const PointBins<dim> bins(grid.box(), near.positions);
     for (std::size_t place = 0; place < places.size(); ++place)
       {
         const Point<dim>        &x = places[place];
         std::vector<std::size_t> found;
-        tree.query(boost::geometry::index::intersects(box_around(x, radius)),
-                   std::back_inserter(found));
+        // Rounding must not leave out a cell that has a weight.
+        bins.visit_within(x, radius * (1. + 1e-9), [&](const auto i) {
+          found.push_back(i);
+        });
         // They are taken by id, so that sums do not depend on the ranks.
         std::sort(found.begin(), found.end(), [&](const auto i, const auto j) {
           return near.ids[i] < near.ids[j];

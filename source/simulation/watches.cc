@@ -286,7 +286,7 @@ namespace Morula
             const SidePoint<dim> other = side(j);
             const double         width = one.x.distance(other.x);
             // Bodies with splines of their own do not stick together.
-            if (other.body != one.body || width >= best[dim] ||
+            if (other.body != one.body || width >= std::min(reach, best[dim]) ||
                 !face(one.x, one.n, other.x, other.n) ||
                 !stick(one, other, space))
               return;
@@ -295,7 +295,15 @@ namespace Morula
             best[dim] = width;
           };
           if (tissue.grid().owner(space.box().locate(one.x)) == rank)
-            bins.visit_within(one.x, std::min(reach, best[dim]), visit);
+            {
+              // All that a point faces lies in a ball before it that touches
+              // it.
+              const double radius =
+                std::min(reach, best[dim]) / (2. * least_cosine);
+              bins.visit_within(one.x + radius * one.n,
+                                radius * (1. + 1e-9),
+                                visit);
+            }
         }
       // Equal widths, as in a symmetric tissue, are told apart by the place:
       // all ranks choose the same gap.

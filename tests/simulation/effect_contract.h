@@ -411,8 +411,9 @@ namespace Morula
     Outcome
     changed(const std::string &name, const Change &change) const
     {
-      const Scene       of_run = scene(GetParam().example, name);
-      SeededTissue<dim> tissue = seed_tissue<dim>(of_run, MPI_COMM_SELF);
+      const Scene            of_run = scene(GetParam().example, name);
+      const TissueModel<dim> model(of_run);
+      SeededTissue<dim>      tissue = seed_tissue(model, MPI_COMM_SELF);
       change(tissue);
       Simulation<dim> simulation(of_run, MPI_COMM_SELF, tissue);
       return outcome(simulation, of_run, MPI_COMM_SELF, [](const unsigned int) {

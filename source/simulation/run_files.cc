@@ -68,16 +68,16 @@ namespace Morula
     /** A row with the columns that a run of this scene has. */
     template <int dim>
     StatisticsRow
-    row_like(const Scene &scene, const Tables<dim> &tables)
+    row_like(const TissueModel<dim> &model)
     {
       // The values do not matter: a column exists where the row has a value for
       // it.
       StatisticsRow row;
-      for (const auto &column : tables.columns())
+      for (const auto &column : model.tables.columns())
         row.of_effects.emplace_back(column.name, 0.);
-      if (has_surface<dim>(scene))
+      if (has_surface(model))
         row.surface.emplace();
-      if (effects_of<dim>(scene).development.states_error())
+      if (model.development.states_error())
         row.step_error = 0.;
       return row;
     }
@@ -91,19 +91,20 @@ namespace Morula
       bool may_begin_later = false;
     };
 
-    /** The tables of a run of this scene. @param of_effects what its effects
-     *  add */
+    /** The tables of a run. */
     template <int dim>
     std::vector<Table>
-    tables_of(const Scene &scene, const Tables<dim> &of_effects)
+    tables_of(const TissueModel<dim> &model)
     {
       // The first tables follow from what acts in the scene, which a resumed
       // run cannot change. The others follow from keys that it may change, or
       // came with a later version: they may begin later. The values of the rows
       // do not matter here.
+      const Scene       &scene      = model.scene;
+      const Tables<dim> &of_effects = model.tables;
       const CellEvent    event{0., 0, CellEvent::death, 0, 0};
       std::vector<Table> tables = {
-        {"statistics", statistics_row(row_like(scene, of_effects)).header()},
+        {"statistics", statistics_row(row_like(model)).header()},
         {"lineage",
          lineage_row(Birth<dim>{}, !scene.type_names().empty()).header()}};
       if (of_effects.records_events())
@@ -171,7 +172,7 @@ namespace Morula
       }
     else
       prepare_directory(scene.output_directory, setup(), comm);
-    for (const Table &table : tables_of(model.scene, model.tables))
+    for (const Table &table : tables_of(model))
       if (tables.count(table.name) == 0)
         tables.try_emplace(table.name,
                            path(table.name + ".csv"),
@@ -231,7 +232,7 @@ namespace Morula
     // that the snapshot counts. So a table that does not fit leaves all others
     // whole.
     for (const bool check : {true, false})
-      for (const Table &table : tables_of(model.scene, model.tables))
+      for (const Table &table : tables_of(model))
         {
           const std::string &name = table.name;
           const std::string  file = path(name + ".csv");

@@ -50,8 +50,9 @@ TEST(Scene, ReadsEveryKindOfKey)
   EXPECT_TRUE(scene.cells_divide());
   EXPECT_EQ(scene.keys<CellCycleParameters>().duration, "1 + 0.1*X");
   EXPECT_TRUE(scene.division.axis_follows_rotation);
-  EXPECT_EQ(scene.output.formats, (std::vector<std::string>{"vtu", "csv"}));
-  EXPECT_EQ(scene.grid.offset, (std::vector<double>{1., 2.5}));
+  EXPECT_EQ(scene.output.formats.value(),
+            (std::vector<std::string>{"vtu", "csv"}));
+  EXPECT_EQ(scene.grid.offset.value(), (std::vector<double>{1., 2.5}));
   EXPECT_NO_THROW(scene.check());
 }
 
@@ -95,7 +96,8 @@ TEST(Scene, PrintsParametersThatReadBackExactly)
 
   const Scene again = read(scene.parameters());
   EXPECT_EQ(again.time.step, 1. / 3.);
-  EXPECT_EQ(again.tissue.center, (std::vector<double>{1. / 3., 2., 3.}));
+  EXPECT_EQ(again.tissue.center.value(),
+            (std::vector<double>{1. / 3., 2., 3.}));
   EXPECT_EQ(again.parameters(), scene.parameters());
   EXPECT_EQ(again.output_directory.value(), scene.output_directory.value());
 

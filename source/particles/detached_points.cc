@@ -208,8 +208,8 @@ namespace Morula
     // counts then: points that are farthest but for rounding are asked as well.
     constexpr double equal   = 1. - 1e-8;
     double           largest = Utilities::MPI::max(std::sqrt(square), comm);
-    double           near    = std::numeric_limits<double>::infinity();
-    while (largest < near)
+    double           near    = h;
+    do
       {
         // points_without_cell() looks no farther than a grid spacing.
         near = std::min(equal * largest, h);
@@ -228,7 +228,7 @@ namespace Morula
         for (std::size_t k = 0; k < queries.size(); ++k)
           largest = std::max(largest, queries[k].distance(nearest[k]));
         largest = Utilities::MPI::max(largest, comm);
-      }
+    } while (largest < near);
     return largest;
   }
 

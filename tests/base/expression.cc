@@ -174,18 +174,19 @@ TEST(Expression, RefusesWhatWouldBeMisunderstood)
   expect_parts(complaint("X = 3"), {"Character 3", "single '='", "=="});
   expect_parts(complaint("0 < X < 5"), {"Character 7", "chain", "&&"});
   expect_parts(complaint("0 < X <= 5 && Y > 0"), {"Character 7", "chain"});
-  expect_parts(complaint("X**2"), {"Character 2", "'^'"});
   expect_parts(complaint("X > rand()"), {"Random"});
-  // other languages
-  expect_parts(complaint("!(X > 0)"), {"Character 1", "'not'", "== 0"});
-  expect_parts(complaint("Y*~X"), {"Character 3", "'not'"});
-  expect_parts(complaint("X <> 3"), {"Character 3", "'!='"});
-  expect_parts(complaint("X % 2"), {"Character 3", "floor"});
-  expect_parts(complaint("1 + x[0]"), {"Character 6", "parenthesis"});
-  expect_parts(complaint("\"X\""), {"Character 1", "quotation"});
-  expect_parts(complaint("2*|X|"), {"Character 3", "abs(X)"});
-  expect_parts(complaint("Y + 2X"), {"Character 6", "2*X"});
-  expect_parts(complaint("1.5e-3 (X)"), {"Character 7", "2*X"});
+  // what muParser refuses itself
+  for (const char *text : {"X**2",
+                           "!(X > 0)",
+                           "Y*~X",
+                           "X <> 3",
+                           "X % 2",
+                           "1 + x[0]",
+                           "\"X\"",
+                           "2*|X|",
+                           "Y + 2X",
+                           "1.5e-3 (X)"})
+    EXPECT_NE(complaint(text), "") << text;
   expect_parts(complaint("sin X"), {"sin(X)"});
   expect_parts(complaint("mod(X, 2)"), {"floor"});
   for (const char *text : {"pow(X, 2)",

@@ -4,6 +4,16 @@
 #ifndef morula_tests_effects_small_tissue_h
 #define morula_tests_effects_small_tissue_h
 
+#include <morula/effects/development.h>
+#include <morula/effects/growth/isotropic.h>
+#include <morula/particles/tissue.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/body_on_grid.h"
 
 namespace Morula
 {

@@ -85,7 +85,7 @@ BAD = {
     "no-polygons.off": ("OFF\n0 0 0\n", r"Surface mesh.*(no polygons|read)"),
     "no-mesh.obj": ("once upon a time\n",
                     r"Surface mesh.*(no polygons|cannot be read)"),
-    "cut-off.off": (off(BOX)[:-20], "cannot be read.*'3 0', is no polygon"),
+    "cut-off.off": (off(BOX)[:-20], "cannot be read"),
     "cut-off-ascii.stl": (ascii_stl(BOX)[:-200], "cut off.*endsolid"),
     "cut-off-binary.stl": (binary_stl(BOX)[:400],
                            "cut off: it has 6 whole triangles, .* 12"),

@@ -28,7 +28,7 @@ MADE = {"hard/close-bodies.prm": ("Tissue/Points file", "cells.csv",
 WARNED = {name: ["Grid/Spacing"] for name in (
     *(f"hard/{name}.prm" for name in (
         "breaking-off", "division", "enclosed-sphere", "from-27-cells",
-        "small-and-thin", "thin-strip", "twelve-generations", "close-bodies")),
+        "small-and-thin", "thin-strip", "twelve-generations")),
     "step-6.prm", "examples/folding-by-tangential-growth.prm", "showcase/cortex.prm")}
 # Their tension is to smooth the outline, be it somewhat late.
 WARNED["showcase/spheroid.prm"] = WARNED["examples/turnover.prm"] = ["Time/Step"]

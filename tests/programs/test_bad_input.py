@@ -44,9 +44,9 @@ def check(fresh, result, texts):
     # expressions
     (CONDITIONS + "Slip where", "(Z <= 0", "Missing parenthesis", {}, 1),
     (CONDITIONS + "Fixed where", "Z < t", "remove t", {}, 1),
-    ("Growth/Isotropic/Stretch", "1 - 1.5*t", "stays positive", {"Growth/Law": "isotropic"}, 1),
+    ("Growth/Isotropic/Stretch", "1 - 1.5*t", "It is -0.5 at", {"Growth/Law": "isotropic"}, 1),
     # what is asked at founders and at the surface
-    ("Material/Young's modulus", "X", "Make it positive", {}, 3),
+    ("Material/Young's modulus", "X", "It is -24 at", {}, 3),
     (CYCLE + "Where", "Z > 400", "Proliferation/Law = none", {}, 3),
     (CONDITIONS + "Fixed where", "Z < -100", "leave it empty", {}, 3),
     ("Fields/oxygen/Consumption", "X", "Production", FIELD, 1),

@@ -6,7 +6,6 @@ and balls that press as elasticity says."""
 import math
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
 from tests.common.bodies import (annulus, block, blocks, circle, contact_rows, points_scene, press,
                                  rectangle)
@@ -26,18 +25,36 @@ BALLS = {"Time/End time": 9, "Time/Step": 1, "Tissue/Shape": "mesh", "Tissue/Cel
 
 def icosphere(radius, center, fineness=4):
     """Corners and triangles of a closed polyhedron with the volume of the ball."""
-    golden = (1 + math.sqrt(5)) / 2
-    corners = np.array([np.roll((0, a, b * golden), k)
-                        for k in range(3) for a in (-1, 1) for b in (-1, 1)])
-    for n in range(fineness + 1):
-        corners = corners / np.linalg.norm(corners, axis=1)[:, None]
-        hull = ConvexHull(corners)
-        if n < fineness:
-            edges = np.sort(hull.simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-            corners = np.concatenate([corners, corners[np.unique(edges, axis=0)].mean(axis=1)])
-    outward = [t if np.linalg.det(corners[t]) > 0 else t[::-1] for t in hull.simplices]
-    scale = radius * (4 * math.pi / 3 / hull.volume) ** (1 / 3)
-    return corners * scale + np.array(center), np.array(outward)
+    g = (1 + math.sqrt(5)) / 2
+    corners = [(x, y * g, 0) for x in (-1, 1) for y in (-1, 1)]
+    corners += [(0, x, y * g) for x in (-1, 1) for y in (-1, 1)]
+    corners += [(y * g, 0, x) for x in (-1, 1) for y in (-1, 1)]
+    corners = np.array(corners, dtype=float)
+    triangles = [t for i in range(12) for j in range(i) for k in range(j)
+                 for t in [(k, j, i)]
+                 if all(abs(np.linalg.norm(corners[a] - corners[b]) - 2) < 1e-9
+                        for a, b in ((i, j), (j, k), (k, i)))]
+    for _ in range(fineness):
+        middles, finer, corners = {}, [], list(corners)
+
+        def middle(a, b):
+            key = min(a, b), max(a, b)
+            if key not in middles:
+                middles[key] = len(corners)
+                corners.append((corners[a] + corners[b]) / 2)
+            return middles[key]
+        for a, b, c in triangles:
+            ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+            finer += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+        triangles = finer
+        corners = np.array([x / np.linalg.norm(x) for x in corners])
+    volume, outward = 0.0, []
+    for a, b, c in triangles:
+        six = np.dot(corners[a], np.cross(corners[b], corners[c]))
+        volume += abs(six) / 6
+        outward.append((a, b, c) if six > 0 else (a, c, b))
+    scale = radius * (4 * math.pi / 3 / volume) ** (1 / 3)
+    return corners * scale + np.array(center), outward
 
 
 def test_a_block_slides(runs):

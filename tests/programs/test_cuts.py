@@ -61,7 +61,7 @@ def test_in_3d_as_in_2d(runs, flat):
 
 
 def test_what_is_said(runs):
-    assert re.search(r"cuts +on +30 um in 12 patches on each side",
+    assert re.search(r"cuts +30 um in 12 patches on each side",
                      runs.explain(keys_of(runs, LINE)))
 
 

@@ -54,7 +54,7 @@ def icosphere(radius, center, fineness=4):
         volume += abs(six) / 6
         outward.append((a, b, c) if six > 0 else (a, c, b))
     scale = radius * (4 * math.pi / 3 / volume) ** (1 / 3)
-    return corners * scale + np.array(center), outward
+    return corners * scale + np.array(center), np.array(outward)
 
 
 def test_a_block_slides(runs):

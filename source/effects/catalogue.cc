@@ -169,7 +169,7 @@ namespace Morula
                 "Tissue/Radius=5",
                 "Tissue/Inner radius=3",
                 "Boundary conditions/Lumen where=X*X + Y*Y < 16",
-                "Boundary conditions/Lumen volume=1 + 0.1*t"});
+                "Boundary conditions/Lumen volume=1 + 0.01*t"});
     add<Obstacles>(boundary_conditions,
                    "obstacles",
                    with(uneven,

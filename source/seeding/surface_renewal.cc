@@ -438,7 +438,7 @@ namespace Morula
     // As in renewed_surface(), with two differences. All present points stay,
     // as their cells do. The patches of the cuts have no former point whose
     // condition they could take; so each is decided about as at t = 0.
-    const PointList<dim>  all = volumes_of_all_ranks(cells, comm, body);
+    const PointList<dim>  all         = volumes_of_all_ranks(cells, comm, body);
     const PointList<dim>  all_present = of_all_ranks(present, comm);
     PointList<dim>        list(columns.n_numbers());
     types::particle_index n_new = 0;

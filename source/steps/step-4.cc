@@ -108,7 +108,7 @@ namespace Step4
       for (const double factor : {2., 1.5, 1., 0.75})
         {
           Scene varied(scene);
-          varied.grid.spacing = factor * varied.grid.spacing;
+          varied.grid.spacing    = factor * varied.grid.spacing;
           varied.nitsche.form    = clamp.form;
           varied.nitsche.penalty = clamp.penalty;
           varied.output_directory +=

@@ -62,7 +62,8 @@ namespace Morula
    * @param condition what holds or loads a point of t = 0 at this place (µm)
    *        with this outward unit normal
    * @param next_id is raised by the number of new points
-   * @param body the cells are those of this body alone, if given, and so are the
+   * @param body the cells are those of this body alone, if given, and so are
+   * the
    *        @p present points
    * @return all points, on rank 0; nothing if the cells have no common surface
    */

@@ -10,7 +10,7 @@ import pytest
 pytest.register_assert_rewrite("tests.common")
 
 from tests.common.cases import Case, Table  # noqa: E402
-from tests.common.program import ProgramTest, Runs  # noqa: E402
+from tests.common.program import Runs  # noqa: E402
 
 BUILD = Path(__file__).resolve().parents[1] / "build"
 RINGS = ("quick", "check", "release")
@@ -35,7 +35,6 @@ def pytest_configure(config):
     options = config.option
     options.morula, options.work = (Path(os.path.abspath(path))
                                     for path in (options.morula, options.work))
-    ProgramTest.options = options
     os.environ.pop("OMP_NUM_THREADS", None)
 
 

@@ -4,7 +4,6 @@
 import csv
 import shlex
 import shutil
-import unittest
 from pathlib import Path
 
 from morula.execute import command, overrides
@@ -130,17 +129,3 @@ class Runs(Calls):
     def __init__(self, options, module):
         self.options = options
         self.work = empty_directory(options, module)
-
-
-class ProgramTest(unittest.TestCase, Calls):
-    """A test with the program and an empty directory of its own. New tests are
-    functions that take the fixture `runs`."""
-
-    options = None  # those of tests/conftest.py
-    maxDiff = None
-    assert_same_file = staticmethod(assert_same_file)
-    assert_same_columns = staticmethod(assert_same_columns)
-    run_words = Calls.call
-
-    def setUp(self):
-        self.work = empty_directory(self.options, self.id())

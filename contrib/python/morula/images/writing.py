@@ -10,20 +10,6 @@ from morula.files import replaced, write, write_csv
 NAMES = "xyz"
 
 
-def poly_data(part):
-    """A closed part in VTK's form; the order of its coordinates stays."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-    points, triangles, result = vtkPoints(), vtkCellArray(), vtkPolyData()
-    points.SetData(numpy_to_vtk(np.ascontiguousarray(part.vertices), deep=True))
-    rows = np.insert(part.facets, 0, 3, axis=1).astype(np.int64).ravel()
-    triangles.SetCells(len(part.facets), numpy_to_vtkIdTypeArray(rows, True))
-    result.SetPoints(points)
-    result.SetPolys(triangles)
-    return result
-
-
 def write_cells(file, places, volumes, others):
     """cells.csv; places (n, dim) in the order x, y, z; `others` are further
     columns by their names: lists, or None for a column that is not there."""

@@ -36,7 +36,8 @@ namespace Morula
                          const double       enough)
     {
       // Most boundary points have a cell in their own grid cell. So this is
-      // looked at first, and the neighbours only if it holds none.
+      // looked at first, then the neighbours that may have a cell near enough,
+      // and all of them only if none has.
       const GridBox<dim> &box      = tissue.grid().box();
       const auto         &store    = tissue.cells();
       double              shortest = std::numeric_limits<double>::infinity();
@@ -56,15 +57,26 @@ namespace Morula
               shortest =
                 std::min(shortest, x.distance_square(store.position(p)));
       };
+      const auto look_around = [&](const unsigned int number, const auto &) {
+        if (shortest > enough)
+          look_at(number);
+      };
       const GridIndex<dim> index = box.locate(x);
       look_at(box.number(index));
       if (shortest > enough)
-        box.for_neighbors(index,
-                          1,
-                          [&](const unsigned int number, const auto &) {
-                            if (shortest > enough)
-                              look_at(number);
-                          });
+        {
+          const double   reach = std::sqrt(enough);
+          GridIndex<dim> lower = index, upper = index;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double xi = box.unit_position(x, index)[d] * box.spacing();
+              lower[d] -= xi <= reach;
+              upper[d] += xi + reach >= box.spacing();
+            }
+          box.for_overlap(lower, upper, look_around);
+        }
+      if (shortest > enough)
+        box.for_neighbors(index, 1, look_around);
       return shortest;
     }
 

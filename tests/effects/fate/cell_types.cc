@@ -61,6 +61,21 @@ TEST(CellTypes, NumbersAreThoseOfTheMatrixExponential)
 }
 
 
+TEST(CellTypes, EventsDoNotDependOnTheStep)
+{
+  const Scene scene =
+    scene_of(with(two_types,
+                  {"Proliferation/Cell cycle/Duration=0.4",
+                   "Cell types/leaf/Transitions/To stem=2",
+                   "Cell types/stem/Daughter types=stem, leaf"}));
+  const Lives whole = lead(scene, 30, 3.2, 0.2);
+  const Lives half  = lead(scene, 30, 3.2, 0.1);
+  ASSERT_GT(whole.events.size(), 100u);
+  ASSERT_GT(whole.births.size(), 40u);
+  expect_same(whole, half);
+}
+
+
 TEST(CellTypes, HaveValuesOfTheirOwn)
 {
   const CellDevelopment<2> development = development_of(

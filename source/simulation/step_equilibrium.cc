@@ -10,8 +10,8 @@
 #include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
+#include <morula/solver/newton.h>
 #include <morula/solver/proximal_path.h>
-#include <morula/solver/turns.h>
 
 #include <algorithm>
 #include <utility>

@@ -259,12 +259,6 @@ namespace Morula
       nexts[k] = std::exchange(heads[numbers[firsts[k]]], k);
   }
 
-  template <int n>
-  bool
-  BlockCholesky<n>::is_positive() const
-  {
-    return positive_;
-  }
 
   template <int n>
   void

@@ -3,13 +3,13 @@
 
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/newton.h>
-#include <morula/solver/nox_convergence.h>
 #include <morula/solver/nox_group.h>
 
 #include <NOX_LineSearch_Generic.H>
 #include <NOX_LineSearch_UserDefinedFactory.H>
 #include <NOX_Solver_Factory.H>
 #include <NOX_Solver_Generic.H>
+#include <NOX_StatusTest_Generic.H>
 #include <NOX_Utils.H>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_oblackholestream.hpp>
@@ -17,6 +17,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <ostream>
 #include <stdexcept>
 #include <string>
 
@@ -24,6 +26,186 @@ namespace Morula
 {
   namespace
   {
+    /** Iterations without progress after which the method is at its end. Where
+     *  a soft motion follows a stiff curved path, the residual rises and falls
+     *  for some iterations, and its lowest value still falls within ten. */
+    constexpr int patience = 20;
+
+    /** A residual that is lower by less than this part is no progress: without
+     *  an energy it can creep down for ever towards a state that is none. */
+    constexpr double least_fall = 0.01;
+
+    /** An iteration with a tangent of its own ends far below the bound of
+     *  displacements, one with a kept tangent anywhere below: it has to reach
+     *  this part of the bound. */
+    constexpr double part_of_kept = 0.1;
+
+    /** The largest change of a coefficient by the last iteration, µm. */
+    double
+    last_motion(const NOX::Solver::Generic &solver)
+    {
+      const auto change = solver.getSolutionGroup().getX().clone();
+      change->update(-1., solver.getPreviousSolutionGroup().getX(), 1.);
+      return change->norm(NOX::Abstract::Vector::MaxNorm);
+    }
+
+
+    /**
+     * Converged where both the unbalanced forces and what they may still move
+     * are below their bounds, doc/theory.md (5.3). Failed where Newton's method
+     * no longer gets on: its last iterations have brought neither a new lowest
+     * energy nor a new lowest residual. Notes the states down if the report
+     * wants them.
+     */
+    class ConvergenceTest : public NOX::StatusTest::Generic
+    {
+    public:
+      /** Where the method ends. */
+      struct Bounds
+      {
+        double       residual;     // kPa µm^(dim-1)
+        double       rounding;     // of the residual: below it nothing is asked
+        double       displacement; // µm
+        unsigned int iterations;
+      };
+
+      /** @param has_energy whether a lower energy counts as progress
+       *  @param report     kept as a reference, as are the tangents */
+      ConvergenceTest(const Bounds   &bounds,
+                      const Tangents &tangents,
+                      const bool      has_energy,
+                      NewtonReport   &report)
+        : bounds(bounds)
+        , tangents(tangents)
+        , has_energy(has_energy)
+        , report(report)
+      {}
+
+      NOX::StatusTest::StatusType
+      checkStatus(const NOX::Solver::Generic &solver,
+                  NOX::StatusTest::CheckType) override
+      {
+        // The conditions of doc/theory.md (5.3), the cheapest one first. A
+        // state within rounding has converged, whatever is left to move: no
+        // iteration can do better. At the start nothing has moved yet, so there
+        // is no motion to judge. Then come the signs of failure. The norm is
+        // the same on all ranks, and so is the outcome.
+        look(solver);
+        const double norm      = last_norm;
+        const int    iteration = solver.getNumIterations();
+        status                 = NOX::StatusTest::Failed;
+        if (norm <= bounds.rounding ||
+            (norm <= bounds.residual &&
+             (iteration == 0 ||
+              left_over(solver) <=
+                (tangents.kept() ? part_of_kept : 1.) * bounds.displacement)))
+          status = NOX::StatusTest::Converged;
+        else if (!std::isfinite(norm))
+          reason = "the unbalanced forces are infinite";
+        else if (iteration >= static_cast<int>(bounds.iterations))
+          reason =
+            "Solver/Newton iterations = " + std::to_string(bounds.iterations) +
+            " were not enough";
+        else if (iteration - progress_at >= patience)
+          reason =
+            std::to_string(patience) +
+            " iterations have brought no lower energy and no smaller residual";
+        else
+          status = NOX::StatusTest::Unconverged;
+        return status;
+      }
+
+      /** Why it has failed; also where the line search has. */
+      const std::string &
+      reason_of_failure() const
+      {
+        return reason;
+      }
+
+      NOX::StatusTest::StatusType
+      getStatus() const override
+      {
+        return status;
+      }
+
+      std::ostream &
+      print(std::ostream &stream, int) const override
+      {
+        return stream << "|R| <= " << bounds.residual << '\n';
+      }
+
+    private:
+      /** The last change of the solution times the ratio by which the residual
+       *  became smaller, in the maximum norm, µm: doc/theory.md (5.3). Once the
+       *  residual has grown in an iteration, it says nothing of the motion that
+       *  is left: then the change itself. Infinite where the iteration has
+       *  changed nothing. */
+      double
+      left_over(const NOX::Solver::Generic &solver) const
+      {
+        // The next change is about the last one times the rate of convergence,
+        // doc/theory.md (5.3). Once the residual has risen that rate says
+        // nothing.
+        const double size = last_motion(solver);
+        if (!(size > 0.))
+          return std::numeric_limits<double>::infinity();
+        return has_risen ? size :
+                           size * solver.getSolutionGroup().getNormF() /
+                             solver.getPreviousSolutionGroup().getNormF();
+      }
+
+      /** Takes the present state into account: its energy and residual. */
+      void
+      look(const NOX::Solver::Generic &solver)
+      {
+        const auto &group =
+          dynamic_cast<const NoxGroup &>(solver.getSolutionGroup());
+        const double norm      = group.getNormF();
+        const double energy    = group.evaluation().energy;
+        const int    iteration = solver.getNumIterations();
+        // Here is noted what the test above asks of this iteration, whether it
+        // was progress, and what the report tells of it. The lowest residual
+        // stays until it is beaten by a hundredth, so that many small falls add
+        // up to progress.
+        const bool falls = norm < (1. - least_fall) * lowest_norm;
+        if (falls || (has_energy && energy < lowest_energy))
+          progress_at = iteration;
+        if (falls)
+          lowest_norm = norm;
+        lowest_energy = std::min(lowest_energy, energy);
+        has_risen     = has_risen || norm > last_norm;
+        last_norm     = norm;
+        if (!report.wants_trace)
+          return;
+        NewtonIteration state;
+        state.iteration  = iteration;
+        state.evaluation = group.evaluation();
+        state.residual   = norm;
+        state.place      = report.place;
+        if (iteration > 0)
+          {
+            state.part      = group.part_taken();
+            state.motion    = last_motion(solver);
+            state.curvature = group.curvature();
+          }
+        report.trace.push_back(state);
+      }
+
+      const Bounds    bounds;
+      const Tangents &tangents;
+      const bool      has_energy;
+      NewtonReport   &report;
+      double          last_norm   = std::numeric_limits<double>::infinity();
+      double          lowest_norm = // that counted as progress, N
+        std::numeric_limits<double>::infinity();
+      double      lowest_energy = std::numeric_limits<double>::infinity();
+      int         progress_at   = 0; // the iteration that brought the lowest
+      bool        has_risen     = false; // the residual, in any iteration
+      std::string reason        = "no part of Newton's step has a lower energy";
+      NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;
+    };
+
+
     /** The number of energies of which the largest counts. With three instead
      *  of ten, folding rings took half as many iterations again. */
     constexpr unsigned int memory = 10;
@@ -46,108 +228,92 @@ namespace Morula
     class EnergyLineSearch : public NOX::LineSearch::Generic
     {
     public:
-      EnergyLineSearch(const Equilibrium &problem, const bool has_energy);
+      EnergyLineSearch(const Equilibrium &problem, const bool has_energy)
+        : problem(problem)
+        , has_energy(has_energy)
+      {}
 
       bool
       compute(NOX::Abstract::Group        &group,
               double                      &step,
               const NOX::Abstract::Vector &direction,
-              const NOX::Solver::Generic  &solver) override;
+              const NOX::Solver::Generic  &solver) override
+      {
+        // The whole direction is tried, then halves of it. A part is accepted
+        // if the energy there is low enough, doc/theory.md (5.2), or, without
+        // an energy, if |R| is. An inverted state has an infinite energy, so it
+        // is halved away like any other. The direction of a kept tangent may be
+        // none of descent, so it is not worth halving: it is taken as a whole,
+        // or refused by a step of length 0, after which the next iteration has
+        // a tangent of its own. Armijo's constant has its usual value. After 30
+        // halvings a step is 10⁻⁹ of the direction.
+        constexpr double       armijo         = 1e-4;
+        constexpr unsigned int max_reductions = 30;
+        const auto            &old_group =
+          dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
+        auto &new_group = dynamic_cast<NoxGroup &>(group);
+
+        const bool   is_kept  = old_group.has_kept_tangent();
+        const double slope    = direction.innerProduct(old_group.getF());
+        const auto  &before   = old_group.evaluation();
+        const double slack    = rounding_error * before.energy_magnitude;
+        const double compared = reference(before.energy);
+        step                  = 1.;
+        for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
+          {
+            new_group.computeX(old_group, direction, step);
+            new_group.computeF();
+            const double energy = new_group.evaluation().energy;
+            const double norm   = new_group.getNormF();
+            const bool   falls =
+              norm <= (1. - armijo * step) * old_group.getNormF();
+            if (std::isfinite(energy) &&
+                (!is_kept || norm <= old_group.getNormF()) &&
+                (has_energy ?
+                   energy <= compared + armijo * step * slope + slack :
+                   falls ||
+                     norm <= rounding_of_residual(problem,
+                                                  values_of(new_group.getX()))))
+              return true;
+            // A step of length 0 counts as a success for NOX, which goes on
+            // from the old state.
+            if (is_kept)
+              {
+                step = 0.;
+                new_group.computeX(old_group, direction, step);
+                new_group.computeF();
+                return true;
+              }
+          }
+        step = 0.; // any other length NOX would take for a recovery step
+        return false;
+      }
 
     private:
       /** The energy that the next state is compared with, given that of the
        *  @p present one. */
       double
-      reference(const double present);
+      reference(const double present)
+      {
+        // The state where a solve starts has the growth of the whole step, and
+        // so an energy that would admit anything: it is compared with, once,
+        // but not remembered.
+        if (!has_begun)
+          {
+            has_begun = true;
+            return present;
+          }
+        accepted.push_back(present);
+        if (accepted.size() > memory)
+          accepted.pop_front();
+        return *std::max_element(accepted.begin(), accepted.end());
+      }
 
       const Equilibrium &problem;
       const bool         has_energy;
       bool               has_begun = false;
       std::deque<double> accepted; // the last energies, without the first
     };
-
-
-    EnergyLineSearch::EnergyLineSearch(const Equilibrium &problem,
-                                       const bool         has_energy)
-      : problem(problem)
-      , has_energy(has_energy)
-    {}
-
-
-    double
-    EnergyLineSearch::reference(const double present)
-    {
-      // The state where a solve starts has the growth of the whole step, and so
-      // an energy that would admit anything: it is compared with, once, but not
-      // remembered.
-      if (!has_begun)
-        {
-          has_begun = true;
-          return present;
-        }
-      accepted.push_back(present);
-      if (accepted.size() > memory)
-        accepted.pop_front();
-      return *std::max_element(accepted.begin(), accepted.end());
-    }
-
-
-    // The whole direction is tried, then halves of it. A part is accepted if
-    // the energy there is low enough, doc/theory.md (5.2), or, without an
-    // energy, if |R| is. An inverted state has an infinite energy, so it is
-    // halved away like any other. The direction of a kept tangent may be none
-    // of descent, so it is not worth halving: it is taken as a whole, or
-    // refused by a step of length 0, after which the next iteration has a
-    // tangent of its own.
-    bool
-    EnergyLineSearch::compute(NOX::Abstract::Group        &group,
-                              double                      &step,
-                              const NOX::Abstract::Vector &direction,
-                              const NOX::Solver::Generic  &solver)
-    {
-      // Armijo's constant has its usual value. After 30 halvings a step is 10⁻⁹
-      // of the direction.
-      constexpr double       armijo         = 1e-4;
-      constexpr unsigned int max_reductions = 30;
-      const auto            &old_group =
-        dynamic_cast<const NoxGroup &>(solver.getPreviousSolutionGroup());
-      auto &new_group = dynamic_cast<NoxGroup &>(group);
-
-      const bool   is_kept  = old_group.has_kept_tangent();
-      const double slope    = direction.innerProduct(old_group.getF());
-      const auto  &before   = old_group.evaluation();
-      const double slack    = rounding_error * before.energy_magnitude;
-      const double compared = reference(before.energy);
-      step                  = 1.;
-      for (unsigned int i = 0; i < max_reductions; ++i, step *= 0.5)
-        {
-          new_group.computeX(old_group, direction, step);
-          new_group.computeF();
-          const double energy = new_group.evaluation().energy;
-          const double norm   = new_group.getNormF();
-          const bool   falls =
-            norm <= (1. - armijo * step) * old_group.getNormF();
-          if (std::isfinite(energy) &&
-              (!is_kept || norm <= old_group.getNormF()) &&
-              (has_energy ?
-                 energy <= compared + armijo * step * slope + slack :
-                 falls ||
-                   norm <= rounding_of_residual(problem,
-                                                values_of(new_group.getX()))))
-            return true;
-          // A step of length 0 counts as a success for NOX, which goes on from
-          // the old state.
-          if (is_kept)
-            {
-              step = 0.;
-              new_group.computeX(old_group, direction, step);
-              new_group.computeF();
-              return true;
-            }
-        }
-      step = 0.; // any other length NOX would take for a recovery step
-      return false;
-    }
 
 
     class EnergyLineSearchFactory : public NOX::LineSearch::UserDefinedFactory
@@ -293,5 +459,42 @@ namespace Morula
         group->getNormF() <= bound)
       return group->evaluation();
     throw StepFailed(reason);
+  }
+
+
+  namespace
+  {
+    /** A volume that is kept takes two to four turns, a held traction as many:
+     *  what needs more does not contract. */
+    constexpr unsigned int most_turns = 20;
+  } // namespace
+
+
+  Equilibrium::Evaluation
+  balance_in_turns(Equilibrium                                    &problem,
+                   const std::vector<TurnParticipant *>           &participants,
+                   const std::function<Equilibrium::Evaluation()> &solve,
+                   const Equilibrium::Vector                      &u,
+                   NewtonReport                                   &report)
+  {
+    // Each turn finds an equilibrium with what the participants hold fixed, and
+    // then has all of them renew it, doc/theory.md (5.6). All are asked, also
+    // after one has said that it needs another turn: their quantities belong to
+    // the same u. After the first turn the tissue has the new growth, and so
+    // have all further tangents.
+    for (report.place.turn = 1;; ++report.place.turn)
+      {
+        ++report.turns;
+        const Equilibrium::Evaluation evaluation = solve();
+        std::string                   unfinished;
+        for (TurnParticipant *const participant : participants)
+          if (participant->renew(u) && unfinished.empty())
+            unfinished = participant->unfinished();
+        if (unfinished.empty())
+          return evaluation;
+        if (report.place.turn == most_turns)
+          throw StepFailed(unfinished);
+        problem.use_growth_at_end();
+      }
   }
 } // namespace Morula

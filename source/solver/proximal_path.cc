@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/solver/null_space.h>
+#include <morula/mechanics/equilibrium.h>
 #include <morula/solver/preconditioner.h>
 #include <morula/solver/proximal_path.h>
 

@@ -12,9 +12,8 @@
 #include <morula/solver/halo_product.h>
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/newton.h>
-#include <morula/solver/overlapping_cholesky.h>
+#include <morula/solver/preconditioner.h>
 #include <morula/solver/proximal_path.h>
-#include <morula/solver/turns.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>

@@ -13,6 +13,7 @@
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -141,6 +142,50 @@ namespace Morula
     double small_force = 0.;
     /** The length that errors of the increment are compared with, µm. */
     double length = 1.;
+  };
+
+  /** Removes the parts of @p x along orthonormal @p directions. */
+  inline void
+  remove_parts(Equilibrium::Vector                    &x,
+               const std::vector<Equilibrium::Vector> &directions)
+  {
+    for (const Equilibrium::Vector &direction : directions)
+      x.add(-(x * direction), direction);
+  }
+
+  /** Adds what the rank-one part of a tangent (null: none) makes of @p x. */
+  inline void
+  add_rank_one(Equilibrium::Vector        &y,
+               const Equilibrium::RankOne *part,
+               const Equilibrium::Vector  &x)
+  {
+    if (part != nullptr)
+      y.add(part->factor * (part->b * x), part->b);
+  }
+
+  /**
+   * Something that an equilibrium holds fixed while it is found, and that is
+   * renewed after it, such as the pressure of a lumen that keeps its volume:
+   * doc/theory.md (5.6).
+   */
+  class TurnParticipant
+  {
+  public:
+    virtual ~TurnParticipant() = default;
+
+    /**
+     * Renews what was held fixed. Collective.
+     * @param u the equilibrium that was found, µm
+     * @return whether another turn is needed
+     * @throws StepFailed where it cannot be renewed
+     */
+    virtual bool
+    renew(const Equilibrium::Vector &u) = 0;
+
+    /** What is still wrong after the last turn, for the message of a step that
+     *  fails by it. */
+    virtual std::string
+    unfinished() const = 0;
   };
 } // namespace Morula
 

@@ -106,7 +106,10 @@ namespace Morula
                   const Parameters &parameters);
 
     bool
-    is_positive() const override;
+    is_positive() const override
+    {
+      return positive_;
+    }
 
     void
     solve(double *x) const override;

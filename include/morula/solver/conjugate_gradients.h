@@ -4,7 +4,9 @@
 #ifndef morula_solver_conjugate_gradients_h
 #define morula_solver_conjugate_gradients_h
 
-#include <morula/solver/shifted_system.h>
+#include <morula/mechanics/equilibrium.h>
+#include <morula/solver/halo_product.h>
+#include <morula/solver/preconditioner.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
@@ -16,6 +18,26 @@
 
 namespace Morula
 {
+  /** How conjugate gradients have ended. */
+  enum class CgOutcome
+  {
+    converged,
+    negative_curvature,
+    indefinite_preconditioner,
+    stalled // more than the iterations allowed
+  };
+
+  /** The system (K + σ |diag K|) x = b, in the space orthogonal to a null
+   *  space. */
+  struct ShiftedSystem
+  {
+    const HaloProduct                      &K;
+    const std::vector<Equilibrium::Vector> &null_space;
+    double                                  shift; // σ
+    /** What K lacks, or null. */
+    const Equilibrium::RankOne *rank_one = nullptr;
+  };
+
   namespace OneReduction
   {
     using Vector = Equilibrium::Vector;

@@ -5,17 +5,19 @@
 #define morula_solver_linear_solver_h
 
 #include <morula/mechanics/equilibrium.h>
-#include <morula/solver/direct_solver.h>
 #include <morula/solver/halo_product.h>
 #include <morula/solver/preconditioner.h>
 #include <morula/solver/solver_parameters.h>
 
 #include <deal.II/base/timer.h>
 
+#include <memory>
 #include <optional>
 
 namespace Morula
 {
+  class DirectSolver;
+
   /**
    * Solves the linear systems of one step. Symmetric systems go to a conjugate
    * gradient method that reacts to negative curvature, with an incomplete
@@ -41,6 +43,8 @@ namespace Morula
     LinearSolver(const SolverParameters &parameters,
                  const LinearProblem    &problem,
                  TimerOutput            &timer);
+
+    ~LinearSolver();
 
     /**
      * Solves K x = b to a residual of @p tolerance |b|. On negative curvature
@@ -100,16 +104,16 @@ namespace Morula
                       unsigned int               &iterations,
                       const Equilibrium::RankOne *rank_one);
 
-    const bool                 is_direct;
-    const bool                 automatic;
-    const LinearProblem       &problem;
-    TimerOutput               &timer;
-    Preconditioner             preconditioner;
-    DirectSolver               direct;
-    std::optional<HaloProduct> product; // of the last matrix
-    double                     curvature_   = 0.;
-    bool                       has_shifted_ = false;
-    bool                       prepared     = false; // one was asked for
+    const bool                    is_direct;
+    const bool                    automatic;
+    const LinearProblem          &problem;
+    TimerOutput                  &timer;
+    Preconditioner                preconditioner;
+    std::unique_ptr<DirectSolver> direct;
+    std::optional<HaloProduct>    product; // of the last matrix
+    double                        curvature_   = 0.;
+    bool                          has_shifted_ = false;
+    bool                          prepared     = false; // one was asked for
   };
 
   /** Makes linear solvers by these keys, which outlive them. Nobody reads their

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <vector>
 
 namespace Morula
@@ -94,6 +95,21 @@ namespace Morula
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
         NewtonReport           &report);
+
+  /**
+   * The equilibrium of a step in turns: solves, asks every participant to renew
+   * what it holds fixed, and solves again from there, until none needs another
+   * turn. Collective.
+   * @param solve  finds the displacement @p u at which the problem is balanced
+   * @param report in/out: counts the turns
+   * @throws StepFailed after twenty turns
+   */
+  Equilibrium::Evaluation
+  balance_in_turns(Equilibrium                                    &problem,
+                   const std::vector<TurnParticipant *>           &participants,
+                   const std::function<Equilibrium::Evaluation()> &solve,
+                   const Equilibrium::Vector                      &u,
+                   NewtonReport                                   &report);
 } // namespace Morula
 
 #endif

@@ -7,15 +7,96 @@
 #include <morula/mechanics/equilibrium.h>
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/newton.h>
-#include <morula/solver/tangents.h>
 
 #include <NOX_Abstract_Group.H>
 #include <NOX_Abstract_Vector.H>
+#include <Teuchos_ParameterList.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace Morula
 {
+  /**
+   * The tangents of one solve. A tangent costs several residuals, and its
+   * linear systems are solved loosely as long as the residual is large: so an
+   * iteration goes on with the last tangent while that makes the residual five
+   * times smaller (doc/theory.md, 5.1).
+   */
+  class Tangents
+  {
+  public:
+    /** @param problem kept as a reference
+     *  @param keep    whether one may serve several iterations */
+    Tangents(Equilibrium &problem, const bool keep)
+      : problem(problem)
+      , keep(keep)
+    {}
+
+    /**
+     * The tangent for an iteration from @p u on, the last one or a new one; the
+     * first is taken at the growth of the step's beginning. Collective.
+     * @param norm of the residual at u, kPa µm^(dim-1)
+     * @param undisturbed whether the last iteration took its whole step, and
+     *        no tangent has been indefinite so far
+     */
+    const Equilibrium::Matrix &
+    at(const Equilibrium::Vector &u, const double norm, const bool undisturbed)
+    {
+      // A tangent is kept only if all signs are good. The first one has the
+      // growth of the step's beginning, doc/theory.md (5.1).
+      ++n_iterations;
+      kept_ = keep && last != nullptr && undisturbed &&
+              n_iterations <= last_kept_iteration &&
+              norm <= sufficient_reduction * last_norm;
+      if (!kept_)
+        last = &problem.tangent(u,
+                                last == nullptr ? GrowthAt::previous :
+                                                  GrowthAt::current);
+      last_norm = norm;
+      return *last;
+    }
+
+    /** Whether at() has returned the same matrix once more. */
+    bool
+    kept() const
+    {
+      return kept_;
+    }
+
+  private:
+    /** A tangent is kept as long as each iteration reduces the residual to this
+     *  part or less. In 3-D a tangent costs as much as many residuals, so a few
+     *  iterations more pay: doc/theory.md, section 5.1. */
+    static constexpr double sufficient_reduction = 0.2;
+    /** A solve that takes more iterations than these is in trouble, and gets a
+     *  tangent in each. */
+    static constexpr unsigned int last_kept_iteration = 10;
+
+    Equilibrium               &problem;
+    const bool                 keep;
+    const Equilibrium::Matrix *last         = nullptr;
+    bool                       kept_        = false;
+    double                     last_norm    = 0.;
+    unsigned int               n_iterations = 0;
+  };
+
+  /** A sum's rounding error, relative to the sum of its magnitudes. */
+  constexpr double rounding_error =
+    10. * std::numeric_limits<double>::epsilon();
+
+  /** The residual that rounding alone can cause, r_0 in doc/theory.md (5.3).
+   *  Collective. */
+  inline double
+  rounding_of_residual(const Equilibrium &problem, const Equilibrium::Vector &u)
+  {
+    return rounding_error * problem.residual_magnitude(u);
+  }
+
+  inline const Equilibrium::Vector &
+  values_of(const NOX::Abstract::Vector &vector);
+
   /**
    * A Trilinos vector as NOX sees it. Written against NOX::Abstract, so that it
    * outlives NOX's Epetra interface.
@@ -23,40 +104,120 @@ namespace Morula
   class NoxVector : public NOX::Abstract::Vector
   {
   public:
-    explicit NoxVector(const Equilibrium::Vector &vector);
+    explicit NoxVector(const Equilibrium::Vector &vector)
+      : values(vector)
+    {}
 
     Equilibrium::Vector values;
 
     NOX::Abstract::Vector &
-    init(double gamma) override;
+    init(const double gamma) override
+    {
+      values = gamma;
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    random(bool use_seed, int seed) override;
+    random(const bool, const int) override
+    {
+      values.trilinos_vector().Random();
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    abs(const NOX::Abstract::Vector &y) override;
+    abs(const NOX::Abstract::Vector &y) override
+    {
+      values.trilinos_vector().Abs(values_of(y).trilinos_vector());
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    operator=(const NOX::Abstract::Vector &y) override;
+    operator=(const NOX::Abstract::Vector &y) override
+    {
+      values = values_of(y);
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    reciprocal(const NOX::Abstract::Vector &y) override;
+    reciprocal(const NOX::Abstract::Vector &y) override
+    {
+      values.trilinos_vector().Reciprocal(values_of(y).trilinos_vector());
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    scale(double gamma) override;
+    scale(const double gamma) override
+    {
+      values *= gamma;
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    scale(const NOX::Abstract::Vector &a) override;
+    scale(const NOX::Abstract::Vector &a) override
+    {
+      values.scale(values_of(a));
+      return *this;
+    }
+
     NOX::Abstract::Vector &
-    update(double alpha, const NOX::Abstract::Vector &a, double gamma) override;
-    NOX::Abstract::Vector &
-    update(double                       alpha,
+    update(const double                 alpha,
            const NOX::Abstract::Vector &a,
-           double                       beta,
+           const double                 gamma) override
+    {
+      // NOX's update is gamma x + alpha a.
+      values.sadd(gamma, alpha, values_of(a));
+      return *this;
+    }
+
+    NOX::Abstract::Vector &
+    update(const double                 alpha,
+           const NOX::Abstract::Vector &a,
+           const double                 beta,
            const NOX::Abstract::Vector &b,
-           double                       gamma) override;
+           const double                 gamma) override
+    {
+      values.sadd(gamma, alpha, values_of(a));
+      values.add(beta, values_of(b));
+      return *this;
+    }
+
     Teuchos::RCP<NOX::Abstract::Vector>
-    clone(NOX::CopyType type) const override;
+    clone(const NOX::CopyType type) const override
+    {
+      const auto copy = Teuchos::rcp(new NoxVector(values));
+      if (type == NOX::ShapeCopy)
+        copy->values = 0.;
+      return copy;
+    }
+
     double
-    norm(NOX::Abstract::Vector::NormType type) const override;
+    norm(const NOX::Abstract::Vector::NormType type) const override
+    {
+      switch (type)
+        {
+          case NOX::Abstract::Vector::OneNorm:
+            return values.l1_norm();
+          case NOX::Abstract::Vector::MaxNorm:
+            return values.linfty_norm();
+          default:
+            return values.l2_norm();
+        }
+    }
+
     double
-    norm(const NOX::Abstract::Vector &weights) const override;
+    norm(const NOX::Abstract::Vector &weights) const override
+    {
+      Equilibrium::Vector weighted(values);
+      weighted.scale(values);
+      return std::sqrt(weighted * values_of(weights));
+    }
+
     double
-    innerProduct(const NOX::Abstract::Vector &y) const override;
+    innerProduct(const NOX::Abstract::Vector &y) const override
+    {
+      return values * values_of(y);
+    }
+
     NOX::size_type
     length() const override
     {
@@ -65,8 +226,11 @@ namespace Morula
   };
 
   /** The vector behind NOX's base class. */
-  const Equilibrium::Vector &
-  values_of(const NOX::Abstract::Vector &vector);
+  inline const Equilibrium::Vector &
+  values_of(const NOX::Abstract::Vector &vector)
+  {
+    return dynamic_cast<const NoxVector &>(vector).values;
+  }
 
   /**
    * An increment u together with what has been computed for it, as NOX sees
@@ -81,7 +245,16 @@ namespace Morula
              Tangents                  &tangents,
              LinearSolver              &linear_solver,
              NewtonReport              &report,
-             const Equilibrium::Vector &u);
+             const Equilibrium::Vector &u)
+      : problem(problem)
+      , linear_problem(linear_problem)
+      , tangents(tangents)
+      , linear_solver(linear_solver)
+      , report(report)
+      , u(u)
+      , R(u)
+      , direction(u)
+    {}
 
     /** Energy and extremes at u. computeF() must have been called. */
     const Equilibrium::Evaluation &
@@ -91,24 +264,109 @@ namespace Morula
     }
 
     NOX::Abstract::Group &
-    operator=(const NOX::Abstract::Group &source) override;
+    operator=(const NOX::Abstract::Group &source) override
+    {
+      // NOX copies groups from iteration to iteration. The matrix belongs to
+      // the problem and is shared.
+      const auto &other = dynamic_cast<const NoxGroup &>(source);
+      u.values          = other.u.values;
+      R.values          = other.R.values;
+      direction.values  = other.direction.values;
+      evaluation_       = other.evaluation_;
+      K                 = other.K;
+      has_residual      = other.has_residual;
+      has_direction     = other.has_direction;
+      part              = other.part;
+      return *this;
+    }
+
     void
-    setX(const NOX::Abstract::Vector &y) override;
+    setX(const NOX::Abstract::Vector &y) override
+    {
+      u = y;
+      invalidate();
+    }
+
     void
     computeX(const NOX::Abstract::Group  &group,
-             const NOX::Abstract::Vector &direction,
-             double                       step) override;
+             const NOX::Abstract::Vector &d,
+             const double                 step) override
+    {
+      u.update(1., group.getX(), step, d, 0.);
+      part = step;
+      invalidate();
+    }
+
     ReturnType
-    computeF() override;
+    computeF() override
+    {
+      // An inverted state is no failure here, as NOX would stop then. It shows
+      // as infinite energy, and the line search rejects it.
+      if (!has_residual)
+        {
+          evaluation_ = problem.residual(u.values, R.values);
+          // Unsupported motions move nothing: only the rest counts.
+          remove_parts(R.values, linear_problem.null_space);
+        }
+      has_residual = true;
+      return Ok;
+    }
+
     ReturnType
-    computeJacobian() override;
+    computeJacobian() override
+    {
+      computeF();
+      if (K == nullptr)
+        // A tangent may serve again only if the last step was taken as a whole
+        // and no tangent has been indefinite.
+        K = &tangents.at(u.values,
+                         getNormF(),
+                         part == 1. && !linear_solver.has_shifted());
+      return Ok;
+    }
+
     ReturnType
-    computeGradient() override;
+    computeGradient() override // of the energy: it is the residual
+    {
+      return computeF();
+    }
+
     ReturnType
-    computeNewton(Teuchos::ParameterList &parameters) override;
+    computeNewton(Teuchos::ParameterList &parameters) override
+    {
+      if (has_direction)
+        return Ok;
+      computeF();
+      computeJacobian();
+      // NOX hands over the tolerance that its forcing term asks for.
+      Equilibrium::Vector b(R.values);
+      b *= -1.;
+      ++report.newton_iterations;
+      linear_solver.solve(*K,
+                          direction.values,
+                          b,
+                          parameters.get("Tolerance", 1e-6),
+                          report.linear_iterations,
+                          tangents.kept(),
+                          problem.rank_one());
+      report.curvature = std::min(report.curvature, linear_solver.curvature());
+      has_direction    = true;
+      return Ok;
+    }
+
     ReturnType
     applyJacobian(const NOX::Abstract::Vector &input,
-                  NOX::Abstract::Vector       &result) const override;
+                  NOX::Abstract::Vector       &result) const override
+    {
+      if (K == nullptr)
+        return BadDependency;
+      auto &values = dynamic_cast<NoxVector &>(result).values;
+      K->vmult(values, values_of(input));
+      // Where a lumen has a content, the matrix alone is not the whole tangent.
+      add_rank_one(values, problem.rank_one(), values_of(input));
+      return Ok;
+    }
+
     bool
     isF() const override
     {
@@ -175,11 +433,26 @@ namespace Morula
       return Teuchos::rcpFromRef(direction);
     }
     Teuchos::RCP<NOX::Abstract::Group>
-    clone(NOX::CopyType type) const override;
+    clone(const NOX::CopyType type) const override
+    {
+      const auto copy = Teuchos::rcp(new NoxGroup(
+        problem, linear_problem, tangents, linear_solver, report, u.values));
+      if (type == NOX::DeepCopy)
+        *copy = static_cast<const NOX::Abstract::Group &>(*this);
+      return copy;
+    }
 
     /** computeF() and rounding_of_residual(), in one pass. */
     double
-    compute_with_rounding();
+    compute_with_rounding()
+    {
+      double magnitude = 0.;
+      evaluation_ =
+        problem.residual_and_magnitude(u.values, R.values, magnitude);
+      remove_parts(R.values, linear_problem.null_space);
+      has_residual = true;
+      return rounding_error * magnitude;
+    }
 
     /** Whether the direction is that of a kept tangent. */
     bool
@@ -205,7 +478,11 @@ namespace Morula
 
   private:
     void
-    invalidate();
+    invalidate()
+    {
+      has_residual = has_direction = false;
+      K                            = nullptr;
+    }
 
     Equilibrium               &problem;
     const LinearProblem       &linear_problem;
@@ -218,16 +495,6 @@ namespace Morula
     bool                       has_residual = false, has_direction = false;
     double                     part = 1.; // of the direction that led here
   };
-
-  /** A sum's rounding error, relative to the sum of its magnitudes. */
-  constexpr double rounding_error =
-    10. * std::numeric_limits<double>::epsilon();
-
-  /** Size of the residual that rounding alone can cause, r_0 in doc/theory.md
-   *  (5.3). Collective. */
-  double
-  rounding_of_residual(const Equilibrium         &problem,
-                       const Equilibrium::Vector &u);
 } // namespace Morula
 
 #endif

@@ -4,7 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/elastic_volumes.h>
 #include <morula/effects/step_points.h>
-#include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/mechanics/internal_force.h>
 
 #include <cmath>
 

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/mechanics/field_unknowns.h>
-#include <morula/mechanics/held_motion.h>
+#include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/spline_field.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>

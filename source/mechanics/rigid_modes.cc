@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/condensation.h>
-#include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/spline_field.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>

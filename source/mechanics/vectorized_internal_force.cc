@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/materials/material.h>
-#include <morula/mechanics/vectorized_internal_force.h>
 
 namespace Morula
 {

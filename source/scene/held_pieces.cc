@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/review.h>
-#include <morula/mechanics/drag.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/scene/applied.h>
 #include <morula/scene/first_cells.h>

@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/mechanics/drag.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/particles/detached_points.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/slow_steps.h>

@@ -5,7 +5,7 @@
 #include <morula/effects/elastic_volumes.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/mechanics/point_motions.h>
+#include <morula/mechanics/plain_kernels.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>

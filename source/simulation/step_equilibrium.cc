@@ -4,9 +4,9 @@
 #include <morula/base/agreement.h>
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/mechanics/drag.h>
+#include <morula/mechanics/internal_force.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/mechanics/spline_field.h>
-#include <morula/mechanics/vectorized_internal_force.h>
 #include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>

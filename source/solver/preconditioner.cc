@@ -67,6 +67,15 @@ namespace Morula
     }
   } // namespace
 
+  /** Rows of lower ranks, from the diagonal on: all that a symmetric block
+   *  needs of them, as precise as its factor. */
+  struct OverlappingCholesky::ReceivedRows
+  {
+    std::vector<std::size_t> begins;
+    std::vector<int>         columns; // in the block
+    std::vector<float>       values;
+  };
+
   OverlappingCholesky::OverlappingCholesky(const Matrix      &K,
                                            const unsigned int n_components,
                                            const Parameters  &parameters)

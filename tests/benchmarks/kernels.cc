@@ -6,8 +6,8 @@
 // projected and pooled, next to what the core can do: a matrix product and the
 // triad of STREAM.
 
-#include <morula/mechanics/materials/materials.h>
-#include <morula/mechanics/vectorized_internal_force.h>
+#include <morula/mechanics/internal_force.h>
+#include <morula/mechanics/materials/material.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
 

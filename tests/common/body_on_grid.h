@@ -6,8 +6,8 @@
 
 #include <morula/grid/spline_space.h>
 #include <morula/mechanics/equilibrium.h>
-#include <morula/mechanics/field_unknowns.h>
 #include <morula/mechanics/material_points.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/particles/point_store.h>
 #include <morula/particles/tissue.h>
 

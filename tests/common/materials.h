@@ -5,7 +5,7 @@
 #define morula_tests_materials_h
 
 #include <morula/mechanics/elastic_point.h>
-#include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/materials/material.h>
 
 namespace Morula
 {

@@ -4,7 +4,7 @@
 #ifndef morula_tests_own_law_h
 #define morula_tests_own_law_h
 
-#include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/materials/own_material.h>
 
 #include <string>

@@ -4,21 +4,17 @@
 #ifndef morula_tests_mechanics_room_h
 #define morula_tests_mechanics_room_h
 
-#include <morula/mechanics/condensation.h>
-#include <morula/mechanics/drag.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/enclosure.h>
-#include <morula/mechanics/held_motion.h>
 #include <morula/mechanics/internal_force.h>
-#include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/momentum_balance.h>
-#include <morula/mechanics/point_motions.h>
+#include <morula/mechanics/plain_kernels.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/mechanics/relaxation.h>
 #include <morula/mechanics/rigid_modes.h>
+#include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/spline_moments.h>
-#include <morula/mechanics/spline_products.h>
-#include <morula/mechanics/swept_volume.h>
-#include <morula/mechanics/vectorized_internal_force.h>
 
 #include <deal.II/lac/full_matrix.h>
 

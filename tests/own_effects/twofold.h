@@ -6,7 +6,7 @@
 #ifndef own_effects_twofold_h
 #define own_effects_twofold_h
 
-#include <morula/mechanics/materials/neo_hookean.h>
+#include <morula/mechanics/materials/laws.h>
 
 namespace Own
 {

@@ -16,7 +16,7 @@
 #include <morula/effects/state/trait.h>
 #include <morula/effects/step_effect.h>
 #include <morula/effects/surface/boundary_condition.h>
-#include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/materials/material.h>
 
 #include <deal.II/base/exceptions.h>
 

@@ -11,7 +11,7 @@
 #include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
-#include <morula/mechanics/tissue_material.h>
+#include <morula/mechanics/material.h>
 #include <morula/particles/cell_event.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/tissue.h>

@@ -6,8 +6,8 @@
 
 #include <morula/effects/development.h>
 #include <morula/grid/spline_space.h>
+#include <morula/mechanics/material.h>
 #include <morula/mechanics/spline_field.h>
-#include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
 
 #include <string>

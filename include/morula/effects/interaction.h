@@ -5,8 +5,8 @@
 #define morula_effects_interaction_h
 
 #include <morula/effects/part_of_step.h>
-#include <morula/mechanics/drag.h>
-#include <morula/mechanics/pair_term.h>
+#include <morula/mechanics/point_term.h>
+#include <morula/mechanics/term.h>
 #include <morula/particles/body_measures.h>
 #include <morula/particles/fusion.h>
 

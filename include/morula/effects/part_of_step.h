@@ -8,9 +8,9 @@
 #include <morula/effects/tables.h>
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/material.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/term.h>
-#include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/timer.h>

@@ -5,8 +5,8 @@
 #define morula_effects_step_points_h
 
 #include <morula/effects/development.h>
+#include <morula/mechanics/material.h>
 #include <morula/mechanics/material_points.h>
-#include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
 
 namespace Morula

@@ -6,6 +6,7 @@
 
 #include <morula/mechanics/material.h>
 #include <morula/mechanics/materials/material.h>
+#include <morula/particles/cell_state.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
@@ -141,6 +142,46 @@ namespace Morula
     Strain<double>          strain_;
     CoupledResponse<double> response_;
   };
+
+  /** What the state of a cell says of its volumes and its energy. */
+  struct CellScalars
+  {
+    /** V⁰, µm^dim. */
+    double initial_volume;
+    /** V = V⁰ det F, µm^dim. */
+    double volume;
+    /** det F_g. */
+    double growth_volume_ratio;
+    /** J_e. */
+    double elastic_volume_ratio;
+    /** Ψ of equation (14), kPa. */
+    double energy_density;
+  };
+
+  /** What the state of a cell says of its mechanics. */
+  struct CellQuantities : public CellScalars
+  {
+    /**
+     * Cauchy stress σ = W τ / V, kPa, where W is V⁰ or, per grown volume,
+     * V⁰ det F_g. In 2-D with the σ_zz of plane strain.
+     */
+    SymmetricTensor<2, 3> stress;
+  };
+
+  /** The scalars of a cell, without the stress, at half the cost. */
+  template <int dim>
+  CellScalars
+  cell_scalars(const CellView<dim, const double> &cell,
+               const Material                    &material,
+               const Lame                        &lame);
+
+  /** All quantities of a cell. */
+  template <int dim>
+  CellQuantities
+  cell_quantities(const CellView<dim, const double> &cell,
+                  const Material                    &material,
+                  const Lame                        &lame,
+                  const bool                         per_grown_volume);
 } // namespace Morula
 
 #endif

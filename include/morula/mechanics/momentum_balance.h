@@ -8,7 +8,6 @@
 #include <morula/mechanics/assembly.h>
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/equilibrium.h>
-#include <morula/mechanics/pair_term.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/term.h>
 
@@ -59,7 +58,10 @@ namespace Morula
 
     /** To be called where the pair term has new links. */
     void
-    renew_links();
+    renew_links()
+    {
+      has_new_links = true;
+    }
 
     /** The values of @p u at the relevant unknowns, as a pair term wants them.
      *  Collective. */
@@ -122,10 +124,17 @@ namespace Morula
 
     /** Volume of the enclosure at u, µm^dim. Collective. */
     double
-    enclosed_volume(const Vector &u) const;
+    enclosed_volume(const Vector &u) const
+    {
+      Vector ignored;
+      return enclosure->volume + gain(u, ignored).first;
+    }
 
     void
-    use_growth_at_end() override;
+    use_growth_at_end() override
+    {
+      goes_on = true;
+    }
 
     /**
      * What a linear solver should know of the tangents. Collective.

@@ -6,6 +6,7 @@
 
 #include <morula/mechanics/local_system.h>
 
+#include <functional>
 #include <vector>
 
 namespace Morula
@@ -63,6 +64,58 @@ namespace Morula
     {
       return true;
     }
+  };
+
+  /** Relevant unknowns in whose rows a matrix has entries for those of the
+   *  columns. */
+  struct UnknownLink
+  {
+    std::vector<unsigned int> rows, columns;
+
+    bool
+    operator==(const UnknownLink &other) const
+    {
+      return rows == other.rows && columns == other.columns;
+    }
+  };
+
+  /**
+   * A term of the momentum balance that couples places in different grid cells,
+   * whose splines need not have anything in common. It knows the displacement
+   * by its values at the relevant unknowns of this rank
+   * (FieldUnknowns::fetch(), µm): component i of unknown s is number s dim + i.
+   */
+  class PairTerm
+  {
+  public:
+    virtual ~PairTerm() = default;
+
+    /** What a pair term adds to on this rank. */
+    struct Sums
+    {
+      std::vector<double> &residual; // at the relevant unknowns
+      std::vector<double> *magnitudes       = nullptr; // likewise, if wanted
+      double               energy           = 0.;
+      double               energy_magnitude = 0.;
+    };
+
+    /** The links of the term: each couples the unknowns of its rows with those
+     *  of its columns. */
+    virtual const std::vector<UnknownLink> &
+    links() const = 0;
+
+    /** Adds energy and residual at @p u. */
+    virtual void
+    add_residual(const std::vector<double> &u, Sums &sums) const = 0;
+
+    /** Calls @p add with the number of each link and its part of the tangent at
+     *  @p u, row by row: row i m + s is component i of the s-th of the link's m
+     *  rows, and columns likewise. */
+    virtual void
+    add_tangent(
+      const std::vector<double>                                            &u,
+      const std::function<void(unsigned int, const std::vector<double> &)> &add)
+      const = 0;
   };
 } // namespace Morula
 

@@ -4,8 +4,6 @@
 #ifndef morula_mechanics_vector_kernels_h
 #define morula_mechanics_vector_kernels_h
 
-#include <morula/mechanics/volumetric_strain.h>
-
 #include <string>
 #include <vector>
 
@@ -14,6 +12,33 @@
 
 namespace Morula
 {
+  /** The form of ln J_e in the volumetric part of the energy (doc/theory.md,
+   *  section 2). */
+  enum class VolumetricStrain
+  {
+    /** ln J_e of the point itself. */
+    pointwise,
+    /** Its mean over the points of the grid cell. */
+    projected,
+    /** The logarithm of the sum of the volumes of the grid cell's points over
+     *  the sum of their grown volumes. */
+    pooled
+  };
+
+  /** What the tangent at points needs of the volume of their grid cell:
+   *  doc/theory.md (2.7), (2.9). */
+  struct StrainOfGridCell
+  {
+    /** The form, which is any but pointwise: that needs no mean. */
+    VolumetricStrain form;
+    /** Pooled: whether the grid cell is under pressure, VolumeMean. */
+    bool pressed;
+    /** ϑ. */
+    double theta;
+    /** Pooled: Λ U'(ϑ) over the sum of the weights w, kPa. */
+    double mean_stress;
+  };
+
   /**
    * The particles of one grid cell, as MaterialPoints and ElasticState
    * store them, and the 3^dim coefficients of each component of the

@@ -4,7 +4,7 @@
 #ifndef morula_output_cell_fields_h
 #define morula_output_cell_fields_h
 
-#include <morula/mechanics/cell_quantities.h>
+#include <morula/mechanics/elastic_point.h>
 #include <morula/output/declared_fields.h>
 #include <morula/output/point_fields.h>
 #include <morula/particles/cell_state.h>

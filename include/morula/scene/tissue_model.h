@@ -6,7 +6,7 @@
 
 #include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_conditions.h>
-#include <morula/mechanics/tissue_material.h>
+#include <morula/mechanics/material.h>
 #include <morula/particles/tissue.h>
 #include <morula/scene/scene.h>
 

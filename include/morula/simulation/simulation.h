@@ -5,7 +5,7 @@
 #define morula_simulation_simulation_h
 
 #include <morula/effects/equation.h>
-#include <morula/mechanics/point_motions.h>
+#include <morula/mechanics/plain_kernels.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/simulation/failed_step.h>

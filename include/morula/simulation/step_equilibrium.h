@@ -5,8 +5,8 @@
 #define morula_simulation_step_equilibrium_h
 
 #include <morula/effects/interaction.h>
-#include <morula/mechanics/drag.h>
 #include <morula/mechanics/momentum_balance.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/simulation/surface_forces.h>

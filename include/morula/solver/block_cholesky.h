@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace Morula
@@ -58,31 +59,6 @@ namespace Morula
     solve(double *x) const = 0;
   };
 
-  /** n numbers in one register: three take the place of four. */
-  template <int n>
-  struct Lanes;
-
-  /** One number. */
-  template <>
-  struct Lanes<1>
-  {
-    typedef float Type __attribute__((vector_size(4)));
-  };
-
-  /** Two numbers. */
-  template <>
-  struct Lanes<2>
-  {
-    typedef float Type __attribute__((vector_size(8)));
-  };
-
-  /** Three numbers and one of no use. */
-  template <>
-  struct Lanes<3>
-  {
-    typedef float Type __attribute__((vector_size(16)));
-  };
-
   /**
    * Crout's incomplete factorisation with a limited number of blocks a column,
    * by blocks of n × n entries: those of two splines in n-dimensional space.
@@ -115,7 +91,12 @@ namespace Morula
     solve(double *x) const override;
 
   private:
-    using Lane = typename Lanes<n>::Type;
+    // n numbers in one register: three take the place of four.
+    typedef float One __attribute__((vector_size(4)));
+    typedef float Two __attribute__((vector_size(8)));
+    typedef float Four __attribute__((vector_size(16)));
+    using Lane =
+      std::conditional_t<n == 1, One, std::conditional_t<n == 2, Two, Four>>;
 
     /** A block of a vector. */
     struct Part

@@ -64,14 +64,7 @@ namespace Morula
     vmult(Vector &y, const Vector &x) const;
 
   private:
-    /** Rows of lower ranks, from the diagonal on: all that a symmetric block
-     *  needs of them, as precise as its factor. */
-    struct ReceivedRows
-    {
-      std::vector<std::size_t> begins;
-      std::vector<int>         columns; // in the block
-      std::vector<float>       values;
-    };
+    struct ReceivedRows; // of lower ranks
 
     /** Number of a row in this rank's block, -1 if it is not there: own ones
      *  come last. */

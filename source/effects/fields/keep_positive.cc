@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/fields/keep_positive.h>
-#include <morula/mechanics/field_unknowns.h>
+#include <morula/mechanics/spline_field.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,7 +3,7 @@
 
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/rest_of_scene.h>
-#include <morula/mechanics/drag.h>
+#include <morula/mechanics/point_term.h>
 
 #include <utility>
 #include <vector>

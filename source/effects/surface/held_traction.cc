@@ -7,7 +7,7 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/held_traction.h>
 #include <morula/mechanics/elastic_point.h>
-#include <morula/mechanics/point_motions.h>
+#include <morula/mechanics/plain_kernels.h>
 #include <morula/particles/detached_points.h>
 
 #include <deal.II/base/mpi.h>

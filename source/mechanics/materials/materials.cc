@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/materials/list.h>
-#include <morula/mechanics/materials/material_of.h>
-#include <morula/mechanics/materials/materials.h>
+#include <morula/mechanics/materials/laws.h>
+#include <morula/mechanics/materials/material.h>
+#include <morula/mechanics/materials/own_material.h>
 
 #include <stdexcept>
 

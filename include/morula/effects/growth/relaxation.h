@@ -6,7 +6,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/growth/flow.h>
-#include <morula/mechanics/tissue_material.h>
+#include <morula/mechanics/material.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -7,8 +7,8 @@
 #include <morula/base/past_step.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/state/state_columns.h>
-#include <morula/mechanics/cell_quantities.h>
-#include <morula/mechanics/tissue_material.h>
+#include <morula/mechanics/elastic_point.h>
+#include <morula/mechanics/material.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/particles/property_pool.h>

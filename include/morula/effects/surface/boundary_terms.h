@@ -6,12 +6,11 @@
 
 #include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_conditions.h>
-#include <morula/mechanics/held_motion.h>
+#include <morula/mechanics/material.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
-#include <morula/mechanics/tissue_material.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>

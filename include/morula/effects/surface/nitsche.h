@@ -6,7 +6,7 @@
 
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/materials/material.h>
-#include <morula/mechanics/spline_products.h>
+#include <morula/mechanics/plain_kernels.h>
 #include <morula/mechanics/term.h>
 
 #include <vector>

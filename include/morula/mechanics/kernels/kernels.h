@@ -7,13 +7,11 @@
 // vector types (GCC, Clang). No standard headers here: their inline functions,
 // compiled for this instruction set, could end up in other files.
 
-#include <morula/mechanics/materials/list.h>
+#include <morula/mechanics/materials/laws.h>
 #include <morula/mechanics/vector_kernels.h>
 
 // After those, and in this order: each uses the ones before it.
-#include <morula/mechanics/kernels/lanes.h>
 #include <morula/mechanics/kernels/points.h>
-#include <morula/mechanics/kernels/positions.h>
 #include <morula/mechanics/kernels/rank_updates.h>
 #include <morula/mechanics/kernels/residual.h>
 #include <morula/mechanics/kernels/tangent.h>

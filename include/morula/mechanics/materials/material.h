@@ -7,6 +7,9 @@
 #include <morula/mechanics/materials/response.h>
 #include <morula/mechanics/vector_kernels.h>
 
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -83,6 +86,36 @@ namespace Morula
   private:
     const std::vector<VectorKernels<2>> kernels_2d;
     const std::vector<VectorKernels<3>> kernels_3d;
+  };
+
+  /** The materials that a scene can choose from, by the name of their law.
+   *  Copies share the materials, which nobody can change. */
+  class Materials
+  {
+  public:
+    /** The library's own. */
+    Materials();
+
+    /**
+     * Adds one. The header own_material.h makes it from a law, with kernels:
+     * materials.add("soft", own_material(Soft())).
+     * @param name value of Material/Law
+     * @throws std::invalid_argument for a name that is in use
+     */
+    void
+    add(const std::string                     &name,
+        const std::shared_ptr<const Material> &material);
+
+    /** The material of this name, or null. */
+    std::shared_ptr<const Material>
+    find(const std::string &name) const;
+
+    /** All names, in the order of the list. */
+    std::vector<std::string>
+    names() const;
+
+  private:
+    std::vector<std::pair<std::string, std::shared_ptr<const Material>>> list;
   };
 } // namespace Morula
 

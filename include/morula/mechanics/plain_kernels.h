@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#ifndef morula_mechanics_point_motions_h
-#define morula_mechanics_point_motions_h
+#ifndef morula_mechanics_plain_kernels_h
+#define morula_mechanics_plain_kernels_h
 
 #include <morula/mechanics/material.h>
 #include <morula/mechanics/spline_field.h>
@@ -39,6 +39,21 @@ namespace Morula
   point_motions(const PointStore<dim>        &store,
                 const DisplacementField<dim> &displacement,
                 const FindMotions             find_motions);
+
+  class Material;
+
+  /** See AddProducts; for any processor, as plain as can be. */
+  template <int dim>
+  void
+  add_products_plainly(const SplineProduct<dim> *products,
+                       const unsigned int        n,
+                       double                   *block,
+                       const unsigned int        stride);
+
+  /** How products are added with the value @p kernel of Solver/Kernel. */
+  template <int dim>
+  AddProducts<dim>
+  product_kernel(const Material &material, const std::string &kernel);
 } // namespace Morula
 
 #endif

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/send_records.h>
-#include <morula/mechanics/matrix_scatter.h>
+#include <morula/mechanics/assembly.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
@@ -237,12 +237,12 @@ namespace Morula
     for (const auto &[rank, message] : announced)
       for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
         {
-          Received row;
-          row.number = space.owned().index_within_set(message[m]);
+          auto &[number, row_positions] = received[rank].emplace_back();
+          number = space.owned().index_within_set(message[m]);
           int     length;
           double *values;
           int    *ids;
-          matrix.trilinos_matrix().ExtractMyRowView(row.number * n_components,
+          matrix.trilinos_matrix().ExtractMyRowView(number * n_components,
                                                     length,
                                                     values,
                                                     ids);
@@ -252,8 +252,7 @@ namespace Morula
           for (int k = 0; k < length; ++k)
             position_of[ids[k]] = k;
           for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
-            row.positions.push_back(position_of[column_id(message[m + 2 + k])]);
-          received[rank].push_back(std::move(row));
+            row_positions.push_back(position_of[column_id(message[m + 2 + k])]);
         }
   }
 
@@ -393,7 +392,7 @@ namespace Morula
       {
         std::size_t n = 0;
         for (const Received &row : rows)
-          n += n_components * n_components * row.positions.size();
+          n += n_components * n_components * row.second.size();
         std::vector<double> &buffer = values[rank];
         buffer.resize(n);
         requests.emplace_back();
@@ -429,17 +428,17 @@ namespace Morula
     for (const auto &[rank, values] : exchange())
       {
         const double *value = values.data();
-        for (const Received &row : received.at(rank))
+        for (const auto &[number, row_positions] : received.at(rank))
           for (unsigned int i = 0; i < n_components; ++i)
             {
               int     length;
               double *target;
               int    *ids;
-              epetra.ExtractMyRowView(row.number * n_components + i,
+              epetra.ExtractMyRowView(number * n_components + i,
                                       length,
                                       target,
                                       ids);
-              for (const unsigned int position : row.positions)
+              for (const unsigned int position : row_positions)
                 for (unsigned int j = 0; j < n_components; ++j)
                   target[position + j] += *value++;
             }

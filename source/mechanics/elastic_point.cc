@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/mechanics/cell_quantities.h>
 #include <morula/mechanics/elastic_point.h>
 
 namespace Morula

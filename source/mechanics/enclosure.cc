@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/mechanics/swept_volume.h>
+#include <morula/mechanics/enclosure.h>
 
 #include <array>
 #include <utility>

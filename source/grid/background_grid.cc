@@ -360,19 +360,6 @@ namespace Morula
               });
   }
 
-  template <int dim>
-  unsigned int
-  BackgroundGrid<dim>::owner(const unsigned int number) const
-  {
-    return owner(box_.index(number));
-  }
-
-  template <int dim>
-  unsigned int
-  BackgroundGrid<dim>::owner(const GridIndex<dim> &index) const
-  {
-    return owners(index);
-  }
 
   template <int dim>
   typename BackgroundGrid<dim>::CellIterator

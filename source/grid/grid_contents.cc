@@ -123,13 +123,6 @@ namespace Morula
             [particle];
   }
 
-  template <int dim>
-  void
-  GridContents<dim>::add_boundary_point(const Point<dim>  &x,
-                                        const unsigned int part)
-  {
-    ++counts[nodes_.node(boxes().locate(x), part)][boundary];
-  }
 
   // A point on a grid line counts on both sides, so the point is taken for a
   // box of the width of rounding.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
+#include <morula/grid/bspline.h>
 #include <morula/grid/occupancy.h>
 
 #include <deal.II/base/mpi.h>
@@ -137,25 +139,26 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  TissueRows<dim>::TissueRows(const GridContents<dim> &contents)
-    : thicknesses(contents.nodes().size(), 1.f)
-    , lengths(contents.nodes().size(), 2.f)
-    , n_thin_(contents.nodes().size(), 0)
-    , candidates(contents.nodes().size(), 1)
+  void
+  Occupancy<dim>::find_rows()
   {
+    const unsigned int n = nodes().size();
+    thicknesses.assign(n, 1.f);
+    lengths.assign(n, 2.f);
+    n_thin.assign(n, 0);
+    candidates.assign(n, 1);
     // Rows in x choose their candidates first, rows in y among what is left,
     // then rows in z. So the order of the directions is part of the rule.
     for (unsigned int d = 0; d < dim; ++d)
       for_each_row(contents, d, [&](const std::vector<unsigned int> &row) {
-        measure(row, d, contents);
+        measure(row, d);
       });
   }
 
   template <int dim>
   void
-  TissueRows<dim>::measure(const std::vector<unsigned int> &row,
-                           const unsigned int               direction,
-                           const GridContents<dim>         &contents)
+  Occupancy<dim>::measure(const std::vector<unsigned int> &row,
+                          const unsigned int               direction)
   {
     // One pass finds the volume and the largest candidate's volume. Then come
     // the two uses of a row: its thickness, volume over cross-section, for the
@@ -185,7 +188,7 @@ namespace Morula
       for (const unsigned int number : row)
         {
           lengths[number] = std::min(lengths[number], row_length);
-          ++n_thin_[number];
+          ++n_thin[number];
           candidates[number] = candidates[number] && !found &&
                                contents.volume(number) >= about_equal * largest;
           found = found || candidates[number];
@@ -193,19 +196,17 @@ namespace Morula
   }
 
   template <int dim>
-  float
-  TissueRows<dim>::thickness(const unsigned int       number,
-                             const GridContents<dim> &contents) const
+  double
+  Occupancy<dim>::thickness(const unsigned int number) const
   {
-    return largest_around(thicknesses, number, contents);
+    return largest_around(thicknesses, number, contents) * boxes().spacing();
   }
 
   template <int dim>
   bool
-  TissueRows<dim>::is_thin(const unsigned int       number,
-                           const GridContents<dim> &contents) const
+  Occupancy<dim>::is_thin(const unsigned int number) const
   {
-    return n_thin_[number] > 0 &&
+    return n_thin[number] > 0 &&
            largest_around(lengths, number, contents) < thin_row;
   }
 
@@ -233,21 +234,6 @@ namespace Morula
     : Occupancy(GridWindow<dim>(box))
   {}
 
-  template <int dim>
-  void
-  Occupancy<dim>::add_particle(const ParticleDomain<dim>  &domain,
-                               const types::particle_index id)
-  {
-    contents.add_particle(domain, id);
-  }
-
-  template <int dim>
-  void
-  Occupancy<dim>::add_boundary_point(const Point<dim>  &x,
-                                     const unsigned int part)
-  {
-    contents.add_boundary_point(x, part);
-  }
 
   template <int dim>
   void
@@ -257,7 +243,7 @@ namespace Morula
     // the quadrature points of the second round depend on them.
     contents.find_own();
     find_crowded();
-    rows = TissueRows<dim>(contents);
+    find_rows();
   }
 
   template <int dim>
@@ -269,7 +255,7 @@ namespace Morula
     // The same follows as on one rank, but from the sums over ranks.
     contents.sum(grid);
     find_crowded();
-    rows = TissueRows<dim>(contents);
+    find_rows();
   }
 
   template <int dim>
@@ -289,13 +275,6 @@ namespace Morula
     subdivides_ = subdivides_ || n_points > 1;
   }
 
-  template <int dim>
-  void
-  Occupancy<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
-  {
-    if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      contents.sum_quadrature_points(grid);
-  }
 
   template <int dim>
   void
@@ -303,7 +282,7 @@ namespace Morula
   {
     // The contents travel to the wider window; rows are found anew from these.
     contents.widen(grid, here);
-    rows = TissueRows<dim>(contents);
+    find_rows();
   }
 
   template <int dim>
@@ -334,10 +313,10 @@ namespace Morula
     const unsigned int number =
       nodes().node_of_cell(boxes().locate(domain.position()), id);
     const double h = boxes().spacing(), side = domain.side();
-    const bool   rod   = rows.n_thin(number) > 1; // or a cluster
+    const bool   rod   = n_thin[number] > 1; // or a cluster
     const auto   below = [&](const double n_layers) {
       // Most tissue is thick: the first test spares the neighbours' one.
-      return rows.least_thickness(number) * h < n_layers * side &&
+      return thicknesses[number] * h < n_layers * side &&
              thickness(number) < n_layers * side;
     };
     unsigned int least = points_per_cell;
@@ -374,22 +353,75 @@ namespace Morula
                                                        whole.number(index));
   }
 
-  template <int dim>
-  const GridBoxes<dim> &
-  Occupancy<dim>::boxes() const
-  {
-    return contents.boxes();
-  }
 
-  template <int dim>
-  const GridWindow<dim> &
-  Occupancy<dim>::window() const
-  {
-    return contents.window();
-  }
-
-  template class TissueRows<2>;
-  template class TissueRows<3>;
   template class Occupancy<2>;
   template class Occupancy<3>;
+
+
+  namespace
+  {
+    /** Whether an active grid cell is inner. */
+    template <int dim>
+    bool
+    is_inner(const Occupancy<dim> &occupancy,
+             const unsigned int    number,
+             const double          occupation_parameter)
+    {
+      // Thin tissue goes first, as there only one grid cell of each thin row
+      // may be inner. Then doc/theory.md (3.2): the threshold is measured by
+      // the fullest neighbour that could be inner itself, so that sheets and
+      // small clusters, which fill no grid cell, have inner ones. Last, there
+      // must be enough quadrature points that the splines can be told apart.
+      // All numbers are those of the window, which has seen the sums over all
+      // ranks.
+      const bool thin = occupancy.is_thin(number);
+      if (thin && !occupancy.is_inner_candidate(number))
+        return false;
+      double       largest  = 0.;
+      unsigned int n_points = 0;
+      occupancy.nodes().for_linked(
+        number, [&](const unsigned int neighbor, const auto &) {
+          if (!thin || occupancy.is_inner_candidate(neighbor))
+            largest = std::max(largest, occupancy.fill(neighbor));
+          n_points += occupancy.n_quadrature_points(neighbor);
+        });
+      // 1e-9 absorbs the rounding of the product, as fills are exact multiples
+      // of 2⁻⁴⁰.
+      const double threshold = occupation_parameter * std::min(1., largest);
+      return occupancy.fill(number) >= threshold - 1e-9 &&
+             (thin || occupancy.n_quadrature_points(number) >= (1u << dim)) &&
+             n_points >= BSpline<dim>::n;
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<GridCellClass>
+  classify(const Occupancy<dim> &occupancy, const double occupation_parameter)
+  {
+    // Only grid cells far enough inside of the window get a class: the others'
+    // neighbours are not known here. For them other ranks find it.
+    std::vector<GridCellClass> classes(occupancy.nodes().size(),
+                                       GridCellClass::empty);
+    const auto                 set_class = [&](const unsigned int number) {
+      if (!occupancy.active(number))
+        {
+          if (occupancy.fill(number) > 0.)
+            classes[number] = GridCellClass::reached;
+        }
+      else
+        classes[number] = is_inner(occupancy, number, occupation_parameter) ?
+                                            GridCellClass::inner :
+                                            GridCellClass::cut;
+    };
+    for (const GridRange<dim> &known :
+         occupancy.window().inner(reach_of_classes<dim>()))
+      occupancy.boxes().for_range(known,
+                                  [&](const unsigned int number, const auto &) {
+                                    occupancy.nodes().for_parts(number,
+                                                                set_class);
+                                  });
+    return classes;
+  }
+
+  MORULA_INSTANTIATE(classify);
 } // namespace Morula

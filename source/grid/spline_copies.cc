@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/grid/spline_copies.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -10,8 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace Morula
 {
@@ -95,6 +100,98 @@ namespace Morula
                                 near[neighbor] = 1;
                               });
       return near;
+    }
+
+    /** A node, and this rank's part that holds it. */
+    struct NodeOfPart
+    {
+      NodeName     node;
+      unsigned int part;
+    };
+
+    /** Nodes of other ranks that this rank's parts hold, by owner. */
+    using SeenParts = std::map<unsigned int, std::vector<NodeOfPart>>;
+
+    /** A rank, its part, and the part of the rank that tells of it. */
+    using Pair = std::array<unsigned int, 3>;
+
+    std::vector<Pair>
+    pairs_of(const SeenParts                                   &seen,
+             const std::function<unsigned int(const NodeName)> &part_of,
+             const MPI_Comm                                     comm)
+    {
+      std::vector<Pair> pairs;
+      // part_of() is asked on the owner, who knows its own part there. A pair
+      // is told once, however many nodes two parts share.
+      for (const auto &[rank, list] : send_records(seen, comm))
+        for (const NodeOfPart &node : list)
+          pairs.push_back({{rank, node.part, part_of(node.node)}});
+      std::sort(pairs.begin(), pairs.end());
+      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+      return pairs;
+    }
+
+    /**
+     * Joins the parts of all ranks to wholes. Parts of two ranks belong
+     * together if they have a node in common. Every rank gets the list of all
+     * wholes. (Boost's disjoint sets, one for each part of a rank.) Collective.
+     * @param lowest  lowest node that this rank knows of each of its parts
+     * @param part_of the part that holds a node of this rank
+     * @return the whole of each of this rank's parts, and the lowest node of
+     *         each whole, increasing
+     */
+    std::pair<std::vector<unsigned int>, std::vector<NodeName>>
+    wholes_of(const std::vector<NodeName>                       &lowest,
+              const SeenParts                                   &seen,
+              const std::function<unsigned int(const NodeName)> &part_of,
+              const MPI_Comm                                     comm)
+    {
+      std::vector<unsigned int> wholes;
+      std::vector<NodeName>     all_wholes;
+      // Every rank gathers the lowest grid cells of all parts of all ranks, and
+      // all pairs of parts that share a grid cell. Both are short: tissue has
+      // few parts. Each rank then joins the same sets, so that all of them find
+      // the same wholes, without a further message. A whole is named by its
+      // lowest grid cell; their order is independent of the number of ranks.
+      const auto all_lowest = gather_everywhere(lowest, comm);
+      const auto all_pairs =
+        gather_everywhere(pairs_of(seen, part_of, comm), comm);
+      std::vector<unsigned int> first(1, 0); // part of each rank
+      std::vector<NodeName>     lowest_of;
+      for (const auto &list : all_lowest)
+        {
+          first.push_back(first.back() + list.size());
+          lowest_of.insert(lowest_of.end(), list.begin(), list.end());
+        }
+
+      std::vector<unsigned int> depth(lowest_of.size(), 0),
+        parent(lowest_of.size());
+      std::iota(parent.begin(), parent.end(), 0u);
+      boost::disjoint_sets<unsigned int *, unsigned int *> sets(depth.data(),
+                                                                parent.data());
+      // Part numbers become numbers over all ranks by first[rank].
+      for (std::size_t rank = 0; rank < all_pairs.size(); ++rank)
+        for (const auto &[other, their_part, part] : all_pairs[rank])
+          sets.union_set(first[rank] + part, first[other] + their_part);
+
+      // The lowest grid cell of a whole stands at its root.
+      for (unsigned int part = 0; part < lowest_of.size(); ++part)
+        {
+          NodeName &low = lowest_of[sets.find_set(part)];
+          low           = std::min(low, lowest_of[part]);
+        }
+      for (unsigned int part = 0; part < lowest_of.size(); ++part)
+        if (sets.find_set(part) == part)
+          all_wholes.push_back(lowest_of[part]);
+      std::sort(all_wholes.begin(), all_wholes.end());
+      // What this rank needs in the end is the whole of each of its own parts.
+      const unsigned int begin = first[Utilities::MPI::this_mpi_process(comm)];
+      for (unsigned int part = begin; part < begin + lowest.size(); ++part)
+        wholes.push_back(std::lower_bound(all_wholes.begin(),
+                                          all_wholes.end(),
+                                          lowest_of[sets.find_set(part)]) -
+                         all_wholes.begin());
+      return {wholes, all_wholes};
     }
   } // namespace
 
@@ -331,40 +428,32 @@ namespace Morula
     // For each part its lowest node, and for each node of another rank that
     // this rank's parts hold, a message to its owner: there the two ranks'
     // parts belong together.
-    std::vector<NodeName> lowest_of_parts(n_parts,
-                                          std::numeric_limits<NodeName>::max());
-    PartsOnRanks::Seen    seen;
+    constexpr unsigned int last = std::numeric_limits<unsigned int>::max();
+    std::vector<NodeName>  lowest_of_parts(n_parts, NodeName{{last, last}});
+    SeenParts              seen;
     for (unsigned int node = 0; node < nodes.size(); ++node)
       if (pieces[node] != no_piece)
         {
           const GridIndex<dim> index = nodes.index(node);
-          const NodeName       there =
-            node_name(whole.number(index), nodes.part(node));
-          NodeName &low = lowest_of_parts[pieces[node]];
-          low           = std::min(low, there);
+          const NodeName there = {{whole.number(index), nodes.part(node)}};
+          NodeName      &low   = lowest_of_parts[pieces[node]];
+          low                  = std::min(low, there);
           if (!own[nodes.grid_cell(node)])
             seen[grid.owner(index)].push_back({there, pieces[node]});
         }
-    const PartsOnRanks joined(
+    const auto [wholes, lowest_of_wholes] = wholes_of(
       lowest_of_parts,
       seen,
       [&](const NodeName there) {
-        return pieces[nodes.node(whole.index(grid_cell_of(there)),
-                                 part_of(there))];
+        return pieces[nodes.node(whole.index(there[0]), there[1])];
       },
       grid.communicator());
-    lowest = joined.lowest();
+    lowest = lowest_of_wholes;
     for (unsigned int &piece : pieces)
       if (piece != no_piece)
-        piece = joined.whole_of(piece);
+        piece = wholes[piece];
   }
 
-  template <int dim>
-  const std::vector<SplineCopy> &
-  SplineCopies<dim>::list() const
-  {
-    return copies;
-  }
 
   template <int dim>
   unsigned int
@@ -403,26 +492,6 @@ namespace Morula
     return first[number] + place;
   }
 
-  template <int dim>
-  GridIndex<dim>
-  SplineCopies<dim>::center(const unsigned int copy) const
-  {
-    return boxes.index(copies[copy].spline);
-  }
-
-  template <int dim>
-  unsigned int
-  SplineCopies<dim>::piece(const unsigned int node) const
-  {
-    return pieces[node];
-  }
-
-  template <int dim>
-  unsigned int
-  SplineCopies<dim>::n_pieces() const
-  {
-    return lowest.size();
-  }
 
   template class SplineCopies<2>;
   template class SplineCopies<3>;

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/grid/point_bins.h>
+#include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/point_exchange.h>
 

@@ -6,15 +6,14 @@
 
 #include <morula/grid/background_grid.h>
 #include <morula/grid/bspline.h>
-#include <morula/grid/classification.h>
-#include <morula/grid/extension.h>
+#include <morula/grid/grid_box.h>
 #include <morula/grid/grid_window.h>
+#include <morula/grid/occupancy.h>
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/parting.h>
 #include <morula/grid/piece_watch.h>
-#include <morula/grid/point_bins.h>
-#include <morula/grid/shared_points.h>
 #include <morula/grid/spline_space.h>
+#include <morula/grid/unknown_numbers.h>
 
 #include "common/allocations.h"
 #include "common/body_on_grid.h"

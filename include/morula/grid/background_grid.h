@@ -167,11 +167,17 @@ namespace Morula
 
     /** Rank that owns the grid cell of the box with this number. */
     unsigned int
-    owner(const unsigned int number) const;
+    owner(const unsigned int number) const
+    {
+      return owner(box_.index(number));
+    }
 
     /** Rank that owns a grid cell of the box. */
     unsigned int
-    owner(const GridIndex<dim> &index) const;
+    owner(const GridIndex<dim> &index) const
+    {
+      return owners(index);
+    }
 
     /** This rank's grid cells of the box, in the order of their numbers. */
     const std::vector<OwnedGridCell> &

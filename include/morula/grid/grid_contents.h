@@ -194,7 +194,10 @@ namespace Morula
 
     /** Adds a boundary point at @p x. */
     void
-    add_boundary_point(const Point<dim> &x, const unsigned int part);
+    add_boundary_point(const Point<dim> &x, const unsigned int part)
+    {
+      ++counts[nodes_.node(boxes().locate(x), part)][boundary];
+    }
 
     /** Adds a quadrature point at @p x of the cell with this id. On a grid line
      *  it counts on both sides: else a mirrored tissue would have other classes

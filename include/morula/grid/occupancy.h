@@ -4,78 +4,80 @@
 #ifndef morula_grid_occupancy_h
 #define morula_grid_occupancy_h
 
+#include <morula/grid/grid_box.h>
 #include <morula/grid/grid_contents.h>
-#include <morula/grid/shared_points.h>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace Morula
 {
-  /**
-   * How thick the tissue is, from the connected rows of grid cells with tissue
-   * along each coordinate. A row's thickness is its volume divided by its
-   * cross-section, the smallest rectangle around its tissue; a row of eight
-   * grid cells or more is not thin along itself, so that no rank must know all
-   * of it.
-   *
-   * Grid cells at the edge of a window have rows that are cut off. Everything
-   * here is what one rank finds in GridWindow::inner(reach) of the window, but
-   * for thickness(), which needs eight rings.
-   */
+  /** A point on a grid line, which the grid cells on all its sides share in
+   *  equal parts: doc/theory.md, section 2.4. */
   template <int dim>
-  class TissueRows
+  class SharedPoint
   {
   public:
-    static constexpr int reach = 4;
+    /** A point nearer to a grid line than so many grid spacings counts as on
+     * it. This is much more than the error of a step's solution, so that a cell
+     *  that should stay on a line does so. */
+    static constexpr double on_line = 1e-6;
 
-    TissueRows() = default;
-
-    explicit TissueRows(const GridContents<dim> &contents);
-
-    /** Smallest thickness of a grid cell's rows in units of h, at most 1. */
-    float
-    least_thickness(const unsigned int number) const
+    SharedPoint(const GridBox<dim> &box, const Point<dim> &x)
     {
-      return thicknesses[number];
+      const GridIndex<dim> index = box.locate(x);
+      const Point<dim>     xi    = box.unit_position(x, index);
+      const Point<dim>     lower = box.corner(index);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          sides[d] = {{x[d], x[d]}};
+          n[d]     = 1;
+          for (const double line : {0., 1.})
+            if (std::abs(xi[d] - line) < on_line)
+              {
+                const double at = lower[d] + line * box.spacing();
+                sides[d]        = {
+                  {at - on_line * box.spacing(), at + on_line * box.spacing()}};
+                n[d] = 2;
+              }
+        }
     }
 
-    /** The largest of these among the grid cell and its neighbours with
-     *  tissue, so that the tip of a large body is not thin. */
-    float
-    thickness(const unsigned int       number,
-              const GridContents<dim> &contents) const;
-
-    /** Number of directions in which the grid cell's row is shorter than
-     *  1.5 h. */
+    /** Number of grid cells that share the point; 1 for a point on no line. */
     unsigned int
-    n_thin(const unsigned int number) const
+    n_shares() const
     {
-      return n_thin_[number];
+      unsigned int product = 1;
+      for (const unsigned int n_d : n)
+        product *= n_d;
+      return product;
     }
 
-    /** See Occupancy. */
-    bool
-    is_thin(const unsigned int number, const GridContents<dim> &contents) const;
-
-    /** See Occupancy. */
-    bool
-    is_inner_candidate(const unsigned int number) const
+    /** Calls @p visit(position) for each of these grid cells. A point on a line
+     *  is moved a little, so that its position lies in that grid cell. */
+    template <typename Visitor>
+    void
+    for_each(const Visitor &visit) const
     {
-      return candidates[number];
+      for (unsigned int share = 0; share < n_shares(); ++share)
+        {
+          Point<dim>   position;
+          unsigned int rest = share;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              position[d] = sides[d][rest % n[d]];
+              rest /= n[d];
+            }
+          visit(position);
+        }
     }
 
   private:
-    void
-    measure(const std::vector<unsigned int> &row,
-            const unsigned int               direction,
-            const GridContents<dim>         &contents);
-
-    std::vector<float> thicknesses; // of rows, in h, at most 1
-    std::vector<float> lengths;     // of rows, in h; 2 where no row is thin
-    std::vector<char>  n_thin_;     // number of directions with a thin row
-    std::vector<char>  candidates;  // see is_inner_candidate()
+    std::array<std::array<double, 2>, dim> sides;
+    std::array<unsigned int, dim>          n;
   };
 
   /**
@@ -99,6 +101,9 @@ namespace Morula
   class Occupancy
   {
   public:
+    /** Thicknesses and rows are known so many rings inside of the window. */
+    static constexpr int reach = 4;
+
     /**
      * @param points_per_cell least number of quadrature points per edge of a
      *        particle
@@ -117,11 +122,17 @@ namespace Morula
     /** Adds a particle. @param id of its cell, by which its part is known */
     void
     add_particle(const ParticleDomain<dim>  &domain,
-                 const types::particle_index id = 0);
+                 const types::particle_index id = 0)
+    {
+      contents.add_particle(domain, id);
+    }
 
     /** Adds a boundary point at @p x in a part of its grid cell. */
     void
-    add_boundary_point(const Point<dim> &x, const unsigned int part = 0);
+    add_boundary_point(const Point<dim> &x, const unsigned int part = 0)
+    {
+      contents.add_boundary_point(x, part);
+    }
 
     /** Ends the first round on one rank. */
     void
@@ -147,7 +158,11 @@ namespace Morula
 
     /** Sums the second round over all ranks. Collective. */
     void
-    sum_quadrature_points(const BackgroundGrid<dim> &grid);
+    sum_quadrature_points(const BackgroundGrid<dim> &grid)
+    {
+      if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+        contents.sum_quadrature_points(grid);
+    }
 
     /** Sees a wider window after both rounds, see GridWindow. Collective. */
     void
@@ -194,25 +209,24 @@ namespace Morula
 
     /**
      * Thickness (µm) of the tissue around a grid cell, at most h; after sum().
-     * A grid cell has the smallest thickness of its rows, see TissueRows. The
-     * result is the largest among the grid cell and its neighbours with tissue,
-     * so that the tip of a large body is not thin.
+     * It follows from the connected rows of grid cells with tissue along each
+     * coordinate. A row's thickness is its volume divided by its cross-section,
+     * the smallest rectangle around its tissue; a row of eight grid cells or
+     * more is not thin along itself, so that no rank must know all of it. A
+     * grid cell has the smallest thickness of its rows. The result is the
+     * largest among the grid cell and its neighbours with tissue, so that the
+     * tip of a large body is not thin. Rows are cut off at the edge of a
+     * window: this needs eight rings.
      */
     double
-    thickness(const unsigned int number) const
-    {
-      return rows.thickness(number, contents) * boxes().spacing();
-    }
+    thickness(const unsigned int number) const;
 
     /**
      * Whether the tissue around a grid cell is thin: the grid cell and each
      * of its neighbours with tissue has a row that is shorter than 1.5 h.
      */
     bool
-    is_thin(const unsigned int number) const
-    {
-      return rows.is_thin(number, contents);
-    }
+    is_thin(const unsigned int number) const;
 
     /**
      * Whether the grid cell is the inner candidate of each of its thin rows
@@ -225,7 +239,7 @@ namespace Morula
     bool
     is_inner_candidate(const unsigned int number) const
     {
-      return rows.is_inner_candidate(number);
+      return candidates[number];
     }
 
     /** Corners (µm) of the smallest box around the particles' cubes in the
@@ -263,10 +277,16 @@ namespace Morula
 
     /** The grid cells of this rank's window. */
     const GridBoxes<dim> &
-    boxes() const;
+    boxes() const
+    {
+      return contents.boxes();
+    }
 
     const GridWindow<dim> &
-    window() const;
+    window() const
+    {
+      return contents.window();
+    }
 
     const GridNodes<dim> &
     nodes() const
@@ -285,14 +305,68 @@ namespace Morula
   private:
     void
     find_crowded();
+    void
+    find_rows();
+    void
+    measure(const std::vector<unsigned int> &row, const unsigned int direction);
 
     unsigned int              points_per_cell;
     bool                      share_points;
     bool                      subdivides_ = false;
     GridContents<dim>         contents;
-    TissueRows<dim>           rows;
-    std::vector<unsigned int> crowded_; // of all ranks, by number in the grid
+    std::vector<float>        thicknesses; // of rows, in h, at most 1
+    std::vector<float>        lengths;     // of rows, in h; 2: no row is thin
+    std::vector<char>         n_thin; // number of directions with a thin row
+    std::vector<char>         candidates; // see is_inner_candidate()
+    std::vector<unsigned int> crowded_;   // of all ranks, by number in the grid
   };
+
+  /** The role of a grid cell for the splines (doc/theory.md, section 3). The
+   *  order counts: see is_active(). */
+  enum class GridCellClass : char
+  {
+    empty,
+    /** Holds no points; only particles' cubes reach into it. It connects grid
+     *  cells with tissue, and is otherwise treated like an empty one. */
+    reached,
+    cut,
+    inner
+  };
+
+  /** Whether a grid cell holds a particle, a quadrature point or a boundary
+   *  point. */
+  inline bool
+  is_active(const GridCellClass grid_cell)
+  {
+    return grid_cell >= GridCellClass::cut;
+  }
+
+  /** How far around a grid cell its class depends on others. */
+  template <int dim>
+  constexpr int
+  reach_of_classes()
+  {
+    return Occupancy<dim>::reach + 1;
+  }
+
+  /**
+   * Classifies the grid cells of this rank's window that are reach_of_classes()
+   * inside of it; the others count as empty. An active grid cell is *inner* if
+   *
+   * - its fill is at least C_C min(1, largest fill of it and its neighbours):
+   *   doc/theory.md (3.2). The minimum gives thin sheets and small clusters
+   *   inner grid cells.
+   * - in thin tissue, it is the candidate of its thin rows, see
+   *   Occupancy::is_inner_candidate(). Then only such neighbours count in the
+   *   rule above. Otherwise a thin body on both sides of a grid line would have
+   *   inner grid cells whose outermost splines hardly touch it.
+   * - it and its neighbours hold at least 3^dim quadrature points together,
+   *   and, unless the tissue is thin, it holds 2^dim of them itself. With fewer
+   *   points its splines could not be told apart.
+   */
+  template <int dim>
+  std::vector<GridCellClass>
+  classify(const Occupancy<dim> &occupancy, const double occupation_parameter);
 } // namespace Morula
 
 #endif

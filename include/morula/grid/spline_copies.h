@@ -5,14 +5,20 @@
 #define morula_grid_spline_copies_h
 
 #include <morula/grid/bspline.h>
-#include <morula/grid/classification.h>
-#include <morula/grid/parts_on_ranks.h>
+#include <morula/grid/occupancy.h>
 
+#include <mpi.h>
+
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace Morula
 {
+  /** A part of a grid cell (see Parting): the number of the grid cell in the
+   *  grid's box, and the part. */
+  using NodeName = std::array<unsigned int, 2>;
+
   /** The copy of a spline that one part of the tissue in its support uses. */
   struct SplineCopy
   {
@@ -63,7 +69,10 @@ namespace Morula
     /** All copies, in the order of their splines' numbers in the window; copies
      *  of one spline in the order of their lowest grid cells. */
     const std::vector<SplineCopy> &
-    list() const;
+    list() const
+    {
+      return copies;
+    }
 
     /** The copy of the spline centred on @p spline that the active node
      *  @p node of its support uses: a position in list(). */
@@ -87,7 +96,10 @@ namespace Morula
 
     /** Coordinates of the grid cell that a copy's spline is centred on. */
     GridIndex<dim>
-    center(const unsigned int copy) const;
+    center(const unsigned int copy) const
+    {
+      return boxes.index(copies[copy].spline);
+    }
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
     bool
@@ -99,16 +111,22 @@ namespace Morula
     /** The piece of an active node that this rank owns: 0, ...,
      *  n_pieces() - 1 in the order of the pieces' lowest nodes. */
     unsigned int
-    piece(const unsigned int node) const;
+    piece(const unsigned int node) const
+    {
+      return pieces[node];
+    }
 
     unsigned int
-    n_pieces() const;
+    n_pieces() const
+    {
+      return lowest.size();
+    }
 
     /** Lowest grid cell of a piece: its number in the grid's box. */
     unsigned int
     lowest_grid_cell(const unsigned int piece) const
     {
-      return grid_cell_of(lowest[piece]);
+      return lowest[piece][0];
     }
 
     /** The active nodes that this rank owns, in the order of their names. */

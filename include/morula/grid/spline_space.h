@@ -6,7 +6,6 @@
 
 #include <morula/grid/background_grid.h>
 #include <morula/grid/bspline.h>
-#include <morula/grid/extension.h>
 #include <morula/grid/unknown_numbers.h>
 
 #include <deal.II/base/index_set.h>
@@ -125,26 +124,50 @@ namespace Morula
     /** This rank's active grid cells in the order of their numbers, then of
      *  their parts. */
     const std::vector<GridCell> &
-    grid_cells() const;
+    grid_cells() const
+    {
+      return grid_cells_;
+    }
 
     /** The unknowns that this rank owns. */
     const IndexSet &
-    owned() const;
+    owned() const
+    {
+      return owned_;
+    }
 
     /** The unknowns that this rank's active grid cells use, and those that it
      *  owns. */
     const IndexSet &
-    relevant() const;
+    relevant() const
+    {
+      return relevant_;
+    }
 
     /** Counts over all ranks. */
     unsigned int
-    n_unknowns() const;
+    n_unknowns() const
+    {
+      return owned_.size();
+    }
+
     unsigned int
-    n_active_grid_cells() const;
+    n_active_grid_cells() const
+    {
+      return n_active;
+    }
+
     unsigned int
-    n_inner_splines() const;
+    n_inner_splines() const
+    {
+      return n_inner;
+    }
+
     unsigned int
-    n_outer_splines() const;
+    n_outer_splines() const
+    {
+      return n_outer;
+    }
 
     /** The piece of an active grid cell of this rank, by its number in the
      *  grid's box, and of one of the parts there; see SplineCopies. */
@@ -152,16 +175,25 @@ namespace Morula
     piece(const unsigned int number, const unsigned int part = 0) const;
 
     unsigned int
-    n_pieces() const;
+    n_pieces() const
+    {
+      return bodies.empty() ? copies.n_pieces() : first_piece.back();
+    }
 
     /** The box of the grid. */
     const GridBox<dim> &
-    box() const;
+    box() const
+    {
+      return occupancy().window().whole();
+    }
 
     /** What the grid cells hold of a body; of the tissue where bodies are not
      *  parted. */
     const Occupancy<dim> &
-    occupancy(const unsigned int body = 0) const;
+    occupancy(const unsigned int body = 0) const
+    {
+      return bodies.empty() ? occupancy_ : bodies[body].occupancy_;
+    }
 
     /**
      * This rank's unknowns, in the order of owned(), for the field that is
@@ -176,7 +208,10 @@ namespace Morula
 
     /** The piece of each of this rank's unknowns, in the order of owned(). */
     const std::vector<unsigned int> &
-    pieces_of_unknowns() const;
+    pieces_of_unknowns() const
+    {
+      return pieces_;
+    }
 
   private:
     using Terms = std::vector<std::pair<unsigned int, double>>;
@@ -193,7 +228,10 @@ namespace Morula
     void
     count(const MPI_Comm comm);
     bool
-    is_unknown(const SplineCopy &copy) const;
+    is_unknown(const SplineCopy &copy) const
+    {
+      return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
+    }
 
     /** Copies that are unknowns of this rank. */
     std::vector<unsigned int>

@@ -5,7 +5,6 @@
 #define morula_particles_surface_around_h
 
 #include <morula/grid/grid_box.h>
-#include <morula/grid/point_bins.h>
 #include <morula/particles/tissue.h>
 
 #include <memory>

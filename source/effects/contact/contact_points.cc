@@ -3,7 +3,7 @@
 
 #include <morula/base/send_records.h>
 #include <morula/effects/contact/contact_points.h>
-#include <morula/grid/point_bins.h>
+#include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>

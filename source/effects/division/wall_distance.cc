@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/division/wall_distance.h>
-#include <morula/grid/point_bins.h>
+#include <morula/grid/grid_box.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <morula/mechanics/point_term.h>
 #include <morula/particles/detached_points.h>
 #include <morula/simulation/simulation.h>
-#include <morula/simulation/slow_steps.h>
+#include <morula/simulation/step_checks.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/simulation/simulation.h>
-#include <morula/simulation/slow_steps.h>
+#include <morula/simulation/step_checks.h>
 #include <morula/simulation/tissue_tables.h>
 
 #include <deal.II/base/mpi.h>

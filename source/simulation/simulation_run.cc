@@ -7,7 +7,7 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/simulation/founding.h>
 #include <morula/simulation/simulation.h>
-#include <morula/simulation/snapshot_check.h>
+#include <morula/simulation/step_checks.h>
 #include <morula/simulation/tissue_tables.h>
 #include <morula/solver/linear_solver.h>
 

@@ -2,13 +2,19 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
+#include <morula/particles/nearest.h>
 #include <morula/simulation/step_checks.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 namespace Morula
 {
@@ -100,4 +106,224 @@ namespace Morula
   MORULA_INSTANTIATE(inverts);
   MORULA_INSTANTIATE(check_gap);
   MORULA_INSTANTIATE(torn_tissue_message);
+
+
+  namespace
+  {
+    /** The drag that tissue is first held back with, and at most: it resists a
+     *  motion by h with a stress of about E, or a hundred times that. */
+    constexpr double first_drag = 1e4, strongest_drag = 1e6;
+
+    /** How much stronger it is after a step that has failed, and weaker after
+     *  one in which cells move by less than the short way, in units of h. */
+    constexpr double stronger = 2., weaker = 0.3, short_way = 0.1;
+
+    /** The cosine of the largest turn of tissue, 36°: two points that did not
+     *  face each other, whose normals' product was above -0.3, do not look at
+     *  each other straight after both have turned by less. */
+    constexpr double straight_on = 0.8;
+
+    /** The least |f - I| of tissue that has turned so far, and how much of it
+     *  counts, in h^dim: single cells at the end of a fold may turn. */
+    constexpr double least_change = 0.5, strand = 0.3;
+
+    /** The cosine of the angle by which f = R U turns, from the trace of R. */
+    template <int dim>
+    double
+    cosine_of_turn(const Tensor<2, dim> &f)
+    {
+      double trace = 0.;
+      for (const auto &[square, e] : eigenvectors(symmetrize(transpose(f) * f)))
+        trace += e * (f * e) / std::sqrt(square);
+      return dim == 2 ? 0.5 * trace : 0.5 * (trace - 1.);
+    }
+  } // namespace
+
+
+  bool
+  hold_back(double &drag)
+  {
+    if (drag >= strongest_drag)
+      return false;
+    drag = drag == 1. ? first_drag : std::min(strongest_drag, stronger * drag);
+    return true;
+  }
+
+
+  template <int dim>
+  void
+  let_go(const Tissue<dim>            &tissue,
+         const DisplacementField<dim> &displacement,
+         double                       &drag)
+  {
+    double longest = 0.;
+    for (const Tensor<1, dim> &way : displacement.values_at(tissue.cells()))
+      longest = std::max(longest, way.norm());
+    if (Utilities::MPI::max(longest, tissue.communicator()) <=
+        short_way * tissue.grid().box().spacing())
+      drag = std::max(1., weaker * drag);
+  }
+
+
+  template <int dim>
+  bool
+  turns_too_far(const Tissue<dim>            &tissue,
+                const DisplacementField<dim> &displacement)
+  {
+    // Cells tell how the tissue turns, as boundary points beyond the last ones
+    // see an extrapolated field. Of cells that turn those within h around are
+    // taken together, so that a few do not count.
+    const Cells<dim>       &cells = tissue.cells();
+    const double            h     = tissue.grid().box().spacing();
+    std::vector<double>     turned(cells.size(), 0.); // volume, µm^dim
+    std::vector<Point<dim>> queries;
+    displacement.at_points(
+      cells,
+      [&](const unsigned int       p,
+          const LocalField<dim>   &field,
+          const SplineValues<dim> &splines) {
+        const Tensor<2, dim> f = field.step_deformation(splines);
+        if ((f - Tensor<2, dim>(unit_symmetric_tensor<dim>())).norm() <
+              least_change ||
+            cosine_of_turn(f) > straight_on)
+          return;
+        turned[p] = cells.volume(p);
+        queries.push_back(cells.position(p));
+      });
+    const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
+      list.push_back(turned[p]);
+    };
+    const PointList<dim> near = near_points(
+      queries, cells, {1, numbers, Ties::lowest_id}, tissue.grid(), 1);
+    const NearTree<dim> tree(near.positions);
+    double              largest = 0.;
+    for (const Point<dim> &x : queries)
+      {
+        double volume = 0.;
+        for (const unsigned int i : tree.within(x, h))
+          volume += near.row(i)[0];
+        largest = std::max(largest, volume);
+      }
+    return Utilities::MPI::max(largest, tissue.communicator()) >
+           strand * Utilities::fixed_power<dim>(h);
+  }
+
+
+  MORULA_INSTANTIATE(let_go);
+  MORULA_INSTANTIATE(turns_too_far);
+
+
+  namespace
+  {
+    /** Half a step begins with half the force where the force comes from the
+     *  step. With more than this, something does not come from it. */
+    constexpr double part_that_stays = 0.8;
+
+    /** Cells that are neither squeezed nor stretched beyond these do not make a
+     *  step fail by themselves. */
+    constexpr double healthy_J = 0.3;
+
+    /** Largest over smallest J_e of the cells where volumes of cells that share
+     *  a grid cell no longer match. */
+    constexpr double mismatch = 3.;
+
+    /** A held point with a smaller J_e is crushed. */
+    constexpr double crushed_J = 0.01;
+
+    std::string
+    of_jump(const FailedStep &step)
+    {
+      std::ostringstream text;
+      text << " A step of " << step.part << " times the length begins with "
+           << step.last_force / step.first_force
+           << " times the unbalanced force: a load, stiffness, growth or "
+              "displacement jumps in time, or the last state is about to fold. "
+              "Let what jumps rise over some steps, as ramp(t, t0, t1) does; "
+              "after a jump there may be more than one equilibrium.";
+      return text.str();
+    }
+
+    std::string
+    of_fold(const FailedStep &step)
+    {
+      std::ostringstream text;
+      text << " The tissue folds or buckles: along some motion it has no "
+              "stiffness left. A Friction/Coefficient of about "
+           << step.friction
+           << " kPa day/um^2 lets the fold take a step; compare with a third "
+              "and three times of it, as friction decides which fold is found "
+              "(doc/modelling.md, Folds). A finer grid may help, too.";
+      return text.str();
+    }
+  } // namespace
+
+
+  // The surest sign comes first (doc/theory.md, section 5.10): a negative
+  // energy of an unloaded body has one cause, while a fold is what is left when
+  // all other causes are out. A jump shows only when the step was halved twice
+  // (part below 0.3), since only then it is clear that the force does not fall
+  // with the length.
+  std::string
+  diagnosis(const FailedStep &step)
+  {
+    if (step.symmetric && step.smallest_J < crushed_J && step.energy < 0. &&
+        !step.loaded)
+      return " A held point is crushed there: the symmetric Nitsche form has no "
+             "least energy. Set Boundary conditions/Nitsche form = bounded.";
+    if (step.pointwise && step.max_J > mismatch * step.min_J)
+      {
+        std::ostringstream text;
+        text << " Before the step J_e is " << step.min_J << " to " << step.max_J
+             << ": the volumes of cells that share a grid cell do not match. "
+                "Set Material/Volumetric strain = pooled.";
+        return text.str();
+      }
+    if (step.part < 0.3 && step.last_force > part_that_stays * step.first_force)
+      return of_jump(step);
+    if (step.smallest_J < healthy_J)
+      return "";
+    if (step.unsymmetric)
+      return " The unsymmetric Nitsche form has no energy and sees no "
+             "curvature, so that it does not find the way to a fold. Set "
+             "Boundary conditions/Nitsche form = bounded.";
+    return step.curvature < 0. ? of_fold(step) : "";
+  }
+
+
+  std::string
+  path_message(const double t)
+  {
+    std::ostringstream text;
+    text << "At t = " << t
+         << " day Newton's method alone did not find the equilibrium, but a "
+            "proximal path did: the tissue folds there, or something jumps in "
+            "time. There may be more than one equilibrium: compare with "
+            "another Friction/Coefficient, or let what jumps rise over some "
+            "steps. Column proximal_paths of statistics.csv counts such steps.";
+    return text.str();
+  }
+
+
+  std::string
+  turn_message(const double t)
+  {
+    std::ostringstream text;
+    text << "Warning: at t = " << t
+         << " day a strand of tissue turns by more than 36 degrees within a "
+            "step. It may pass through itself there, as surfaces without "
+            "contact do not see each other: look at the surface. "
+            "Contact/Between = all keeps folds apart.";
+    return text.str();
+  }
+
+
+  double
+  friction_against(const double curvature,
+                   const double E,
+                   const double h,
+                   const double dt)
+  {
+    // This is doc/theory.md (5.8).
+    return -curvature * E * dt / (h * h);
+  }
 } // namespace Morula

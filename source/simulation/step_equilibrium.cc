@@ -7,7 +7,6 @@
 #include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/spline_field.h>
-#include <morula/simulation/slow_steps.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/step_equilibrium.h>
 #include <morula/solver/newton.h>
@@ -36,6 +35,19 @@ namespace Morula
           balance.smallest_J(report.trace[i].evaluation);
     }
   } // namespace
+
+
+  /** The parts that effects have in an attempt. */
+  template <int dim>
+  struct StepEquilibrium<dim>::Parts
+  {
+    std::vector<std::unique_ptr<PartOfStep<dim>>> list;
+    /** Those of the list that have something of their own, or null. */
+    InteractionInStep<dim> *meeting   = nullptr;
+    Enclosure<dim>         *enclosure = nullptr;
+    /** As PartOfStep::is_exact() of any part. */
+    bool is_exact = false;
+  };
 
 
   template <int dim>

@@ -5,7 +5,7 @@
 #include <morula/base/near_tree.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/particles/nearest.h>
-#include <morula/simulation/surface_forces.h>
+#include <morula/simulation/step_equilibrium.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/point_bins.h>
+#include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 #include <morula/simulation/watches.h>
 

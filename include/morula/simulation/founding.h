@@ -5,9 +5,11 @@
 #define morula_simulation_founding_h
 
 #include <morula/output/rows.h>
+#include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
 
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -29,6 +31,16 @@ namespace Morula
   found(const TissueModel<dim>  &model,
         const SeededTissue<dim> &seeded,
         const MPI_Comm           comm);
+
+  /**
+   * Refuses to resume from a snapshot of another scene. Only Time/End time,
+   * Time/Step, Time/Stop at cells, and the sections Solver and Output may
+   * differ. The directory's name may differ too, since it may have been moved.
+   * @param parameters the snapshot's scene, as the text of a .prm file
+   * @throws InputError with the key and both values
+   */
+  void
+  check_resumable(const Scene &scene, const std::string &parameters);
 } // namespace Morula
 
 #endif

@@ -4,16 +4,164 @@
 #ifndef morula_simulation_run_state_h
 #define morula_simulation_run_state_h
 
+#include <morula/base/past_step.h>
+#include <morula/base/time_parameters.h>
 #include <morula/effects/tables.h>
 #include <morula/output/snapshot.h>
 #include <morula/particles/tissue.h>
-#include <morula/simulation/step_error.h>
-#include <morula/simulation/time_steps.h>
 
+#include <functional>
 #include <optional>
 
 namespace Morula
 {
+  /** The estimate of a run's error in time: doc/theory.md (5.10). */
+  struct ErrorInTime
+  {
+    /** What the last step missed of flow, relative to the volume. It is known
+     * at the step's end, while what is missed of growth is known only when the
+     *  next step begins. */
+    double flow = 0.;
+    /** μ of the step before the last. */
+    double last = 0.;
+    /** The sum of |μ_{n+1} - μ_n| / 6. */
+    double changes = 0.;
+
+    /** Adds μ of a step. */
+    void
+    add(const double mu)
+    {
+      // This is the sum in doc/theory.md (5.10).
+      changes += std::abs(mu - last) / 6.;
+      last = mu;
+    }
+
+    /** The error of the whole run, E of (5.10): relative, as a volume or a
+     *  strain. */
+    double
+    total() const
+    {
+      return changes + last;
+    }
+  };
+
+  /**
+   * The mean of a number of each cell over the tissue's volume. The sums are
+   * those of integers, so that the mean is the same for any number of ranks: it
+   * decides how long steps are. Collective.
+   * @param number not negative; above 1 it counts as 1
+   * @param scale  a typical volume of a cell, µm^dim
+   */
+  template <int dim>
+  double
+  mean_over_tissue(const Tissue<dim>                               &tissue,
+                   const std::function<double(const unsigned int)> &number,
+                   const double                                     scale);
+
+  /**
+   * The time steps. Each step ends at a multiple of Step; the last one ends at
+   * End time. A rejected step is halved inside its interval. After two halves
+   * the next step is twice as long again. With Tolerance steps are Step/2^k, as
+   * long as adapt() finds: doc/theory.md, section 5.11. Times are computed as
+   * multiples and never as sums, so that they do not drift.
+   */
+  class TimeSteps
+  {
+  public:
+    explicit TimeSteps(const TimeParameters &parameters);
+
+    /** The place of the run in the sequence of steps, for a snapshot. */
+    struct State
+    {
+      double       time;         // present time, day
+      double       step;         // Step, day
+      unsigned int interval;     // the interval ends at (interval + 1) Step
+      double       begin;        // of the interval, day
+      unsigned int part;         // steps of this level that are done
+      unsigned int level;        // the interval is cut into 2^level steps
+      double       past = 0.;    // when the last step began, day
+      bool         anew = false; // the next step does not follow that one
+    };
+
+    State
+    state() const
+    {
+      return state_;
+    }
+
+    /** Continues from @p state. Step and End time may have changed. */
+    void
+    restore(const State &state);
+
+    /** Present time, day. */
+    double
+    time() const
+    {
+      return at(state_.part);
+    }
+
+    /** The step that led to the present state. */
+    PastStep
+    past() const
+    {
+      return {state_.past, time()};
+    }
+
+    /** End of the next step, day. */
+    double
+    next() const
+    {
+      return at(state_.part + 1);
+    }
+
+    /** Makes the next step as long as the error @p mu of the last one allows,
+     *  doc/theory.md (5.11): shorter at once, longer by a factor 2 at most.
+     * Does nothing without Tolerance. */
+    void
+    adapt(const double mu);
+
+    /** Makes the next step short, as after a cut. Does nothing without
+     *  Tolerance. */
+    void
+    begin_anew();
+
+    bool
+    finished() const
+    {
+      return time() >= parameters.end_time - time_slack * parameters.step;
+    }
+
+    /** Records that the step has succeeded. @param is_slow whether the next one
+     *  shall be no longer */
+    void
+    accept(const bool is_slow = false);
+
+    /** Whether half the next step is at least Smallest step. */
+    bool
+    can_halve() const;
+
+    /**
+     * Records that the step has failed. The next one is half as long.
+     * @return whether the next step is at least Smallest step
+     */
+    bool
+    reject();
+
+  private:
+    double
+    end_of_interval() const;
+
+    double
+    at(const unsigned int part) const;
+
+    /** Cuts the next step in two. The present time stays as it is. */
+    void
+    halve();
+
+    TimeParameters parameters;
+    State          state_;
+  };
+
   /** What outlives a step besides the tissue. */
   struct RunState
   {

@@ -8,7 +8,6 @@
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
-#include <morula/simulation/failed_step.h>
 #include <morula/simulation/following_surface.h>
 #include <morula/simulation/run_files.h>
 #include <morula/simulation/run_state.h>
@@ -26,6 +25,8 @@
 
 namespace Morula
 {
+  struct FailedStep;
+
   /**
    * One run of a scene. Owns the parts, and is the only type that sees them
    * all; run() and step() read as the algorithm of section 2 of the paper.

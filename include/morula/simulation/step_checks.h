@@ -7,6 +7,7 @@
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/particles/point_store.h>
+#include <morula/particles/tissue.h>
 
 #include <string>
 
@@ -44,6 +45,90 @@ namespace Morula
                       const std::vector<Point<dim>> &boundary_points,
                       const GridBox<dim>            &box,
                       const MPI_Comm                 comm);
+
+  // Where folds have contact a snap has to be gone through in several steps, as
+  // surfaces which were far apart at t meet on the way: doc/theory.md, section
+  // 4.3a. In these steps a drag holds the tissue back. It is given in units of
+  // the weak drag of contact, and is 1 in all other steps.
+
+  /** Makes the drag stronger, after a step has failed. Returns whether that is
+   *  possible. */
+  bool
+  hold_back(double &drag);
+
+  /** Makes the drag weaker after a step in which no cell has moved by more than
+   *  a small part of the grid spacing. Collective. */
+  template <int dim>
+  void
+  let_go(const Tissue<dim>            &tissue,
+         const DisplacementField<dim> &displacement,
+         double                       &drag);
+
+  /** Whether a strand of tissue turns so far in a step, by 36°, that its
+   *  surface may have passed through one which it did not face at t.
+   *  Collective. */
+  template <int dim>
+  bool
+  turns_too_far(const Tissue<dim>            &tissue,
+                const DisplacementField<dim> &displacement);
+
+  /** What is known of a step that no attempt has solved. */
+  struct FailedStep
+  {
+    /** The unbalanced force |R| with which the first and the last attempt
+     * began, kPa µm^(dim-1), and the length of the last attempt over that of
+     * the first. */
+    double first_force = 0., last_force = 0., part = 1.;
+    /** Energy where the last attempt has ended, kPa µm^dim. */
+    double energy = 0.;
+    /** The smallest J_e of cells and held points where the last attempt has
+     *  ended. */
+    double smallest_J = 1.;
+    /** The most negative curvature that was met, p·Kp / p·|diag K|p. It is 0 if
+     *  there was none. */
+    double curvature = 0.;
+    /** Smallest and largest J_e of the cells before the step. */
+    double min_J = 1., max_J = 1.;
+
+    /** Whether points are held by Nitsche's symmetric or unsymmetric form; with
+     *  other forms both are false. */
+    bool symmetric = false, unsymmetric = false;
+    /** Whether ln J_e is that of each point, not of the grid cell. */
+    bool pointwise = false;
+    /** Whether surface loads or forces act. */
+    bool loaded = false;
+    /** A coefficient of friction with which a fold would take this step,
+     *  kPa day/µm². */
+    double friction = 0.;
+  };
+
+  /**
+   * Says what the failure of a step is, and what helps, in whole sentences:
+   * something jumps in time; a held point is crushed; volumes do not match
+   * inside grid cells; a form that sees no curvature; the tissue folds. Empty
+   * if it is none of them. Not collective.
+   */
+  std::string
+  diagnosis(const FailedStep &step);
+
+  /** What a run says once of a step that ended at @p t (day), and whose
+   *  equilibrium was found along a proximal path. */
+  std::string
+  path_message(const double t);
+
+  /** What to say where tissue without contact turns so far in a step that it
+   * may pass through itself. */
+  std::string
+  turn_message(const double t);
+
+  /** The friction (kPa day/µm²) that outweighs the @p curvature (relative to
+   * the diagonal, < 0) of tissue of stiffness @p E (kPa) on a grid of spacing
+   * @p h (µm) in a step of @p dt (day): doc/theory.md (5.8). */
+  double
+  friction_against(const double curvature,
+                   const double E,
+                   const double h,
+                   const double dt);
 } // namespace Morula
 
 #endif

@@ -152,51 +152,88 @@ namespace Morula
   }
 
 
+  namespace
+  {
+    /** What each cell tells the others: its type, and the values that some mean
+     *  over neighbours asks for. Collective. */
+    template <int dim>
+    PointList<dim>
+    told_by_cells(const std::vector<NeighbourVariable> &variables,
+                  const Tissue<dim>                    &tissue,
+                  const MomentOfRun<dim>               &moment)
+    {
+      const Cells<dim>                      &cells = tissue.cells();
+      std::vector<const NeighbourVariable *> means;
+      for (const NeighbourVariable &told : variables)
+        if (told.kind == NeighbourVariable::around)
+          means.push_back(&told);
+      PointList<dim> list(1 + means.size());
+      everywhere(tissue.communicator(), [&]() {
+        for (unsigned int p = 0; p < cells.size(); ++p)
+          {
+            const PresentCell<dim> cell =
+              present_cell(tissue, p, moment.reader);
+            std::vector<double> row = {double(cell.type())};
+            for (const NeighbourVariable *const mean : means)
+              row.push_back(cell.value(mean->variable, moment.t));
+            list.add(cells.id(p), cells.position(p), make_array_view(row));
+          }
+      });
+      return list;
+    }
+
+
+    /** The free surfaces of the cells. A share of the surface is one of all of
+     *  it, so that the free part is needed for each of them; else 0. */
+    template <int dim>
+    std::vector<double>
+    free_parts(const std::vector<NeighbourVariable> &variables,
+               const Tissue<dim>                    &tissue)
+    {
+      const bool shares =
+        std::any_of(variables.begin(), variables.end(), [](const auto &told) {
+          return told.kind == NeighbourVariable::free ||
+                 told.kind == NeighbourVariable::unlike ||
+                 told.kind == NeighbourVariable::share_of_type;
+        });
+      return shares ? free_surfaces(tissue) :
+                      std::vector<double>(tissue.cells().size(), 0.);
+    }
+
+
+    /** The mean of number @p k over the neighbours of cell @p p, by what they
+     *  touch of it. A cell without neighbours has its own value around it. */
+    template <int dim>
+    double
+    mean_around(const NeighbourGraph<dim> &graph,
+                const unsigned int         p,
+                const unsigned int         k,
+                const double               touching)
+    {
+      if (!(touching > 0.))
+        return graph.points.row(p)[k];
+      double total = 0.;
+      graph.for_neighbours(p, [&](const auto &e) {
+        total += e.area * graph.points.row(e.other)[k];
+      });
+      return total / touching;
+    }
+  } // namespace
+
+
   template <int dim>
   void
   NeighbourColumns<dim>::after(Tissue<dim>            &tissue,
                                const MomentOfRun<dim> &moment) const
   {
-    // Each cell tells the others its type, and the values that some mean over
-    // neighbours asks for. These are read before any column is written, as a
-    // mean may be one of a variable that is written here. Then the sums over
-    // the neighbours are made in the order of their ids.
-    const StateColumns<dim>               &columns = moment.reader.columns;
-    const Cells<dim>                      &cells   = tissue.cells();
-    std::vector<const NeighbourVariable *> means;
-    for (const NeighbourVariable &told : variables)
-      if (told.kind == NeighbourVariable::around)
-        means.push_back(&told);
-    PointList<dim> told_by_cells(1 + means.size());
-    everywhere(tissue.communicator(), [&]() {
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        {
-          const PresentCell<dim> cell = present_cell(tissue, p, moment.reader);
-          std::vector<double>    row  = {double(cell.type())};
-          for (const NeighbourVariable *const mean : means)
-            row.push_back(cell.value(mean->variable, moment.t));
-          told_by_cells.add(cells.id(p),
-                            cells.position(p),
-                            make_array_view(row));
-        }
-    });
-    const auto uses = [&](const NeighbourVariable::Kind kind) {
-      return std::any_of(variables.begin(),
-                         variables.end(),
-                         [&](const auto &v) { return v.kind == kind; });
-    };
-    const NeighbourGraph<dim> graph = neighbours(tissue, told_by_cells, search);
-    // A share of the surface is one of all of it, so that the free part is
-    // needed for each of them.
-    const bool shares = uses(NeighbourVariable::free) ||
-                        uses(NeighbourVariable::unlike) ||
-                        uses(NeighbourVariable::share_of_type);
-    const std::vector<double> free =
-      shares ? free_surfaces(tissue) : std::vector<double>(cells.size(), 0.);
-
-    for (unsigned int p = 0; p < cells.size(); ++p)
+    // All values of cells are read before any column is written, as a mean may
+    // be one of a variable that is written here. Then the sums over the
+    // neighbours are made in the order of their ids.
+    const NeighbourGraph<dim> graph =
+      neighbours(tissue, told_by_cells(variables, tissue, moment), search);
+    const std::vector<double> free = free_parts(variables, tissue);
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
-        const auto              own      = graph.points.row(p);
         double                  touching = 0.;
         std::vector<CellBeside> beside;
         graph.for_neighbours(p, [&](const auto &e) {
@@ -205,17 +242,6 @@ namespace Morula
             {static_cast<unsigned int>(graph.points.row(e.other)[0]), e.area});
         });
         const double surface = touching + free[p];
-        // The sum over the neighbours of something, and over what they touch.
-        const auto sum = [&](const auto &value) {
-          double total = 0.;
-          graph.for_neighbours(p, [&](const auto &e) {
-            total += value(graph.points.row(e.other), e.area);
-          });
-          return total;
-        };
-        const auto share = [&](const double part) {
-          return surface > 0. ? part / surface : 0.;
-        };
         unsigned int n_means = 0;
         for (std::size_t k = 0; k < variables.size(); ++k)
           {
@@ -229,28 +255,22 @@ namespace Morula
                 case NeighbourVariable::count_of_type:
                 case NeighbourVariable::share_of_type:
                 case NeighbourVariable::unlike:
-                  value = *of_types(told,
-                                    static_cast<unsigned int>(own[0]),
-                                    beside,
-                                    surface);
+                  value =
+                    *of_types(told,
+                              static_cast<unsigned int>(graph.points.row(p)[0]),
+                              beside,
+                              surface);
                   break;
                 case NeighbourVariable::free:
-                  value = share(free[p]);
+                  value = surface > 0. ? free[p] / surface : 0.;
                   break;
                 case NeighbourVariable::around:
-                  ++n_means;
-                  // A cell without neighbours has its own value around it.
-                  value = touching > 0. ?
-                            sum([&](const auto &row, const double S) {
-                              return S * row[n_means];
-                            }) /
-                              touching :
-                            own[n_means];
+                  value = mean_around(graph, p, ++n_means, touching);
                   break;
                 case NeighbourVariable::slope:
                   continue;
               }
-            tissue.cell(p).set(columns.neighbours[k], value);
+            tissue.cell(p).set(moment.reader.columns.neighbours[k], value);
           }
       }
   }

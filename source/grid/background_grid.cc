@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/instantiate.h>
 #include <morula/grid/background_grid.h>
 
 #include <deal.II/base/mpi.h>
@@ -18,78 +17,7 @@ namespace Morula
   {
     /** The key of a rank without leaves lies behind the keys of all leaves. */
     constexpr std::uint64_t no_leaf = std::numeric_limits<std::uint64_t>::max();
-  } // namespace
 
-  template <int dim>
-  GridOwners<dim>::GridOwners(
-    const parallel::distributed::Triangulation<dim> &tria,
-    const GridBox<dim>                              &box,
-    const Trees                                     &trees)
-    : trees(trees)
-  {
-    // Each rank contributes the key of its lowest leaf. Keys follow the order
-    // in which p4est numbers the leaves, and ranks have consecutive parts of
-    // these. So one sorted list of first keys, which all ranks gather, tells
-    // every owner.
-    const MPI_Comm comm = tria.get_communicator();
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return;
-    // p4est may number the two trees in the other order.
-    second_tree_first =
-      tria.get_p4est_tree_to_coarse_cell_permutation()[0] == 1;
-    Tensor<1, dim> half;
-    for (unsigned int d = 0; d < dim; ++d)
-      // Half a grid cell inwards from a vertex: rounding does not matter there.
-      half[d] = box.spacing() / 2;
-    std::uint64_t lowest = no_leaf;
-    for (const auto &leaf : tria.active_cell_iterators())
-      if (leaf->is_locally_owned())
-        lowest = std::min(lowest, key(box.locate(leaf->vertex(0) + half)));
-    first_keys = Utilities::MPI::all_gather(comm, lowest);
-    // A rank without leaves begins where the next one begins, which then owns
-    // the leaves from there on.
-    for (std::size_t rank = first_keys.size() - 1; rank-- > 0;)
-      if (first_keys[rank] == no_leaf)
-        first_keys[rank] = first_keys[rank + 1];
-  }
-
-  template <int dim>
-  unsigned int
-  GridOwners<dim>::operator()(const GridIndex<dim> &grid_cell) const
-  {
-    if (first_keys.empty())
-      return 0;
-    // The owner is the last rank whose first key is not behind that of the grid
-    // cell.
-    return std::upper_bound(first_keys.begin(),
-                            first_keys.end(),
-                            key(grid_cell)) -
-           first_keys.begin() - 1;
-  }
-
-  template <int dim>
-  std::uint64_t
-  GridOwners<dim>::key(GridIndex<dim> grid_cell) const
-  {
-    // Coordinates in the trees, then in one of them; the tree is the highest
-    // digit of the key.
-    for (unsigned int d = 0; d < dim; ++d)
-      grid_cell[d] -= trees.first[d];
-    const bool second = (grid_cell[trees.split] >> trees.n_levels) != 0;
-    if (second)
-      grid_cell[trees.split] -= 1 << trees.n_levels;
-    // Morton order: the bits of the coordinates in turn, the highest ones
-    // first.
-    std::uint64_t key = second != second_tree_first;
-    for (int level = trees.n_levels - 1; level >= 0; --level)
-      for (int d = dim - 1; d >= 0; --d)
-        key = (key << 1) | ((grid_cell[d] >> level) & 1);
-    return key;
-  }
-
-
-  namespace
-  {
     /** One count for each grid cell, in order. */
     GridCellCounts
     merged(GridCellCounts counts)
@@ -109,39 +37,7 @@ namespace Morula
           result.back().n += count.n;
       return result;
     }
-  } // namespace
 
-  template <int dim>
-  GridCellCounts
-  sum_at_owners(const GridCellCounts  &counts,
-                const GridBox<dim>    &box,
-                const GridOwners<dim> &owners,
-                const MPI_Comm         comm)
-  {
-    // On one rank there is nobody to ask. Else each count goes to the owner of
-    // its grid cell, as two numbers.
-    if (Utilities::MPI::n_mpi_processes(comm) == 1)
-      return merged(counts);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    GridCellCounts     own;
-    std::map<unsigned int, std::vector<unsigned int>> numbers_and_counts;
-    for (const GridCellCount &count : counts)
-      if (const unsigned int owner = owners(box.index(count.number));
-          owner == rank)
-        own.push_back(count);
-      else
-        for (const unsigned int value : {count.number, count.n})
-          numbers_and_counts[owner].push_back(value);
-    for (const auto &[sender, list] :
-         Utilities::MPI::some_to_some(comm, numbers_and_counts))
-      for (std::size_t i = 0; i < list.size(); i += 2)
-        own.push_back({list[i], list[i + 1]});
-    return merged(std::move(own));
-  }
-
-
-  namespace
-  {
     /** The smallest number k with 2^k >= n. */
     int
     n_halvings(const int n)
@@ -322,6 +218,30 @@ namespace Morula
     find_owners();
   }
 
+  template <int dim>
+  GridCellCounts
+  BackgroundGrid<dim>::sum_at_owners(const GridCellCounts &counts) const
+  {
+    // On one rank there is nobody to ask. Else each count goes to the owner of
+    // its grid cell, as two numbers.
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return merged(counts);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    GridCellCounts     own;
+    std::map<unsigned int, std::vector<unsigned int>> numbers_and_counts;
+    for (const GridCellCount &count : counts)
+      if (const unsigned int rank_of = owner(count.number); rank_of == rank)
+        own.push_back(count);
+      else
+        for (const unsigned int value : {count.number, count.n})
+          numbers_and_counts[rank_of].push_back(value);
+    for (const auto &[sender, list] :
+         Utilities::MPI::some_to_some(comm, numbers_and_counts))
+      for (std::size_t i = 0; i < list.size(); i += 2)
+        own.push_back({list[i], list[i + 1]});
+    return merged(std::move(own));
+  }
+
   /** Weight of a grid cell that this rank owned before the partition. */
   template <int dim>
   unsigned int
@@ -341,13 +261,11 @@ namespace Morula
   void
   BackgroundGrid<dim>::find_owners()
   {
-    // GridOwners gathers the first leaves of all ranks; then this rank lists
-    // its own grid cells by number, the order in which all passes visit them.
-    const CoarseCells<dim> coarse(box_);
-    owners =
-      GridOwners<dim>(tria,
-                      box_,
-                      {coarse.first, coarse.split, coarse.n_refinements});
+    // This rank lists its own grid cells by number, the order in which all
+    // passes visit them. Then each rank contributes the key of its lowest leaf.
+    // Keys follow the order in which p4est numbers the leaves, and ranks have
+    // consecutive parts of these. So one sorted list of first keys, which all
+    // ranks gather, tells every owner.
     owned.clear();
     for (const auto &grid_cell : tria.active_cell_iterators())
       if (const GridIndex<dim> index = box_.locate(grid_cell->center());
@@ -358,8 +276,63 @@ namespace Morula
               [](const OwnedGridCell &a, const OwnedGridCell &b) {
                 return a.number < b.number;
               });
+    first_keys.clear();
+    if (Utilities::MPI::n_mpi_processes(comm) == 1)
+      return;
+    const CoarseCells<dim> coarse(box_);
+    first_of_trees = coarse.first;
+    split          = coarse.split;
+    n_levels       = coarse.n_refinements;
+    // p4est may number the two trees in the other order.
+    second_tree_first =
+      tria.get_p4est_tree_to_coarse_cell_permutation()[0] == 1;
+    Tensor<1, dim> half;
+    for (unsigned int d = 0; d < dim; ++d)
+      // Half a grid cell inwards from a vertex: rounding does not matter there.
+      half[d] = box_.spacing() / 2;
+    std::uint64_t lowest = no_leaf;
+    for (const auto &leaf : tria.active_cell_iterators())
+      if (leaf->is_locally_owned())
+        lowest = std::min(lowest, key(box_.locate(leaf->vertex(0) + half)));
+    first_keys = Utilities::MPI::all_gather(comm, lowest);
+    // A rank without leaves begins where the next one begins, which then owns
+    // the leaves from there on.
+    for (std::size_t rank = first_keys.size() - 1; rank-- > 0;)
+      if (first_keys[rank] == no_leaf)
+        first_keys[rank] = first_keys[rank + 1];
   }
 
+  template <int dim>
+  std::uint64_t
+  BackgroundGrid<dim>::key(GridIndex<dim> grid_cell) const
+  {
+    // Coordinates in the trees, then in one of them; the tree is the highest
+    // digit of the key.
+    for (unsigned int d = 0; d < dim; ++d)
+      grid_cell[d] -= first_of_trees[d];
+    const bool second = (grid_cell[split] >> n_levels) != 0;
+    if (second)
+      grid_cell[split] -= 1 << n_levels;
+    // Morton order: the bits of the coordinates in turn, the highest ones
+    // first.
+    std::uint64_t key = second != second_tree_first;
+    for (int level = n_levels - 1; level >= 0; --level)
+      for (int d = dim - 1; d >= 0; --d)
+        key = (key << 1) | ((grid_cell[d] >> level) & 1);
+    return key;
+  }
+
+  template <int dim>
+  unsigned int
+  BackgroundGrid<dim>::owner(const GridIndex<dim> &index) const
+  {
+    if (first_keys.empty())
+      return 0;
+    // The owner is the last rank whose first key is not behind that of the grid
+    // cell.
+    return std::upper_bound(first_keys.begin(), first_keys.end(), key(index)) -
+           first_keys.begin() - 1;
+  }
 
   template <int dim>
   typename BackgroundGrid<dim>::CellIterator
@@ -377,9 +350,6 @@ namespace Morula
              CellIterator(tria.end());
   }
 
-  template class GridOwners<2>;
-  template class GridOwners<3>;
-  MORULA_INSTANTIATE(sum_at_owners);
   template class BackgroundGrid<2>;
   template class BackgroundGrid<3>;
 } // namespace Morula

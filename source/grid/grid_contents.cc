@@ -11,8 +11,7 @@ namespace Morula
   template <int dim>
   GridNodes<dim>::GridNodes(const GridWindow<dim>    &window,
                             const SharedParting<dim> &parting)
-    : boxes(window.boxes())
-    , whole(window.whole())
+    : window(window)
     , parting_(parting)
   {
     // Without a contested grid cell there are no tables at all. Otherwise the
@@ -20,24 +19,24 @@ namespace Morula
     // the parting has them, those of one grid cell behind each other.
     if (parting_ == nullptr || parting_->is_trivial())
       return;
-    first_further.assign(boxes.size(), 0);
-    near_contest.assign(boxes.size(), 0);
+    first_further.assign(window.size(), 0);
+    near_contest.assign(window.size(), 0);
     for (const auto &[number, part] : parting_->further_parts())
-      if (const GridIndex<dim> index = whole.index(number);
-          boxes.contains(index))
+      if (const GridIndex<dim> index = window.whole().index(number);
+          window.contains(index))
         {
-          const unsigned int here = boxes.number(index);
+          const unsigned int here = window.number(index);
           if (part == 1)
             first_further[here] = size();
           further.push_back({here, part});
         }
-    for (unsigned int number = 0; number < boxes.size(); ++number)
-      if (parting_->is_contested(whole.number(boxes.index(number))))
-        boxes.for_neighbors(boxes.index(number),
-                            1,
-                            [&](const unsigned int neighbor, const auto &) {
-                              near_contest[neighbor] = 1;
-                            });
+    for (unsigned int number = 0; number < window.size(); ++number)
+      if (parting_->is_contested(window.whole().number(window.index(number))))
+        window.for_neighbors(window.index(number),
+                             1,
+                             [&](const unsigned int neighbor, const auto &) {
+                               near_contest[neighbor] = 1;
+                             });
     find_linked();
   }
 
@@ -52,7 +51,7 @@ namespace Morula
     for (unsigned int node = 0; node < size(); ++node)
       {
         if (near_contest[grid_cell(node)])
-          boxes.for_neighbors(
+          window.for_neighbors(
             index(node), 1, [&](const unsigned int number, const auto &) {
               for_parts(number, [&](const unsigned int other) {
                 if (are_linked(node, other))
@@ -95,9 +94,9 @@ namespace Morula
                                   const types::particle_index id)
   {
     const Point<dim> lower = domain.lower(), upper = domain.upper();
-    const double     h = boxes().spacing();
-    boxes().for_range(
-      {boxes().locate(lower), boxes().locate(upper)},
+    const double     h = window_.spacing();
+    window_.for_range(
+      {window_.locate(lower), window_.locate(upper)},
       [&](const unsigned int, const GridIndex<dim> &index) {
         const unsigned int node = nodes_.node_of_cell(index, id);
         // The volume is spread over the axis-parallel cube of the particle,
@@ -105,7 +104,7 @@ namespace Morula
         // integer, so that sums do not depend on the order of the particles.
         // The reaches say how far the tissue comes from either side: their
         // maxima give the extents of pieces and rows.
-        const Point<dim> corner  = boxes().corner(index);
+        const Point<dim> corner  = window_.corner(index);
         double           overlap = 1.;
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -119,7 +118,7 @@ namespace Morula
           }
         volumes[node] += std::llround(overlap * resolution);
       });
-    ++counts[nodes_.node_of_cell(boxes().locate(domain.position()), id)]
+    ++counts[nodes_.node_of_cell(window_.locate(domain.position()), id)]
             [particle];
   }
 
@@ -134,10 +133,10 @@ namespace Morula
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] -= on_line * boxes().spacing();
-        upper[d] += on_line * boxes().spacing();
+        lower[d] -= on_line * window_.spacing();
+        upper[d] += on_line * window_.spacing();
       }
-    boxes().for_range({boxes().locate(lower), boxes().locate(upper)},
+    window_.for_range({window_.locate(lower), window_.locate(upper)},
                       [&](const unsigned int, const GridIndex<dim> &index) {
                         ++counts[nodes_.node_of_cell(index, id)][quadrature];
                       });

@@ -174,8 +174,29 @@ namespace Morula
   template <int dim>
   GridWindow<dim>::GridWindow(const GridBox<dim> &box)
     : whole_(box)
-    , boxes_(box)
+    , boxes_(1, box)
+    , begins{0, box.size()}
   {}
+
+
+  template <int dim>
+  void
+  GridWindow<dim>::set_boxes(const Ranges &ranges)
+  {
+    boxes_.clear();
+    begins.assign(1, 0);
+    for (const GridRange<dim> &range : ranges)
+      {
+        GridIndex<dim> n;
+        for (unsigned int d = 0; d < dim; ++d)
+          n[d] = range.last[d] - range.first[d] + 1;
+        boxes_.emplace_back(range.first,
+                            n,
+                            whole_.spacing(),
+                            whole_.corner(GridIndex<dim>{}));
+        begins.push_back(begins.back() + boxes_.back().size());
+      }
+  }
 
 
   template <int dim>
@@ -212,8 +233,9 @@ namespace Morula
   GridWindow<dim>::of_others(const Ranges              &reached,
                              const BackgroundGrid<dim> &grid) const
   {
-    const GridBoxes<dim> core(cores, whole_);
-    std::vector<char>    near(core.size(), 0);
+    GridWindow core(whole_);
+    core.set_boxes(cores);
+    std::vector<char> near(core.size(), 0);
     for (const GridRange<dim> &range : reached)
       // The cores' boxes hold more than what is near: where several ranges were
       // united only the grid cells of the ranges count.
@@ -256,7 +278,7 @@ namespace Morula
     Ranges window;
     for (const GridRange<dim> &core : cores)
       window.push_back(core.grown(rings, whole_));
-    boxes_ = GridBoxes<dim>(window, whole_);
+    set_boxes(window);
     if (alone)
       return;
     neighbors.clear();
@@ -292,7 +314,7 @@ namespace Morula
     // On one rank all tissue is in the window; what is outside is empty.
     if (alone)
       return true;
-    for (const GridBox<dim> &box : boxes_.boxes())
+    for (const GridBox<dim> &box : boxes_)
       if (shrunk(box, radius, whole_).contains(center))
         return true;
     return false;
@@ -304,7 +326,7 @@ namespace Morula
   GridWindow<dim>::inner(const int rings) const
   {
     Ranges ranges;
-    for (const GridBox<dim> &box : boxes_.boxes())
+    for (const GridBox<dim> &box : boxes_)
       ranges.push_back(shrunk(box, alone ? 0 : rings, whole_));
     return ranges;
   }

@@ -61,10 +61,10 @@ namespace Morula
         row.push_back(node);
         next.push_back(std::move(row));
       };
-      for (unsigned int k = 0; k < contents.boxes().boxes().size(); ++k)
+      for (unsigned int k = 0; k < contents.window().boxes().size(); ++k)
         {
-          const GridBox<dim> &box    = contents.boxes().boxes()[k];
-          const unsigned int  begin  = contents.boxes().begin(k);
+          const GridBox<dim> &box    = contents.window().boxes()[k];
+          const unsigned int  begin  = contents.window().begin(k);
           unsigned int        stride = 1;
           for (unsigned int d = 0; d < direction; ++d)
             stride *= box.n()[d];
@@ -199,7 +199,7 @@ namespace Morula
   double
   Occupancy<dim>::thickness(const unsigned int number) const
   {
-    return largest_around(thicknesses, number, contents) * boxes().spacing();
+    return largest_around(thicknesses, number, contents) * window().spacing();
   }
 
   template <int dim>
@@ -311,8 +311,8 @@ namespace Morula
     // section 3.2: two across a sheet, three across a rod, two where a rod is
     // two cells thick.
     const unsigned int number =
-      nodes().node_of_cell(boxes().locate(domain.position()), id);
-    const double h = boxes().spacing(), side = domain.side();
+      nodes().node_of_cell(window().locate(domain.position()), id);
+    const double h = window().spacing(), side = domain.side();
     const bool   rod   = n_thin[number] > 1; // or a cluster
     const auto   below = [&](const double n_layers) {
       // Most tissue is thick: the first test spares the neighbours' one.
@@ -333,11 +333,11 @@ namespace Morula
   {
     // The reaches are units of h from the lower and the upper end of the grid
     // cell.
-    Point<dim> lower = boxes().corner(nodes().index(number)), upper = lower;
+    Point<dim> lower = window().corner(nodes().index(number)), upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        upper[d] += contents.up(number, d) * boxes().spacing();
-        lower[d] += (1. - contents.down(number, d)) * boxes().spacing();
+        upper[d] += contents.up(number, d) * window().spacing();
+        lower[d] += (1. - contents.down(number, d)) * window().spacing();
       }
     return {lower, upper};
   }
@@ -415,11 +415,10 @@ namespace Morula
     };
     for (const GridRange<dim> &known :
          occupancy.window().inner(reach_of_classes<dim>()))
-      occupancy.boxes().for_range(known,
-                                  [&](const unsigned int number, const auto &) {
-                                    occupancy.nodes().for_parts(number,
-                                                                set_class);
-                                  });
+      occupancy.window().for_range(
+        known, [&](const unsigned int number, const auto &) {
+          occupancy.nodes().for_parts(number, set_class);
+        });
     return classes;
   }
 

@@ -68,18 +68,18 @@ namespace Morula
      *  in the window. */
     template <int dim, typename Visit>
     void
-    for_support(const GridBoxes<dim> &boxes,
-                const unsigned int    spline,
-                const Visit          &visit)
+    for_support(const GridWindow<dim> &window,
+                const unsigned int     spline,
+                const Visit           &visit)
     {
-      const GridIndex<dim> center = boxes.index(spline);
+      const GridIndex<dim> center = window.index(spline);
       for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
         {
           GridIndex<dim> grid_cell = center;
           for (unsigned int d = 0; d < dim; ++d)
             grid_cell[d] += BSpline<dim>::offset(a, d);
-          if (boxes.contains(grid_cell))
-            visit(a, boxes.number(grid_cell));
+          if (window.contains(grid_cell))
+            visit(a, window.number(grid_cell));
         }
     }
 
@@ -89,16 +89,16 @@ namespace Morula
     std::vector<char>
     near_active(const std::vector<GridCellClass> &classes,
                 const GridNodes<dim>             &nodes,
-                const GridBoxes<dim>             &boxes)
+                const GridWindow<dim>            &window)
     {
-      std::vector<char> near(boxes.size(), 0);
+      std::vector<char> near(window.size(), 0);
       for (unsigned int node = 0; node < nodes.size(); ++node)
         if (is_active(classes[node]))
-          boxes.for_neighbors(nodes.index(node),
-                              1,
-                              [&](const unsigned int neighbor, const auto &) {
-                                near[neighbor] = 1;
-                              });
+          window.for_neighbors(nodes.index(node),
+                               1,
+                               [&](const unsigned int neighbor, const auto &) {
+                                 near[neighbor] = 1;
+                               });
       return near;
     }
 
@@ -200,9 +200,9 @@ namespace Morula
                                   const GridNodes<dim>             &nodes,
                                   const std::vector<GridCellClass> &classes,
                                   const BackgroundGrid<dim>        &grid)
-    : boxes(window.boxes())
+    : window(window)
     , nodes(nodes)
-    , first(boxes.size() + 1, 0)
+    , first(window.size() + 1, 0)
     , pieces(nodes.size(), no_piece)
   {
     // Copies follow from the classes around a spline, so they are made for
@@ -210,14 +210,14 @@ namespace Morula
     // cells. Parts are grid cells joined by copies on this rank; all ranks'
     // parts are joined to pieces then. Last, the copies that this rank uses
     // learn their piece, from any grid cell of their support.
-    const std::vector<char> near = near_active(classes, nodes, boxes);
+    const std::vector<char> near = near_active(classes, nodes, window);
     find_own(classes, near, grid);
-    std::vector<char> known(boxes.size(), 0);
+    std::vector<char> known(window.size(), 0);
     for (const GridRange<dim> &range : window.inner(reach()))
-      boxes.for_range(range, [&](const unsigned int spline, const auto &) {
+      window.for_range(range, [&](const unsigned int spline, const auto &) {
         known[spline] = near[spline];
       });
-    for (unsigned int spline = 0; spline < boxes.size(); ++spline)
+    for (unsigned int spline = 0; spline < window.size(); ++spline)
       {
         // first[] has an entry for each spline, also for those without copies.
         if (known[spline])
@@ -247,9 +247,9 @@ namespace Morula
     const unsigned int rank  = Utilities::MPI::this_mpi_process(comm);
     const bool         alone = Utilities::MPI::n_mpi_processes(comm) == 1;
     // A rank owns the splines that stand on its grid cells, active or not.
-    own.assign(boxes.size(), 0);
-    for (unsigned int number = 0; number < boxes.size(); ++number)
-      if (near[number] && (alone || grid.owner(boxes.index(number)) == rank))
+    own.assign(window.size(), 0);
+    for (unsigned int number = 0; number < window.size(); ++number)
+      if (near[number] && (alone || grid.owner(window.index(number)) == rank))
         {
           own[number] = 1;
           nodes.for_parts(number, [&](const unsigned int node) {
@@ -259,7 +259,7 @@ namespace Morula
         }
     // With several boxes the window's order is not that of the grid's box, in
     // which unknowns are numbered.
-    if (boxes.boxes().size() > 1)
+    if (window.boxes().size() > 1)
       std::stable_sort(own_active.begin(),
                        own_active.end(),
                        [&](const unsigned int a, const unsigned int b) {
@@ -278,7 +278,7 @@ namespace Morula
     // connected part of the tissue that holds an active grid cell gets one,
     // doc/theory.md, section 3.3.
     std::uint32_t tissue = 0, active = 0, inner = 0;
-    for_support(boxes,
+    for_support(window,
                 spline,
                 [&](const unsigned int a, const unsigned int number) {
                   const GridCellClass grid_cell = classes[number];
@@ -307,7 +307,7 @@ namespace Morula
     // Links between nodes of the support alone count: parts that join outside
     // of it have copies of their own.
     std::vector<unsigned int> tissue;
-    for_support(boxes,
+    for_support(window,
                 spline,
                 [&](const unsigned int, const unsigned int number) {
                   nodes.for_parts(number, [&](const unsigned int node) {
@@ -360,7 +360,7 @@ namespace Morula
     if (copy.listed != no_piece)
       return lists[copy.listed];
     std::vector<unsigned int> list;
-    for_support(boxes,
+    for_support(window,
                 copy.spline,
                 [&](const unsigned int a, const unsigned int number) {
                   if (copy.support & (1u << a))
@@ -460,7 +460,7 @@ namespace Morula
   SplineCopies<dim>::at(const GridIndex<dim> &spline,
                         const unsigned int    node) const
   {
-    const unsigned int number = boxes.number(spline);
+    const unsigned int number = window.number(spline);
     unsigned int       copy   = first[number];
     // Most splines have one copy.
     if (first[number + 1] - copy == 1)
@@ -487,7 +487,7 @@ namespace Morula
   SplineCopies<dim>::copy_at(const GridIndex<dim> &spline,
                              const unsigned int    place) const
   {
-    const unsigned int number = boxes.number(spline);
+    const unsigned int number = window.number(spline);
     AssertThrow(first[number] + place < first[number + 1], ExcInternalError());
     return first[number] + place;
   }

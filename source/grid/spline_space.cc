@@ -58,7 +58,6 @@ namespace Morula
   SplineSpace<dim>::find_splines(const BackgroundGrid<dim> &grid,
                                  const GridParameters      &parameters)
   {
-    boxes   = occupancy_.boxes();
     classes = classify(occupancy_, parameters.occupation_parameter);
     copies =
       SplineCopies<dim>(occupancy_.window(), occupancy_.nodes(), classes, grid);
@@ -157,10 +156,11 @@ namespace Morula
       return {{numbers[c], 1.}};
 
     const SplineCopy    &copy  = copies.list()[c];
-    const GridIndex<dim> index = boxes.index(copy.spline);
+    const GridIndex<dim> index = occupancy_.window().index(copy.spline);
     if (const auto found = small_pieces.find(copy.piece);
         found != small_pieces.end())
-      return found->second.expression(boxes.center(index), boxes.spacing());
+      return found->second.expression(occupancy_.window().center(index),
+                                      occupancy_.window().spacing());
     const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
     AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
     // This is the mean over all blocks, doc/theory.md (3.3b). The weights are
@@ -294,14 +294,16 @@ namespace Morula
     for (unsigned int c = 0; c < copies.list().size(); ++c)
       if (numbers.has(c) && copies.list()[c].piece == piece)
         set(numbers[c],
-            value_at(boxes.center(boxes.index(copies.list()[c].spline))));
+            value_at(occupancy_.window().center(
+              occupancy_.window().index(copies.list()[c].spline))));
     if (const auto found = small_pieces.find(piece);
         found != small_pieces.end())
       {
         const PiecePolynomial<dim> &polynomial = found->second;
         set(polynomial.first_unknown, value_at(polynomial.center));
         for (unsigned int d = 0; d < dim; ++d)
-          set(polynomial.first_unknown + 1 + d, gradient[d] * boxes.spacing());
+          set(polynomial.first_unknown + 1 + d,
+              gradient[d] * occupancy_.window().spacing());
       }
     return coefficients;
   }

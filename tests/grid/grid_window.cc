@@ -81,13 +81,13 @@ TEST_2D_3D(GridWindow, HoldsWhatARankMustKnow)
       {
         EXPECT_TRUE(window.holds(whole.locate(x), 12));
       }
-  const unsigned int size = window.boxes().size();
+  const unsigned int size = window.size();
   window.widen(rank % 2 == 1); // some ranks
   for (const GridIndex<dim> &index : mine)
     EXPECT_TRUE(window.holds(index, rank % 2 == 1 ? 18 : 12));
   if (rank % 2 == 0)
     {
-      EXPECT_EQ(window.boxes().size(), size);
+      EXPECT_EQ(window.size(), size);
     }
 
   struct Record
@@ -104,6 +104,6 @@ TEST_2D_3D(GridWindow, HoldsWhatARankMustKnow)
   unsigned int n_elsewhere = 0;
   for (const Point<dim> &x : points)
     n_elsewhere += body.grid.owner(whole.locate(x)) != rank &&
-                   window.boxes().contains(whole.locate(x));
+                   window.contains(whole.locate(x));
   EXPECT_EQ(window.to_windows(own).size(), n_elsewhere);
 }

@@ -187,9 +187,9 @@ TEST_2D_3D(Occupancy, DoesNotDependOnOrderAndRanks)
       unsigned int n_thin = 0, n_own = 0;
       for (unsigned int number = 0; number < box.size(); ++number)
         if (const auto index = box.index(number);
-            together.boxes().contains(index))
+            together.window().contains(index))
           {
-            const unsigned int here = together.boxes().number(index);
+            const unsigned int here = together.window().number(index);
             EXPECT_EQ(alone.fill(number), together.fill(here)); // bitwise
             EXPECT_EQ(alone.n_quadrature_points(number),
                       together.n_quadrature_points(here));

@@ -36,10 +36,10 @@ TEST_2D_3D(PointsOnLines, CountOnBothSides)
 {
   for (const double off_line : {0., 1e-12, -1e-12})
     {
-      const Occupancy<dim>  occupancy = ball_on_lines<dim>(off_line);
-      const GridBoxes<dim> &boxes     = occupancy.boxes();
-      const auto            classes   = classify(occupancy, 0.85);
-      unsigned int          n_inner   = 0;
+      const Occupancy<dim>   occupancy = ball_on_lines<dim>(off_line);
+      const GridWindow<dim> &boxes     = occupancy.window();
+      const auto             classes   = classify(occupancy, 0.85);
+      unsigned int           n_inner   = 0;
       for (unsigned int number = 0; number < classes.size(); ++number)
         {
           GridIndex<dim> turned = boxes.index(number);

@@ -16,50 +16,6 @@
 
 namespace Morula
 {
-  /**
-   * Which rank owns which grid cell, without a table of the grid cells. The
-   * ranks share the leaves of the octrees in the order of the trees (Morton
-   * order). So the first leaf of every rank says who owns any grid cell: one
-   * number a rank, however many grid cells there are.
-   */
-  template <int dim>
-  class GridOwners
-  {
-  public:
-    /** Two octrees of grid cells, which follow one another in one direction. */
-    struct Trees
-    {
-      GridIndex<dim> first; // the grid cell with the smallest coordinates
-      unsigned int   split; // the direction from the first tree to the second
-      int            n_levels; // a tree has 2^n_levels grid cells per direction
-    };
-
-    /** All grid cells belong to rank 0. */
-    GridOwners() = default;
-
-    /**
-     * Gathers the first leaves of all ranks. Collective.
-     * @param tria leaves of @p trees, distributed over the ranks
-     * @param box  has the same grid lines
-     */
-    GridOwners(const parallel::distributed::Triangulation<dim> &tria,
-               const GridBox<dim>                              &box,
-               const Trees                                     &trees);
-
-    /** Rank that owns a grid cell of the trees. */
-    unsigned int
-    operator()(const GridIndex<dim> &grid_cell) const;
-
-  private:
-    /** Place of a grid cell in the order of the trees' leaves. */
-    std::uint64_t
-    key(GridIndex<dim> grid_cell) const;
-
-    Trees                      trees{};
-    bool                       second_tree_first = false;
-    std::vector<std::uint64_t> first_keys; // by rank; empty on one rank
-  };
-
   /** How many points a grid cell holds. */
   struct GridCellCount
   {
@@ -78,18 +34,6 @@ namespace Morula
   using GridCellCounts = std::vector<GridCellCount>;
 
   /**
-   * The counts of this rank's grid cells, summed over all ranks. Collective.
-   * @param counts of any grid cells of the box, in any order; a grid cell may
-   *   be among them several times
-   */
-  template <int dim>
-  GridCellCounts
-  sum_at_owners(const GridCellCounts  &counts,
-                const GridBox<dim>    &box,
-                const GridOwners<dim> &owners,
-                const MPI_Comm         comm);
-
-  /**
    * The background grid: a Cartesian `parallel::distributed::Triangulation`
    * around the tissue. The ranks share it by the number of points in each grid
    * cell. The user gives a spacing and no box: the triangulation is kept while
@@ -97,8 +41,10 @@ namespace Morula
    * The grid cells of the box are leaves in the middle of an octree; the tree's
    * other leaves stay coarse.
    *
-   * A rank knows its own grid cells, and the owner of any other one (see
-   * GridOwners). It has no table over the box.
+   * A rank knows its own grid cells, and the owner of any other one, without a
+   * table over the box: the ranks share the leaves of the octrees in the order
+   * of the trees (Morton order), so that the first leaf of every rank says who
+   * owns any grid cell.
    */
   template <int dim>
   class BackgroundGrid
@@ -174,10 +120,7 @@ namespace Morula
 
     /** Rank that owns a grid cell of the box. */
     unsigned int
-    owner(const GridIndex<dim> &index) const
-    {
-      return owners(index);
-    }
+    owner(const GridIndex<dim> &index) const;
 
     /** This rank's grid cells of the box, in the order of their numbers. */
     const std::vector<OwnedGridCell> &
@@ -191,12 +134,13 @@ namespace Morula
     CellIterator
     grid_cell(const unsigned int number) const;
 
-    /** Sums counts over all ranks, see sum_at_owners(). Collective. */
+    /**
+     * The counts of this rank's grid cells, summed over all ranks. Collective.
+     * @param counts of any grid cells of the box, in any order; a grid cell may
+     *   be among them several times
+     */
     GridCellCounts
-    sum_at_owners(const GridCellCounts &counts) const
-    {
-      return Morula::sum_at_owners(counts, box_, owners, comm);
-    }
+    sum_at_owners(const GridCellCounts &counts) const;
 
     const Triangulation<dim> &
     triangulation() const
@@ -226,16 +170,27 @@ namespace Morula
     void
     find_owners();
 
+    /** The place of a grid cell in the order of the trees' leaves. */
+    std::uint64_t
+    key(GridIndex<dim> grid_cell) const;
+
     const MPI_Comm comm;
     const double   h;
     Point<dim>     offset;
 
     GridBox<dim>                              box_;
     parallel::distributed::Triangulation<dim> tria;
-    GridOwners<dim>                           owners;
-    std::vector<OwnedGridCell>                owned;
-    GridCellCounts                            weights_;
-    double                                    total_weight_ = 0.;
+    // Two octrees of grid cells: the grid cell with the smallest coordinates,
+    // the direction from the first tree to the second, and the levels: a tree
+    // has 2^n_levels grid cells per direction.
+    GridIndex<dim>             first_of_trees{};
+    unsigned int               split             = 0;
+    int                        n_levels          = 0;
+    bool                       second_tree_first = false;
+    std::vector<std::uint64_t> first_keys; // by rank; empty on one rank
+    std::vector<OwnedGridCell> owned;
+    GridCellCounts             weights_;
+    double                     total_weight_ = 0.;
   };
 } // namespace Morula
 

@@ -17,7 +17,7 @@ namespace Morula
   /**
    * The parts of all grid cells of a window (see Parting), as nodes that tables
    * are numbered by. Without contact a node is a grid cell: it has the number
-   * of this one in GridWindow::boxes(). That is also the number of the first
+   * of this one in the GridWindow. That is also the number of the first
    * part of each; further parts come behind all of these.
    */
   template <int dim>
@@ -32,7 +32,7 @@ namespace Morula
     unsigned int
     size() const
     {
-      return boxes.size() + further.size();
+      return window.size() + further.size();
     }
 
     /** Whether each grid cell has one part and is linked with all around. */
@@ -52,36 +52,36 @@ namespace Morula
     GridIndex<dim>
     index(const unsigned int node) const
     {
-      return boxes.index(grid_cell(node));
+      return window.index(grid_cell(node));
     }
 
     /** The number in the window of a node's grid cell. */
     unsigned int
     grid_cell(const unsigned int node) const
     {
-      return node < boxes.size() ? node :
-                                   further[node - boxes.size()].grid_cell;
+      return node < window.size() ? node :
+                                    further[node - window.size()].grid_cell;
     }
 
     /** The part of its grid cell that a node is. */
     unsigned int
     part(const unsigned int node) const
     {
-      return node < boxes.size() ? 0 : further[node - boxes.size()].part;
+      return node < window.size() ? 0 : further[node - window.size()].part;
     }
 
     /** The number of a node's grid cell in the grid's box, and its part. */
     GridCellPart
     name(const unsigned int node) const
     {
-      return {whole.number(index(node)), part(node)};
+      return {window.whole().number(index(node)), part(node)};
     }
 
     /** A part of a grid cell of the window. */
     unsigned int
     node(const GridIndex<dim> &index, const unsigned int part) const
     {
-      const unsigned int number = boxes.number(index);
+      const unsigned int number = window.number(index);
       return part == 0 ? number : first_further[number] + part - 1;
     }
 
@@ -99,9 +99,9 @@ namespace Morula
                  const types::particle_index id) const
     {
       return node(index,
-                  is_trivial() || !near_contest[boxes.number(index)] ?
+                  is_trivial() || !near_contest[window.number(index)] ?
                     0 :
-                    part_of_cell(id, whole.number(index)));
+                    part_of_cell(id, window.whole().number(index)));
     }
 
     /** Calls visit(node) for all parts of a grid cell of the window. */
@@ -141,7 +141,7 @@ namespace Morula
     for_linked(const unsigned int node, const Visitor &visit) const
     {
       if (!is_near_contest(grid_cell(node)))
-        boxes.for_neighbors(index(node), 1, visit);
+        window.for_neighbors(index(node), 1, visit);
       else
         for (unsigned int i = first_linked[node]; i < first_linked[node + 1];
              ++i)
@@ -159,8 +159,7 @@ namespace Morula
       unsigned int part;
     };
 
-    GridBoxes<dim>            boxes;
-    GridBox<dim>              whole;
+    GridWindow<dim>           window;
     SharedParting<dim>        parting_;
     std::vector<Further>      further;
     std::vector<unsigned int> first_further; // node by grid cell, 0 for none
@@ -171,7 +170,7 @@ namespace Morula
 
   /**
    * What the grid cells of this rank's window hold, over all ranks, by node:
-   * without contact that is the number in GridWindow::boxes(). Numbers are
+   * without contact that is the number in the GridWindow. Numbers are
    * integers, and a reach is the largest of all: so nothing depends on the
    * order of the points or on the number of ranks.
    */
@@ -196,7 +195,7 @@ namespace Morula
     void
     add_boundary_point(const Point<dim> &x, const unsigned int part)
     {
-      ++counts[nodes_.node(boxes().locate(x), part)][boundary];
+      ++counts[nodes_.node(window_.locate(x), part)][boundary];
     }
 
     /** Adds a quadrature point at @p x of the cell with this id. On a grid line
@@ -276,12 +275,6 @@ namespace Morula
     window() const
     {
       return window_;
-    }
-
-    const GridBoxes<dim> &
-    boxes() const
-    {
-      return window_.boxes();
     }
 
     const GridNodes<dim> &

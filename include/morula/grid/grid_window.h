@@ -56,42 +56,36 @@ namespace Morula
   separated(const std::vector<GridRange<dim>> &ranges, int gap);
 
   /**
-   * The grid cells of some boxes of the background grid. No two boxes touch: so
-   * the neighbours of a grid cell are in its own box, or in none. Tables have
-   * one entry for each of these grid cells, by its number: these run box by
-   * box, and in a box as those of GridBox do.
+   * The part of the grid that a rank knows: the grid cells that its points
+   * reach, those of others' points that it owns, and some rings around them.
+   * Tables of grid cells are as long as the window of the rank, not as the
+   * grid's box: where a rank has parts of the tissue that stand apart, its
+   * window is several boxes. No two of them touch: so the neighbours of a grid
+   * cell are in its own box, or in none. On one rank the window is what the
+   * tissue reaches; there is nothing outside.
+   *
+   * Tables have one entry for each grid cell of the window, by its number:
+   * these run box by box, and in a box as those of GridBox do. Records that
+   * ranks tell each other have the number in the grid's box.
    */
   template <int dim>
-  class GridBoxes
+  class GridWindow
   {
   public:
-    GridBoxes() = default;
+    GridWindow() = default;
 
-    /** One box. */
-    explicit GridBoxes(const GridBox<dim> &box)
-      : lines(box)
-      , boxes_(1, box)
-      , begins{0, box.size()}
-    {}
+    /** All of a box, on one rank. */
+    explicit GridWindow(const GridBox<dim> &box);
 
-    /** @param ranges in @p whole, which do not touch; none is empty */
-    GridBoxes(const std::vector<GridRange<dim>> &ranges,
-              const GridBox<dim>                &whole)
-      : lines(whole)
-      , begins(1, 0)
-    {
-      for (const GridRange<dim> &range : ranges)
-        {
-          GridIndex<dim> n;
-          for (unsigned int d = 0; d < dim; ++d)
-            n[d] = range.last[d] - range.first[d] + 1;
-          boxes_.emplace_back(range.first,
-                              n,
-                              whole.spacing(),
-                              whole.corner(GridIndex<dim>{}));
-          begins.push_back(begins.back() + boxes_.back().size());
-        }
-    }
+    /** The window of this rank, whose points reach into the grid cells
+     *  @p reached. The partition of @p grid is that of now. Collective. */
+    GridWindow(const BackgroundGrid<dim>         &grid,
+               const std::vector<GridRange<dim>> &reached);
+
+    /** Takes half as many rings more, where a rank wants to look farther.
+     *  @param here whether this one does. Collective. */
+    void
+    widen(const bool here);
 
     /** Number of grid cells. */
     unsigned int
@@ -116,28 +110,28 @@ namespace Morula
     double
     spacing() const
     {
-      return lines.spacing();
+      return whole_.spacing();
     }
 
     /** See GridBox. */
     GridIndex<dim>
     locate(const Point<dim> &x) const
     {
-      return lines.locate(x);
+      return whole_.locate(x);
     }
 
     /** See GridBox. */
     Point<dim>
     center(const GridIndex<dim> &index) const
     {
-      return lines.center(index);
+      return whole_.center(index);
     }
 
     /** See GridBox. */
     Point<dim>
     corner(const GridIndex<dim> &index) const
     {
-      return lines.corner(index);
+      return whole_.corner(index);
     }
 
     /** Whether a grid cell is in one of the boxes. */
@@ -190,68 +184,6 @@ namespace Morula
     {
       for (unsigned int k = 0; k < boxes_.size(); ++k)
         boxes_[k].for_overlap(range.first, range.last, shifted(k, visit));
-    }
-
-  private:
-    unsigned int
-    box_with(const GridIndex<dim> &index) const
-    {
-      unsigned int k = 0;
-      while (k + 1 < boxes_.size() && !boxes_[k].contains(index))
-        ++k;
-      return k;
-    }
-
-    template <typename Visitor>
-    auto
-    shifted(const unsigned int box, const Visitor &visit) const
-    {
-      return [&visit, begin = begins[box]](const unsigned int    number,
-                                           const GridIndex<dim> &index) {
-        visit(begin + number, index);
-      };
-    }
-
-    GridBox<dim>              lines; // any box of the grid
-    std::vector<GridBox<dim>> boxes_;
-    std::vector<unsigned int> begins{0}; // of each box, and the end
-  };
-
-  /**
-   * The part of the grid that a rank knows: the grid cells that its points
-   * reach, those of others' points that it owns, and some rings around them.
-   * Tables of grid cells are as long as the window of the rank, not as the
-   * grid's box: where a rank has parts of the tissue that stand apart, its
-   * window is several boxes. On one rank it is what the tissue reaches;
-   * there is nothing outside.
-   *
-   * Grid cells have their number in the window where they stand in tables, and
-   * their number in the grid's box in records that ranks tell each other.
-   */
-  template <int dim>
-  class GridWindow
-  {
-  public:
-    GridWindow() = default;
-
-    /** All of a box, on one rank. */
-    explicit GridWindow(const GridBox<dim> &box);
-
-    /** The window of this rank, whose points reach into the grid cells
-     *  @p reached. The partition of @p grid is that of now. Collective. */
-    GridWindow(const BackgroundGrid<dim>         &grid,
-               const std::vector<GridRange<dim>> &reached);
-
-    /** Takes half as many rings more, where a rank wants to look farther.
-     *  @param here whether this one does. Collective. */
-    void
-    widen(const bool here);
-
-    /** The window's grid cells and their numbers. */
-    const GridBoxes<dim> &
-    boxes() const
-    {
-      return boxes_;
     }
 
     /** The grid's box. */
@@ -330,6 +262,29 @@ namespace Morula
   private:
     using Ranges = std::vector<GridRange<dim>>;
 
+    /** Makes the boxes of these ranges, which do not touch; none is empty. */
+    void
+    set_boxes(const Ranges &ranges);
+
+    unsigned int
+    box_with(const GridIndex<dim> &index) const
+    {
+      unsigned int k = 0;
+      while (k + 1 < boxes_.size() && !boxes_[k].contains(index))
+        ++k;
+      return k;
+    }
+
+    template <typename Visitor>
+    auto
+    shifted(const unsigned int box, const Visitor &visit) const
+    {
+      return [&visit, begin = begins[box]](const unsigned int    number,
+                                           const GridIndex<dim> &index) {
+        visit(begin + number, index);
+      };
+    }
+
     /** Whether one of the ranges contains the grid cell. */
     static bool
     is_in(const Ranges &ranges, const GridIndex<dim> &index);
@@ -345,7 +300,8 @@ namespace Morula
     make();
 
     GridBox<dim>                   whole_;
-    GridBoxes<dim>                 boxes_;
+    std::vector<GridBox<dim>>      boxes_;
+    std::vector<unsigned int>      begins{0}; // of each box, and the end
     Ranges                         cores;
     int                            rings = 0;
     std::map<unsigned int, Ranges> neighbors; // other ranks' windows

@@ -91,7 +91,7 @@ namespace Morula
    * whose number depends on the first round.
    *
    * It is known in the window of this rank: a `number` is that of a grid cell
-   * in boxes(), or of a further part of one: see nodes().
+   * in window(), or of a further part of one: see nodes().
    *
    * Volumes are summed as integers. So the result, and with it the
    * classification, does not depend on the order of the points or on the
@@ -273,13 +273,6 @@ namespace Morula
     active(const unsigned int number) const
     {
       return contents.active(number);
-    }
-
-    /** The grid cells of this rank's window. */
-    const GridBoxes<dim> &
-    boxes() const
-    {
-      return contents.boxes();
     }
 
     const GridWindow<dim> &

@@ -98,7 +98,7 @@ namespace Morula
     GridIndex<dim>
     center(const unsigned int copy) const
     {
-      return boxes.index(copies[copy].spline);
+      return window.index(copies[copy].spline);
     }
 
     /** Whether this rank owns the spline: the grid cell on which it stands. */
@@ -161,8 +161,8 @@ namespace Morula
                const GridBox<dim>        &whole,
                const BackgroundGrid<dim> &grid);
 
-    GridBoxes<dim> boxes; // the window's
-    GridNodes<dim> nodes;
+    GridWindow<dim> window;
+    GridNodes<dim>  nodes;
     /** Whether this rank owns it, by grid cell of the window; only of those
      *  near active ones. */
     std::vector<char> own;

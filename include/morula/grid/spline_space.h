@@ -261,7 +261,6 @@ namespace Morula
     expression(const unsigned int copy) const;
 
     Occupancy<dim>                               occupancy_;
-    GridBoxes<dim>                               boxes; // of the window
     bool                                         extend;
     std::vector<GridCellClass>                   classes;
     SplineCopies<dim>                            copies;

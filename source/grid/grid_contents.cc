@@ -28,7 +28,7 @@ namespace Morula
           const unsigned int here = window.number(index);
           if (part == 1)
             first_further[here] = size();
-          further.push_back({here, part});
+          further.emplace_back(here, part);
         }
     for (unsigned int number = 0; number < window.size(); ++number)
       if (parting_->is_contested(window.whole().number(window.index(number))))
@@ -69,6 +69,17 @@ namespace Morula
      *  rounding leaves of their places. */
     constexpr double on_line = 1e-9;
   } // namespace
+
+  /** What ranks tell each other of a grid cell. */
+  template <int dim>
+  struct GridContents<dim>::Record
+  {
+    unsigned int number; // in the grid's box
+    unsigned int part;
+    Counts       counts;
+    Reaches      reaches;
+    std::int64_t volume;
+  };
 
   template <int dim>
   GridContents<dim>::GridContents(const GridWindow<dim>    &window,

@@ -311,11 +311,10 @@ namespace Morula
     const auto place = places.find(id);
     if (place == places.end())
       return 0;
-    for (unsigned int i = of_cells.begin[place->second];
-         i < of_cells.begin[place->second + 1];
+    for (unsigned int i = first_of_cells[place->second];
+         i < first_of_cells[place->second + 1];
          ++i)
-      if (const auto &[there, part] = of_cells.parts[of_cells.number[i]];
-          there == number)
+      if (const auto &[there, part] = parts[parts_of_cells[i]]; there == number)
         return part;
     return 0;
   }

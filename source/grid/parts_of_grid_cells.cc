@@ -207,9 +207,8 @@ namespace Morula
         if (q > p)
           tokens.unite(p, q, sets);
 
-    std::vector<GridCellPart> &parts = of_cells.parts;
-    of_cells.begin                   = tokens.begin;
-    of_cells.number.resize(tokens.number.size());
+    first_of_cells = tokens.begin;
+    parts_of_cells.resize(tokens.number.size());
     std::map<unsigned int, unsigned int> of_root; // in one grid cell
     for (const unsigned int token : tokens.by_grid_cell())
       {
@@ -218,7 +217,7 @@ namespace Morula
           of_root.clear();
         const unsigned int root = is_contested(number) ? sets.find(token) : 0;
         const auto [place, is_new] = of_root.emplace(root, parts.size());
-        of_cells.number[token]     = place->second;
+        parts_of_cells[token]      = place->second;
         if (!is_new)
           continue;
         parts.emplace_back(number, of_root.size() - 1);
@@ -247,16 +246,16 @@ namespace Morula
       return (is_contested(a.first) || is_contested(b.first)) &&
              touch(box.index(a.first), box.index(b.first));
     };
-    const unsigned int                     n = of_cells.parts.size();
+    const unsigned int                     n = parts.size();
     std::vector<std::vector<unsigned int>> known(n);
     std::vector<unsigned int>              last(n, bonds.size()), around;
     for (unsigned int p = 0; p < bonds.size(); ++p)
       {
         around.clear();
         const auto add_parts_of = [&](const unsigned int q) {
-          for (unsigned int i = of_cells.begin[q]; i < of_cells.begin[q + 1];
+          for (unsigned int i = first_of_cells[q]; i < first_of_cells[q + 1];
                ++i)
-            if (const unsigned int part = of_cells.number[i]; last[part] != p)
+            if (const unsigned int part = parts_of_cells[i]; last[part] != p)
               {
                 last[part] = p;
                 around.push_back(part);
@@ -276,8 +275,8 @@ namespace Morula
       }
     for (unsigned int part = 0; part < n; ++part)
       for (const unsigned int other : known[part])
-        if (can_link(of_cells.parts[part], of_cells.parts[other]))
-          links.emplace_back(of_cells.parts[part], of_cells.parts[other]);
+        if (can_link(parts[part], parts[other]))
+          links.emplace_back(parts[part], parts[other]);
     std::sort(links.begin(), links.end());
   }
 

@@ -378,23 +378,19 @@ namespace Morula
     };
     if (system.smallest_J.value < evaluation.smallest_J.value)
       evaluation.smallest_J = {system.smallest_J.value,
-                               place(system.smallest_J.xi)};
+                               place(system.smallest_J.place)};
     if (system.largest_gap.value > evaluation.largest_gap.value)
       evaluation.largest_gap = {system.largest_gap.value,
-                                place(system.largest_gap.xi)};
+                                place(system.largest_gap.place)};
   }
 
   template <int dim>
-  Extremes<dim>
-  MomentumBalance<dim>::extremes(const Evaluation &evaluation) const
+  Extreme<dim>
+  MomentumBalance<dim>::largest_gap(const Evaluation &evaluation) const
   {
-    const Extreme J = smallest_J(evaluation);
     const Extreme gap =
       best_of_ranks(evaluation.largest_gap, std::greater<double>(), comm);
-    return {J.value,
-            from_space<dim>(J.place),
-            gap.value,
-            from_space<dim>(gap.place)};
+    return {gap.value, from_space<dim>(gap.place)};
   }
 
   template <int dim>
@@ -456,19 +452,21 @@ namespace Morula
   std::string
   MomentumBalance<dim>::describe(const Vector &u) const
   {
-    Vector              R(u);
-    const Extremes<dim> all = extremes(residual(u, R));
-    std::ostringstream  text;
-    if (all.smallest_J > 0.)
-      text << "The smallest J_e is " << all.smallest_J << ", at ("
-           << all.place_of_J << ") um";
+    Vector             R(u);
+    const Evaluation   evaluation = residual(u, R);
+    const Extreme      J          = smallest_J(evaluation);
+    const auto         gap        = largest_gap(evaluation);
+    const Point<dim>   place      = from_space<dim>(J.place);
+    std::ostringstream text;
+    if (J.value > 0.)
+      text << "The smallest J_e is " << J.value << ", at (" << place << ") um";
     else
-      text << "The tissue is inverted at (" << all.place_of_J << ") um";
+      text << "The tissue is inverted at (" << place << ") um";
     text << ", the largest unbalanced force acts near (" << place_of_largest(R)
          << ") um";
-    if (all.largest_gap >= 0.)
-      text << ", and the largest gap of a held point is " << all.largest_gap
-           << " um, at (" << all.place_of_gap << ") um";
+    if (gap.value >= 0.)
+      text << ", and the largest gap of a held point is " << gap.value
+           << " um, at (" << gap.place << ") um";
     return text.str();
   }
 

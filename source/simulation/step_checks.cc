@@ -41,16 +41,14 @@ namespace Morula
 
   template <int dim>
   void
-  check_gap(const Extremes<dim> &extremes,
-            const double         largest_gap,
-            const double         h)
+  check_gap(const Extreme<dim> &gap, const double largest_gap, const double h)
   {
-    // The extremes are those of all ranks, so that all throw.
-    if (largest_gap == 0. || extremes.largest_gap <= largest_gap * h)
+    // The gap is that of all ranks, so that all throw.
+    if (largest_gap == 0. || gap.value <= largest_gap * h)
       return;
     std::ostringstream text;
-    text << "The tissue slips through its clamp: a held point at ("
-         << extremes.place_of_gap << ") um is " << extremes.largest_gap
+    text << "The tissue slips through its clamp: a held point at (" << gap.place
+         << ") um is " << gap.value
          << " um from where it is held, more than Solver/Largest gap = "
          << largest_gap << " grid spacings. A higher Boundary "
          << "conditions/Nitsche penalty holds it";

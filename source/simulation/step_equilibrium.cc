@@ -37,16 +37,430 @@ namespace Morula
   } // namespace
 
 
-  /** The parts that effects have in an attempt. */
+  /** The work of a StepEquilibrium. */
   template <int dim>
-  struct StepEquilibrium<dim>::Parts
+  class StepEquilibrium<dim>::Work
   {
-    std::vector<std::unique_ptr<PartOfStep<dim>>> list;
-    /** Those of the list that have something of their own, or null. */
-    InteractionInStep<dim> *meeting   = nullptr;
-    Enclosure<dim>         *enclosure = nullptr;
-    /** As PartOfStep::is_exact() of any part. */
-    bool is_exact = false;
+  public:
+    Work(const TissueModel<dim> &model,
+         const Tissue<dim>      &tissue,
+         const SplineSpace<dim> &space,
+         const Supports         &supports,
+         TimerOutput            &timer,
+         const MPI_Comm          comm,
+         const Encounters<dim>  *encounters)
+      : model(model)
+      , tissue(tissue)
+      , space(space)
+      , timer(timer)
+      , comm(comm)
+      , rigid_modes(space, masses(), supports, comm)
+      , encounters(encounters)
+    {}
+
+    Solution
+    solve(const Attempt                    &attempt,
+          NewtonReport                     &report,
+          std::optional<ConditionEstimate> &condition) const
+    {
+      MaterialPoints<dim> points;
+      {
+        const TimerOutput::Scope section(timer, "points");
+        points = material_points(tissue, space, attempt.growth, model.material);
+      }
+      Solution solution = balance(attempt, points, report, condition);
+
+      // A large cell is several quadrature points, but deforms as the field
+      // does at its own position. The energy does not see this position and has
+      // not kept it from turning inside out.
+      if (points.subdivided &&
+          inverts(DisplacementField<dim>(space, solution.u, comm),
+                  tissue.cells(),
+                  comm))
+        throw StepFailed("a cell is turned inside out");
+      return solution;
+    }
+
+  private:
+    using TermList = typename MomentumBalance<dim>::TermList;
+    using MassList = std::vector<typename RigidModes<dim>::Mass>;
+
+    /** The parts that effects have in an attempt. */
+    struct Parts
+    {
+      std::vector<std::unique_ptr<PartOfStep<dim>>> list;
+      /** Those of the list that have something of their own, or null. */
+      InteractionInStep<dim> *meeting   = nullptr;
+      Enclosure<dim>         *enclosure = nullptr;
+      /** As PartOfStep::is_exact() of any part. */
+      bool is_exact = false;
+    };
+
+    Solution
+    balance(const Attempt                    &attempt,
+            const MaterialPoints<dim>        &points,
+            NewtonReport                     &report,
+            std::optional<ConditionEstimate> &condition) const
+    {
+      // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
+      // turn by turn (5.6), and reads the forces out of the terms. The parts of
+      // effects keep references to the attempt, and come before the terms,
+      // which may keep references to them.
+      const AttemptAtStep<dim> of_parts = at_step(attempt);
+      const Parts              parts    = this->parts(of_parts);
+      const TermList           list     = terms(attempt, points, parts);
+      MomentumBalance<dim>     balance(space,
+                                   list,
+                                   timer,
+                                   comm,
+                                   parts.enclosure,
+                                   parts.meeting != nullptr ?
+                                         &parts.meeting->pairs() :
+                                         nullptr);
+      const LinearProblem      linear =
+        balance.linear_problem(attempt.typical_stiffness,
+                               inertia(),
+                               tissue.cells().size());
+      // The estimate is made once a step, in its first attempt.
+      if (model.scene.output.condition_estimate && !condition)
+        {
+          const TimerOutput::Scope section(timer, "condition estimate");
+          condition = estimate_condition(balance, linear, balance.rest());
+        }
+      Solution solution{start(attempt).value_or(balance.rest()), {}, {}};
+      const Equilibrium::Evaluation evaluation =
+        find(attempt, parts, balance, linear, solution.u, report);
+      const DisplacementField<dim> displacement(space, solution.u, comm);
+      if (encounters != nullptr && !encounters->any())
+        encounters->check(displacement);
+      if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
+        throw StepFailed(
+          "a strand of the tissue turns by more than 36 degrees, "
+          "so that the step is too long for its contact");
+      report.proximal_paths += attempt.drag > 1.;
+      read_out(of_parts, list, parts, solution);
+      if (model.boundary_conditions.has_dirichlet())
+        check_gap(balance.largest_gap(evaluation),
+                  model.scene.solver.largest_gap,
+                  space.box().spacing());
+      return solution;
+    }
+
+    /** The attempt as effects see it. */
+    AttemptAtStep<dim>
+    at_step(const Attempt &attempt) const
+    {
+      return {tissue,
+              space,
+              model.material,
+              attempt.growth,
+              attempt.t,
+              attempt.t_next,
+              attempt.typical_stiffness,
+              !attempt.halve_first,
+              model.scene.solver.kernel,
+              model.scene.solver.newton_tolerance,
+              attempt.kept,
+              timer,
+              comm};
+    }
+
+    /** Keeps references to the attempt. */
+    Parts
+    parts(const AttemptAtStep<dim> &attempt) const
+    {
+      // The conditions' parts come in the order of the scene, then what may
+      // meet.
+      Parts parts;
+      parts.list = model.boundary_conditions.parts_of_step(attempt);
+      if (may_meet())
+        {
+          auto part     = encounters->part_of_step(attempt);
+          parts.meeting = part.get();
+          parts.list.push_back(std::move(part));
+        }
+      for (const auto &part : parts.list)
+        {
+          if (parts.enclosure == nullptr)
+            parts.enclosure = part->enclosure();
+          parts.is_exact = parts.is_exact || part->is_exact();
+        }
+      return parts;
+    }
+
+    /** The equilibrium, turn by turn, from u on. Collective. */
+    Equilibrium::Evaluation
+    find(const Attempt        &attempt,
+         const Parts          &parts,
+         MomentumBalance<dim> &balance,
+         const LinearProblem  &linear,
+         Equilibrium::Vector  &u,
+         NewtonReport         &report) const
+    {
+      // The participants hold their quantities fixed while Newton's method runs
+      // and renew them at its end. They begin before the first residual needs
+      // them. The report is completed in both outcomes, as the diagnosis of a
+      // failed step reads it.
+      std::vector<TurnParticipant *> participants;
+      for (const auto &part : parts.list)
+        {
+          part->begin(balance, u);
+          participants.push_back(part.get());
+        }
+      const std::size_t n_traced = report.trace.size();
+      try
+        {
+          const Equilibrium::Evaluation evaluation = balance_in_turns(
+            balance,
+            participants,
+            [&]() {
+              return find_in_turn(
+                attempt, parts.is_exact, balance, linear, u, report);
+            },
+            u,
+            report);
+          share_extremes(balance, n_traced, report);
+          return evaluation;
+        }
+      catch (const StepFailed &failure)
+        {
+          share_extremes(balance, n_traced, report);
+          // The failed state is evaluated once more: its energy and smallest
+          // J_e are signs of what went wrong.
+          Equilibrium::Vector R(u);
+          report.failed_at            = balance.residual(u, R);
+          report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
+          throw StepFailed(failure.what() + (". " + balance.describe(u)));
+        }
+    }
+
+    /** Newton's method from u on, and a proximal path where it fails. */
+    Equilibrium::Evaluation
+    find_in_turn(const Attempt        &attempt,
+                 const bool            is_exact,
+                 MomentumBalance<dim> &balance,
+                 const LinearProblem  &linear,
+                 Equilibrium::Vector  &u,
+                 NewtonReport         &report) const
+    {
+      // A step that is plainly too long is halved, since that is cheaper than a
+      // path and as good. All other failures have a path to their equilibrium,
+      // as the energy has a lowest value (doc/theory.md, section 5.9). Half the
+      // step would begin with as much unbalanced force where the last state is
+      // about to fold, or where something jumps. Where folds have contact the
+      // path goes step by step, as surfaces meet on it: hold_back().
+      const Equilibrium::Vector begin(u);
+      NewtonScales scales = balance.scales(attempt.typical_stiffness);
+      // A later turn begins near its equilibrium: only what was renewed is
+      // not balanced. Forces count as small in relation to those of the first
+      // turn, or it would be balanced more exactly than that one.
+      if (report.place.turn > 1 && !is_exact)
+        scales.small_force =
+          std::max(scales.small_force, report.first_residual);
+      try
+        {
+          return Morula::solve(
+            balance, linear, scales, model.scene.solver, timer, u, report);
+        }
+      catch (const StepFailed &)
+        {
+          if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
+              tissue.cells().has_parts())
+            throw;
+          // Newton's method may have left u anywhere. The path starts from the
+          // last state that is known to be good.
+          u = begin;
+          return follow_proximal_path(
+            balance, linear, scales, model.scene.solver, timer, u, report);
+        }
+    }
+
+    /** What the step keeps, and the forces on the surface, if conditions act on
+     *  it. Collective. */
+    void
+    read_out(const AttemptAtStep<dim> &attempt,
+             const TermList           &list,
+             const Parts              &parts,
+             Solution                 &solution) const
+    {
+      // The next step sees what belongs to the equilibrium that was found last.
+      for (const auto &part : parts.list)
+        part->keep(solution.kept);
+      if (model.boundary_conditions.list().empty() && encounters == nullptr)
+        return;
+      const TimerOutput::Scope section(timer, "forces");
+      solution.forces = surface_forces(
+        model, attempt, solution.u, list, parts.list, parts.meeting);
+    }
+
+    /** Where Newton's iterations begin; nothing if they begin at u = 0. */
+    std::optional<Equilibrium::Vector>
+    start(const Attempt &attempt) const
+    {
+      // Where a clamp moves, Newton's method starts with the tissue going
+      // along, doc/theory.md (4.14). From u = 0 it may not converge where the
+      // clamp moves by a grid spacing.
+      if (!model.boundary_conditions.has_dirichlet())
+        return {};
+      std::vector<HeldPoint<dim>> points;
+      everywhere(comm, [&]() {
+        points = held_points(model.boundary_conditions,
+                             tissue,
+                             attempt.t,
+                             attempt.t_next);
+      });
+      return rigid_start(space, rigid_modes, points, comm);
+    }
+
+    /** Vectors that keep rigid motions without support out of the step. */
+    std::vector<Equilibrium::Vector>
+    inertia() const
+    {
+      // Obstacles and other bodies may hold motions that no support is known of
+      // before the step. With them nothing is projected out, and the weak drag
+      // (4.8f) decides instead of (4.10).
+      if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
+          may_meet())
+        return {};
+      const TimerOutput::Scope section(timer, "rigid motion");
+      return rigid_modes.inertia(masses());
+    }
+
+    TermList
+    terms(const Attempt             &attempt,
+          const MaterialPoints<dim> &points,
+          const Parts               &parts) const
+    {
+      // The list has the terms of doc/theory.md (2.1) that the scene calls for:
+      // the stress of the cells first, then forces on cells, held points (4.2)
+      // or (4.6a), and loads. surface_forces() relies on this order. All loads
+      // are taken at t + dt, as the equilibrium is that of the step's end,
+      // while readers of cells see the state at t. Where something may meet, a
+      // weak drag decides where pieces go that nothing else holds (4.8f).
+      const double t = attempt.t_next;
+      TermList     list;
+      list.push_back(internal_force(points,
+                                    model.material.volumetric_form(),
+                                    model.scene.solver.kernel));
+      // Expressions may have no value at this time on some ranks; all ranks
+      // must then throw together.
+      const auto add = [&](const std::string &name, const auto &make) {
+        const TimerOutput::Scope section(timer, name);
+        everywhere(comm, [&]() { list.push_back(make()); });
+      };
+      for (const auto &named : model.forces)
+        add(named.name, [&]() {
+          return named.effect->term(tissue,
+                                    model.development.reader(attempt.t),
+                                    cell_positions(tissue, space),
+                                    attempt.t,
+                                    t);
+        });
+      for (const auto &part : parts.list)
+        if (auto term = part->term())
+          list.push_back(std::move(term));
+      if (model.boundary_conditions.has_dirichlet() &&
+          model.boundary_conditions.nitsche().form() != NitscheForm::bounded)
+        add("nitsche", [&]() {
+          return nitsche_term(model.boundary_conditions,
+                              model.material,
+                              tissue,
+                              space,
+                              attempt.growth,
+                              t,
+                              model.scene.solver.kernel);
+        });
+      add_loads(attempt, list);
+      if (parts.meeting != nullptr || attempt.drag > 1.)
+        {
+          const TimerOutput::Scope section(timer, model.interaction->name);
+          auto                     drag = weak_drag(attempt.typical_stiffness);
+          drag->set_strength(attempt.drag);
+          if (parts.meeting != nullptr)
+            parts.meeting->take_drag(*drag, attempt.drag == 1.);
+          list.push_back(std::move(drag));
+        }
+      return list;
+    }
+
+    /** Adds the terms of the conditions that load the surface. @throws
+     *  StepFailed on all ranks if a condition finds the step too long */
+    void
+    add_loads(const Attempt &attempt, TermList &list) const
+    {
+      const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+      if (!conditions.has(SurfaceCondition::loaded))
+        return;
+      // The groups of loaded points are shared by all conditions and made by
+      // the first of them, inside its section of the timer. A condition that
+      // does nothing at this time gives no term.
+      std::optional<LoadedPoints<dim>> points;
+      for (const auto &named : conditions.list())
+        if (named.condition->kind() == SurfaceCondition::loaded)
+          {
+            const TimerOutput::Scope section(timer, named.name);
+            everywhere(comm, [&]() {
+              if (!points)
+                {
+                  points                 = loaded_points(tissue, space);
+                  points->time           = attempt.t;
+                  points->youngs_modulus = attempt.typical_stiffness;
+                }
+              if (auto term = named.condition->term(*points, attempt.t_next))
+                list.push_back(std::move(term));
+            });
+          }
+      if (conditions.has_pushing() && !may_meet())
+        list.push_back(weak_drag(attempt.typical_stiffness));
+    }
+
+    /** Whether something may meet in the step. */
+    bool
+    may_meet() const
+    {
+      return encounters != nullptr && encounters->any();
+    }
+
+    /** A drag that is too weak to matter elsewhere. It decides where pieces go
+     *  that loads push and nothing holds: doc/theory.md (4.8f). */
+    std::unique_ptr<Drag<dim>>
+    weak_drag(const double typical_stiffness) const
+    {
+      // This is doc/theory.md (4.8f) with one stiffness η V⁰ for each cell, in
+      // the order of cell_positions().
+      const double        h   = space.box().spacing();
+      const double        eta = Drag<dim>::least * typical_stiffness / (h * h);
+      std::vector<double> stiffnesses;
+      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+        stiffnesses.push_back(eta * tissue.cells().initial_volume(p));
+      return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
+                                         std::move(stiffnesses));
+    }
+
+    MassList
+    masses() const
+    {
+      // The cells stand in the order of their grid cells. The piece of a grid
+      // cell is that of all its cells, so that each piece gets its own rigid
+      // motions.
+      const Cells<dim> &cells = tissue.cells();
+      MassList          list;
+      for (const auto &grid_cell : cells.grid_cells())
+        for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
+          list.push_back({space.piece(grid_cell.number, grid_cell.part),
+                          cells.position(p),
+                          cells.initial_volume(p)});
+      return list;
+    }
+
+    const TissueModel<dim> &model;
+    const Tissue<dim>      &tissue;
+    const SplineSpace<dim> &space;
+    TimerOutput            &timer;
+    const MPI_Comm          comm;
+    const RigidModes<dim>   rigid_modes;
+
+    const Encounters<dim> *const encounters;
   };
 
 
@@ -58,14 +472,13 @@ namespace Morula
                                         TimerOutput            &timer,
                                         const MPI_Comm          comm,
                                         const Encounters<dim>  *encounters)
-    : model(model)
-    , tissue(tissue)
-    , space(space)
-    , timer(timer)
-    , comm(comm)
-    , rigid_modes(space, masses(), supports, comm)
-    , encounters(encounters)
+    : work(std::make_unique<const Work>(
+        model, tissue, space, supports, timer, comm, encounters))
   {}
+
+
+  template <int dim>
+  StepEquilibrium<dim>::~StepEquilibrium() = default;
 
 
   template <int dim>
@@ -74,414 +487,7 @@ namespace Morula
                               NewtonReport                     &report,
                               std::optional<ConditionEstimate> &condition) const
   {
-    MaterialPoints<dim> points;
-    {
-      const TimerOutput::Scope section(timer, "points");
-      points = material_points(tissue, space, attempt.growth, model.material);
-    }
-    Solution solution = balance(attempt, points, report, condition);
-
-    // A large cell is several quadrature points, but deforms as the field does
-    // at its own position. The energy does not see this position and has not
-    // kept it from turning inside out.
-    if (points.subdivided &&
-        inverts(DisplacementField<dim>(space, solution.u, comm),
-                tissue.cells(),
-                comm))
-      throw StepFailed("a cell is turned inside out");
-    return solution;
-  }
-
-
-  template <int dim>
-  typename StepEquilibrium<dim>::Solution
-  StepEquilibrium<dim>::balance(
-    const Attempt                    &attempt,
-    const MaterialPoints<dim>        &points,
-    NewtonReport                     &report,
-    std::optional<ConditionEstimate> &condition) const
-  {
-    // This makes the terms of doc/theory.md (2.1), finds their equilibrium,
-    // turn by turn (5.6), and reads the forces out of the terms. The parts of
-    // effects keep references to the attempt, and come before the terms, which
-    // may keep references to them.
-    const AttemptAtStep<dim> of_parts = at_step(attempt);
-    const Parts              parts    = this->parts(of_parts);
-    const TermList           list     = terms(attempt, points, parts);
-    MomentumBalance<dim>     balance(space,
-                                 list,
-                                 timer,
-                                 comm,
-                                 parts.enclosure,
-                                 parts.meeting != nullptr ?
-                                       &parts.meeting->pairs() :
-                                       nullptr);
-    const LinearProblem      linear =
-      balance.linear_problem(attempt.typical_stiffness,
-                             inertia(),
-                             tissue.cells().size());
-    estimate_condition(balance, linear, condition);
-    Solution solution{start(attempt).value_or(balance.rest()), {}, {}};
-    const Equilibrium::Evaluation evaluation =
-      find(attempt, parts, balance, linear, solution.u, report);
-    const DisplacementField<dim> displacement(space, solution.u, comm);
-    if (encounters != nullptr && !encounters->any())
-      encounters->check(displacement);
-    if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
-      throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
-                       "so that the step is too long for its contact");
-    report.proximal_paths += attempt.drag > 1.;
-    read_out(attempt, list, parts, solution);
-    if (model.boundary_conditions.has_dirichlet())
-      check_gap(balance.extremes(evaluation),
-                model.scene.solver.largest_gap,
-                space.box().spacing());
-    return solution;
-  }
-
-
-  template <int dim>
-  AttemptAtStep<dim>
-  StepEquilibrium<dim>::at_step(const Attempt &attempt) const
-  {
-    return {tissue,
-            space,
-            model.material,
-            attempt.growth,
-            attempt.t,
-            attempt.t_next,
-            attempt.typical_stiffness,
-            !attempt.halve_first,
-            model.scene.solver.kernel,
-            model.scene.solver.newton_tolerance,
-            attempt.kept,
-            timer,
-            comm};
-  }
-
-
-  template <int dim>
-  typename StepEquilibrium<dim>::Parts
-  StepEquilibrium<dim>::parts(const AttemptAtStep<dim> &attempt) const
-  {
-    // The conditions' parts come in the order of the scene, then what may meet.
-    Parts parts;
-    parts.list = model.boundary_conditions.parts_of_step(attempt);
-    if (may_meet())
-      {
-        auto part     = encounters->part_of_step(attempt);
-        parts.meeting = part.get();
-        parts.list.push_back(std::move(part));
-      }
-    for (const auto &part : parts.list)
-      {
-        if (parts.enclosure == nullptr)
-          parts.enclosure = part->enclosure();
-        parts.is_exact = parts.is_exact || part->is_exact();
-      }
-    return parts;
-  }
-
-
-  template <int dim>
-  Equilibrium::Evaluation
-  StepEquilibrium<dim>::find(const Attempt        &attempt,
-                             const Parts          &parts,
-                             MomentumBalance<dim> &balance,
-                             const LinearProblem  &linear,
-                             Equilibrium::Vector  &u,
-                             NewtonReport         &report) const
-  {
-    // The participants hold their quantities fixed while Newton's method runs
-    // and renew them at its end. They begin before the first residual needs
-    // them. The report is completed in both outcomes, as the diagnosis of a
-    // failed step reads it.
-    std::vector<TurnParticipant *> participants;
-    for (const auto &part : parts.list)
-      {
-        part->begin(balance, u);
-        participants.push_back(part.get());
-      }
-    const std::size_t n_traced = report.trace.size();
-    try
-      {
-        const Equilibrium::Evaluation evaluation = balance_in_turns(
-          balance,
-          participants,
-          [&]() {
-            return find_in_turn(
-              attempt, parts.is_exact, balance, linear, u, report);
-          },
-          u,
-          report);
-        share_extremes(balance, n_traced, report);
-        return evaluation;
-      }
-    catch (const StepFailed &failure)
-      {
-        share_extremes(balance, n_traced, report);
-        // The failed state is evaluated once more: its energy and smallest J_e
-        // are signs of what went wrong.
-        Equilibrium::Vector R(u);
-        report.failed_at            = balance.residual(u, R);
-        report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
-        throw StepFailed(failure.what() + (". " + balance.describe(u)));
-      }
-  }
-
-
-  template <int dim>
-  Equilibrium::Evaluation
-  StepEquilibrium<dim>::find_in_turn(const Attempt        &attempt,
-                                     const bool            is_exact,
-                                     MomentumBalance<dim> &balance,
-                                     const LinearProblem  &linear,
-                                     Equilibrium::Vector  &u,
-                                     NewtonReport         &report) const
-  {
-    // A step that is plainly too long is halved, since that is cheaper than a
-    // path and as good. All other failures have a path to their equilibrium, as
-    // the energy has a lowest value (doc/theory.md, section 5.9). Half the step
-    // would begin with as much unbalanced force where the last state is about
-    // to fold, or where something jumps. Where folds have contact the path goes
-    // step by step, as surfaces meet on it: slow_steps.h.
-    const Equilibrium::Vector begin(u);
-    NewtonScales scales = balance.scales(attempt.typical_stiffness);
-    // A later turn begins near its equilibrium: only what was renewed is
-    // not balanced. Forces count as small in relation to those of the first
-    // turn, or it would be balanced more exactly than that one.
-    if (report.place.turn > 1 && !is_exact)
-      scales.small_force = std::max(scales.small_force, report.first_residual);
-    try
-      {
-        return Morula::solve(
-          balance, linear, scales, model.scene.solver, timer, u, report);
-      }
-    catch (const StepFailed &)
-      {
-        if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
-            tissue.cells().has_parts())
-          throw;
-        // Newton's method may have left u anywhere. The path starts from the
-        // last state that is known to be good.
-        u = begin;
-        return follow_proximal_path(
-          balance, linear, scales, model.scene.solver, timer, u, report);
-      }
-  }
-
-
-  template <int dim>
-  void
-  StepEquilibrium<dim>::read_out(const Attempt  &attempt,
-                                 const TermList &list,
-                                 const Parts    &parts,
-                                 Solution       &solution) const
-  {
-    // The next step sees what belongs to the equilibrium that was found last.
-    // The terms of conditions that load are made anew, since each of them gets
-    // a row of its own. The other terms are found in the list in the order in
-    // which terms() has added them: the stress of the cells, the forces on
-    // cells, the held points.
-    for (const auto &part : parts.list)
-      part->keep(solution.kept);
-    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    if (conditions.list().empty() && encounters == nullptr)
-      return;
-    const TimerOutput::Scope section(timer, "forces");
-    ForceSums<dim>           sums(tissue, space, solution.u, comm);
-    for (std::size_t f = 0; f < model.forces.size(); ++f)
-      sums.add_force(model.forces[f].name, *list[1 + f]);
-    if (conditions.has_dirichlet())
-      sums.add_held(conditions, *list[1 + model.forces.size()]);
-    if (conditions.has(SurfaceCondition::loaded))
-      {
-        LoadedPoints<dim> points = loaded_points(tissue, space);
-        points.time              = attempt.t;
-        points.youngs_modulus    = attempt.typical_stiffness;
-        sums.add_loads(conditions, points, attempt.t_next);
-      }
-    for (const auto &part : parts.list)
-      if (const auto force = part->force())
-        sums.add_part(*force);
-    if (parts.meeting != nullptr)
-      sums.add_between(model.interaction->name,
-                       parts.meeting->forces(solution.u));
-    solution.forces = sums.result();
-  }
-
-
-  template <int dim>
-  std::optional<Equilibrium::Vector>
-  StepEquilibrium<dim>::start(const Attempt &attempt) const
-  {
-    // Where a clamp moves, Newton's method starts with the tissue going along,
-    // doc/theory.md (4.14). From u = 0 it may not converge where the clamp
-    // moves by a grid spacing.
-    if (!model.boundary_conditions.has_dirichlet())
-      return {};
-    std::vector<HeldPoint<dim>> points;
-    everywhere(comm, [&]() {
-      points = held_points(model.boundary_conditions,
-                           tissue,
-                           attempt.t,
-                           attempt.t_next);
-    });
-    return rigid_start(space, rigid_modes, points, comm);
-  }
-
-
-  template <int dim>
-  void
-  StepEquilibrium<dim>::estimate_condition(
-    MomentumBalance<dim>             &balance,
-    const LinearProblem              &linear,
-    std::optional<ConditionEstimate> &condition) const
-  {
-    // The estimate is made once a step, in its first attempt.
-    if (!model.scene.output.condition_estimate || condition)
-      return;
-    const TimerOutput::Scope section(timer, "condition estimate");
-    condition = Morula::estimate_condition(balance, linear, balance.rest());
-  }
-
-
-  template <int dim>
-  typename StepEquilibrium<dim>::TermList
-  StepEquilibrium<dim>::terms(const Attempt             &attempt,
-                              const MaterialPoints<dim> &points,
-                              const Parts               &parts) const
-  {
-    // The list has the terms of doc/theory.md (2.1) that the scene calls for:
-    // the stress of the cells first, then forces on cells, held points (4.2) or
-    // (4.6a), and loads. read_out() relies on this order. All loads are taken
-    // at t + dt, as the equilibrium is that of the step's end, while readers of
-    // cells see the state at t. Where something may meet, a weak drag decides
-    // where pieces go that nothing else holds (4.8f).
-    const double t = attempt.t_next;
-    TermList     list;
-    list.push_back(internal_force(points,
-                                  model.material.volumetric_form(),
-                                  model.scene.solver.kernel));
-    // Expressions may have no value at this time on some ranks; all ranks must
-    // then throw together.
-    const auto add = [&](const std::string &name, const auto &make) {
-      const TimerOutput::Scope section(timer, name);
-      everywhere(comm, [&]() { list.push_back(make()); });
-    };
-    for (const auto &named : model.forces)
-      add(named.name, [&]() {
-        return named.effect->term(tissue,
-                                  model.development.reader(attempt.t),
-                                  cell_positions(tissue, space),
-                                  attempt.t,
-                                  t);
-      });
-    for (const auto &part : parts.list)
-      if (auto term = part->term())
-        list.push_back(std::move(term));
-    if (model.boundary_conditions.has_dirichlet() &&
-        model.boundary_conditions.nitsche().form() != NitscheForm::bounded)
-      add("nitsche", [&]() {
-        return nitsche_term(model.boundary_conditions,
-                            model.material,
-                            tissue,
-                            space,
-                            attempt.growth,
-                            t,
-                            model.scene.solver.kernel);
-      });
-    add_loads(attempt, list);
-    if (parts.meeting != nullptr || attempt.drag > 1.)
-      {
-        const TimerOutput::Scope section(timer, model.interaction->name);
-        auto                     drag = weak_drag(attempt.typical_stiffness);
-        drag->set_strength(attempt.drag);
-        if (parts.meeting != nullptr)
-          parts.meeting->take_drag(*drag, attempt.drag == 1.);
-        list.push_back(std::move(drag));
-      }
-    return list;
-  }
-
-
-  template <int dim>
-  void
-  StepEquilibrium<dim>::add_loads(const Attempt &attempt, TermList &list) const
-  {
-    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    if (!conditions.has(SurfaceCondition::loaded))
-      return;
-    // The groups of loaded points are shared by all conditions and made by the
-    // first of them, inside its section of the timer. A condition that does
-    // nothing at this time gives no term.
-    std::optional<LoadedPoints<dim>> points;
-    for (const auto &named : conditions.list())
-      if (named.condition->kind() == SurfaceCondition::loaded)
-        {
-          const TimerOutput::Scope section(timer, named.name);
-          everywhere(comm, [&]() {
-            if (!points)
-              {
-                points                 = loaded_points(tissue, space);
-                points->time           = attempt.t;
-                points->youngs_modulus = attempt.typical_stiffness;
-              }
-            if (auto term = named.condition->term(*points, attempt.t_next))
-              list.push_back(std::move(term));
-          });
-        }
-    if (conditions.has_pushing() && !may_meet())
-      list.push_back(weak_drag(attempt.typical_stiffness));
-  }
-
-
-  template <int dim>
-  std::unique_ptr<Drag<dim>>
-  StepEquilibrium<dim>::weak_drag(const double typical_stiffness) const
-  {
-    // This is doc/theory.md (4.8f) with one stiffness η V⁰ for each cell, in
-    // the order of cell_positions().
-    const double        h   = space.box().spacing();
-    const double        eta = Drag<dim>::least * typical_stiffness / (h * h);
-    std::vector<double> stiffnesses;
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      stiffnesses.push_back(eta * tissue.cells().initial_volume(p));
-    return std::make_unique<Drag<dim>>(cell_positions(tissue, space),
-                                       std::move(stiffnesses));
-  }
-
-
-  template <int dim>
-  typename StepEquilibrium<dim>::MassList
-  StepEquilibrium<dim>::masses() const
-  {
-    // The cells stand in the order of their grid cells. The piece of a grid
-    // cell is that of all its cells, so that each piece gets its own rigid
-    // motions.
-    const Cells<dim> &cells = tissue.cells();
-    MassList          list;
-    for (const auto &grid_cell : cells.grid_cells())
-      for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-        list.push_back({space.piece(grid_cell.number, grid_cell.part),
-                        cells.position(p),
-                        cells.initial_volume(p)});
-    return list;
-  }
-
-
-  template <int dim>
-  std::vector<Equilibrium::Vector>
-  StepEquilibrium<dim>::inertia() const
-  {
-    // Obstacles and other bodies may hold motions that no support is known of
-    // before the step. With them nothing is projected out, and the weak drag
-    // (4.8f) decides instead of (4.10).
-    if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
-        may_meet())
-      return {};
-    const TimerOutput::Scope section(timer, "rigid motion");
-    return rigid_modes.inertia(masses());
+    return work->solve(attempt, report, condition);
   }
 
 

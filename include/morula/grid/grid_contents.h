@@ -59,15 +59,14 @@ namespace Morula
     unsigned int
     grid_cell(const unsigned int node) const
     {
-      return node < window.size() ? node :
-                                    further[node - window.size()].grid_cell;
+      return node < window.size() ? node : further[node - window.size()].first;
     }
 
     /** The part of its grid cell that a node is. */
     unsigned int
     part(const unsigned int node) const
     {
-      return node < window.size() ? 0 : further[node - window.size()].part;
+      return node < window.size() ? 0 : further[node - window.size()].second;
     }
 
     /** The number of a node's grid cell in the grid's box, and its part. */
@@ -153,15 +152,9 @@ namespace Morula
     void
     find_linked();
 
-    struct Further
-    {
-      unsigned int grid_cell; // in the window
-      unsigned int part;
-    };
-
     GridWindow<dim>           window;
     SharedParting<dim>        parting_;
-    std::vector<Further>      further;
+    std::vector<GridCellPart> further;       // numbers in the window
     std::vector<unsigned int> first_further; // node by grid cell, 0 for none
     std::vector<char>         near_contest;  // by grid cell, if any
     /** For each node near a contest those which for_linked() visits. */
@@ -292,24 +285,11 @@ namespace Morula
     }
 
   private:
-    enum Kind
-    {
-      quadrature,
-      particle,
-      boundary
-    };
-    using Counts  = std::array<std::uint32_t, 3>; // by Kind
+    static constexpr unsigned int quadrature = 0, particle = 1, boundary = 2;
+    using Counts  = std::array<std::uint32_t, 3>; // of these points
     using Reaches = std::array<float, 2 * dim>;
 
-    /** What ranks tell each other of a grid cell. */
-    struct Record
-    {
-      unsigned int number; // in the grid's box
-      unsigned int part;
-      Counts       counts;
-      Reaches      reaches;
-      std::int64_t volume;
-    };
+    struct Record; // of a grid cell
 
     bool
     holds_something(const unsigned int node) const;

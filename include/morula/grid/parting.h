@@ -127,14 +127,6 @@ namespace Morula
                   const types::particle_index b) const;
 
   private:
-    /** The parts that cells belong to, cell by cell. */
-    struct PartsOfCells
-    {
-      std::vector<GridCellPart> parts;
-      std::vector<unsigned int> number; // places in `parts`
-      std::vector<unsigned int> begin;  // of each cell's numbers, and the end
-    };
-
     void
     bond(const GridBox<dim>                  &box,
          const std::vector<PartedCell<dim>>  &cells,
@@ -154,8 +146,11 @@ namespace Morula
     std::vector<unsigned int> contested_;
     std::vector<GridCellPart> further;
     /** Pairs of linked parts, both ways, sorted; of which one is contested. */
-    std::vector<std::pair<GridCellPart, GridCellPart>>      links;
-    PartsOfCells                                            of_cells;
+    std::vector<std::pair<GridCellPart, GridCellPart>> links;
+    /** The parts of grid cells; places in this list by cell; and where those of
+     *  each cell begin, and the end. */
+    std::vector<GridCellPart> parts;
+    std::vector<unsigned int> parts_of_cells, first_of_cells;
     std::unordered_map<types::particle_index, unsigned int> places; // by id
     std::unordered_map<types::particle_index, unsigned int> parts_of_patches;
     /** Place of the cell behind each patch, by the patch's id. */

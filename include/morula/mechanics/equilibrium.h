@@ -31,13 +31,8 @@ namespace Morula
 
     virtual ~Equilibrium() = default;
 
-    /** A value, and the place where it is extreme: µm, in the configuration at
-     *  t; with z = 0 in 2-D. */
-    struct Extreme
-    {
-      double   value;
-      Point<3> place;
-    };
+    /** With the place in µm, in the configuration at t; z = 0 in 2-D. */
+    using Extreme = Morula::Extreme<3>;
 
     /** What an evaluation of the residual returns besides R. */
     struct Evaluation

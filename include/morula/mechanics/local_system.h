@@ -155,9 +155,18 @@ namespace Morula
     }
   };
 
+  /** A value, and the place where it is extreme. */
+  template <int dim>
+  struct Extreme
+  {
+    double     value;
+    Point<dim> place;
+  };
+
   /**
    * The equations of the displacement on one grid cell, and the extremes of the
-   * tissue there. Energies in kPa µm^dim, forces in kPa µm^(dim-1).
+   * tissue there, with their places in it. Energies in kPa µm^dim, forces in
+   * kPa µm^(dim-1).
    */
   template <int dim>
   struct LocalSystem : public LocalEquations<dim, dim>
@@ -209,16 +218,10 @@ namespace Morula
     /** Set where det f <= 0 or J_e <= 0: there is no energy. */
     bool inverted = false;
 
-    /** A value and the place in the grid cell where it is extreme. */
-    struct Extreme
-    {
-      double     value;
-      Point<dim> xi;
-    };
     /** J_e; det f where that is not positive. */
-    Extreme smallest_J = {std::numeric_limits<double>::infinity(), {}};
+    Extreme<dim> smallest_J = {std::numeric_limits<double>::infinity(), {}};
     /** µm; negative: nothing is held here. */
-    Extreme largest_gap = {-1., {}};
+    Extreme<dim> largest_gap = {-1., {}};
   };
 } // namespace Morula
 

@@ -20,19 +20,6 @@
 
 namespace Morula
 {
-  /** The extreme values of a state of the tissue, and their places. */
-  template <int dim>
-  struct Extremes
-  {
-    /** Smallest J_e of any point, or det f where the step inverts it. */
-    double     smallest_J;
-    Point<dim> place_of_J; // µm, in the configuration at t
-    /** Largest distance of a held point from where it is held, µm; negative:
-     *  none is held. */
-    double     largest_gap;
-    Point<dim> place_of_gap;
-  };
-
   /**
    * The momentum balance of one step, that is the principle of virtual work,
    * equation (1) of the paper: the energy of doc/theory.md (2.1) and its
@@ -96,9 +83,9 @@ namespace Morula
     Extreme
     smallest_J(const Evaluation &evaluation) const;
 
-    /** The extremes of an evaluation over all ranks. Collective. */
-    Extremes<dim>
-    extremes(const Evaluation &evaluation) const;
+    /** The largest gap of an evaluation over all ranks. Collective. */
+    Morula::Extreme<dim>
+    largest_gap(const Evaluation &evaluation) const;
 
     /** Whether the state @p u is so far from the @p begin of the step that the
      *  step is plainly too long: it moves the tissue by more than a grid

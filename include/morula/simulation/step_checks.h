@@ -29,9 +29,7 @@ namespace Morula
    */
   template <int dim>
   void
-  check_gap(const Extremes<dim> &extremes,
-            const double         largest_gap,
-            const double         h);
+  check_gap(const Extreme<dim> &gap, const double largest_gap, const double h);
 
   /**
    * A message if the tissue does not fit on the grid any more, otherwise empty.

@@ -20,6 +20,7 @@
 #include <deal.II/base/timer.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,73 +50,22 @@ namespace Morula
   set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
 
   /**
-   * Adds up the forces at the end of a step with this displacement, point by
-   * point. They are those of the terms in whose sum Newton's method has found
-   * the equilibrium.
-   * Keeps references to all that it is given.
+   * The forces at the end of a step with the displacement @p u, point by point.
+   * They are those of the terms in whose sum Newton's method has found the
+   * equilibrium: the stress of the cells, the forces on cells, the held points
+   * and others, in this order. Collective.
+   * @param attempt that has succeeded
+   * @param parts   of effects in it
+   * @param meeting the one of what may meet, or null
    */
   template <int dim>
-  class ForceSums
-  {
-  public:
-    /** @param tissue at the beginning of the step, as @p space. Collective. */
-    ForceSums(const Tissue<dim>                   &tissue,
-              const SplineSpace<dim>              &space,
-              const TrilinosWrappers::MPI::Vector &u,
-              const MPI_Comm                       comm);
-
-    /** Adds a row for a force on the cells. Any term will do, as the row is a
-     * sum over splines. */
-    void
-    add_force(const std::string &name, const Term<dim> &term);
-
-    /** Adds a row for each condition that holds points, with the points at
-     * which it wins. */
-    void
-    add_held(const BoundaryConditions<dim> &conditions, const Term<dim> &term);
-
-    /** Adds rows for the conditions that load the surface, at the end @p t
-     * (day) of the step. */
-    void
-    add_loads(const BoundaryConditions<dim> &conditions,
-              const LoadedPoints<dim>       &points,
-              const double                   t);
-
-    /** Adds a row for a force that an effect has as a whole. */
-    void
-    add_part(const ForceOnPoints<dim> &force);
-
-    /** Adds a row of this kind for each two bodies that touch, with the force
-     *  of the one with the lower number on the other, and the pressure at all
-     *  points. Collective. */
-    void
-    add_between(const std::string                    &kind,
-                const std::vector<ForceBetween<dim>> &forces);
-
-    /** The rows as sums over all ranks, and this rank's forces of points.
-     *  Collective. */
-    SurfaceForces<dim>
-    result() const;
-
-  private:
-    /** Adds a row for the points of @p groups for which selects(p, force)
-     * holds.
-     *  @param term of all of these points */
-    void
-    add_row(
-      const std::string                                               &kind,
-      const std::string                                               &name,
-      const PointGroups                                               &groups,
-      const Term<dim>                                                 &term,
-      const double                                                     factor,
-      const std::function<bool(unsigned int, const Tensor<1, dim> &)> &selects);
-
-    const Tissue<dim>           &tissue;
-    const SplineSpace<dim>      &space;
-    const DisplacementField<dim> displacement;
-    const MPI_Comm               comm;
-    SurfaceForces<dim>           mine; // of this rank
-  };
+  SurfaceForces<dim>
+  surface_forces(const TissueModel<dim>                              &model,
+                 const AttemptAtStep<dim>                            &attempt,
+                 const Equilibrium::Vector                           &u,
+                 const std::vector<std::unique_ptr<Term<dim>>>       &terms,
+                 const std::vector<std::unique_ptr<PartOfStep<dim>>> &parts,
+                 const InteractionInStep<dim>                        *meeting);
 
   /**
    * The equilibrium of a step: the sum of the scene's terms on the splines of
@@ -135,9 +85,9 @@ namespace Morula
       /** What outlives a step, as it was before. */
       const NamedNumbers &kept;
       /** Whether half the step is to be tried, before a proximal path, where
-       * the step is plainly too long. */
+       *  the step is plainly too long. */
       bool halve_first = true;
-      /** The drag that holds the tissue back: slow_steps.h. */
+      /** The drag that holds the tissue back: hold_back(). */
       double drag = 1.;
     };
 
@@ -161,6 +111,8 @@ namespace Morula
                     const MPI_Comm          comm,
                     const Encounters<dim>  *encounters = nullptr);
 
+    ~StepEquilibrium();
+
     /**
      * Solves for the end of a step. Collective.
      * @param report in/out: this attempt's work is added
@@ -174,86 +126,8 @@ namespace Morula
           std::optional<ConditionEstimate> &condition) const;
 
   private:
-    using TermList = typename MomentumBalance<dim>::TermList;
-    using MassList = std::vector<typename RigidModes<dim>::Mass>;
-
-    struct Parts; // that effects have in an attempt
-
-    Solution
-    balance(const Attempt                    &attempt,
-            const MaterialPoints<dim>        &points,
-            NewtonReport                     &report,
-            std::optional<ConditionEstimate> &condition) const;
-    /** The attempt as effects see it. */
-    AttemptAtStep<dim>
-    at_step(const Attempt &attempt) const;
-    /** Keeps references to the attempt. */
-    Parts
-    parts(const AttemptAtStep<dim> &attempt) const;
-    /** The equilibrium, turn by turn, from u on. Collective. */
-    Equilibrium::Evaluation
-    find(const Attempt        &attempt,
-         const Parts          &parts,
-         MomentumBalance<dim> &balance,
-         const LinearProblem  &linear,
-         Equilibrium::Vector  &u,
-         NewtonReport         &report) const;
-    /** Newton's method from u on, and a proximal path where it fails. */
-    Equilibrium::Evaluation
-    find_in_turn(const Attempt        &attempt,
-                 const bool            is_exact,
-                 MomentumBalance<dim> &balance,
-                 const LinearProblem  &linear,
-                 Equilibrium::Vector  &u,
-                 NewtonReport         &report) const;
-    /** What the step keeps, and the forces on the surface, if conditions act on
-     *  it. Collective. */
-    void
-    read_out(const Attempt  &attempt,
-             const TermList &list,
-             const Parts    &parts,
-             Solution       &solution) const;
-    /** Where Newton's iterations begin; nothing if they begin at u = 0. */
-    std::optional<Equilibrium::Vector>
-    start(const Attempt &attempt) const;
-    void
-    estimate_condition(MomentumBalance<dim>             &balance,
-                       const LinearProblem              &linear,
-                       std::optional<ConditionEstimate> &condition) const;
-    /** Vectors that keep rigid motions without support out of the step. */
-    std::vector<Equilibrium::Vector>
-    inertia() const;
-
-    TermList
-    terms(const Attempt             &attempt,
-          const MaterialPoints<dim> &points,
-          const Parts               &parts) const;
-    /** Adds the terms of the conditions that load the surface. @throws
-     *  StepFailed on all ranks if a condition finds the step too long */
-    void
-    add_loads(const Attempt &attempt, TermList &list) const;
-    /** Whether something may meet in the step. */
-    bool
-    may_meet() const
-    {
-      return encounters != nullptr && encounters->any();
-    }
-
-    /** A drag that is too weak to matter elsewhere. It decides where pieces go
-     *  that loads push and nothing holds: doc/theory.md (4.8f). */
-    std::unique_ptr<Drag<dim>>
-    weak_drag(const double typical_stiffness) const;
-    MassList
-    masses() const;
-
-    const TissueModel<dim> &model;
-    const Tissue<dim>      &tissue;
-    const SplineSpace<dim> &space;
-    TimerOutput            &timer;
-    const MPI_Comm          comm;
-    const RigidModes<dim>   rigid_modes;
-
-    const Encounters<dim> *const encounters;
+    class Work;
+    std::unique_ptr<const Work> work;
   };
 } // namespace Morula
 

@@ -90,14 +90,6 @@ namespace Morula
     clear();
   }
 
-  template <int dim>
-  void
-  GridContents<dim>::clear()
-  {
-    volumes.assign(nodes_.size(), 0);
-    counts.assign(nodes_.size(), Counts{});
-    reaches.assign(nodes_.size(), Reaches{});
-  }
 
   template <int dim>
   void
@@ -153,14 +145,6 @@ namespace Morula
                       });
   }
 
-  template <int dim>
-  void
-  GridContents<dim>::sum(const BackgroundGrid<dim> &grid)
-  {
-    // Owners add up what all ranks have counted, then tell all ranks in whose
-    // windows their grid cells lie.
-    spread(window_.to_owners(records(), grid));
-  }
 
   template <int dim>
   void

@@ -219,21 +219,6 @@ namespace Morula
     constexpr double one_layer = 1.5, two_layers = 2.5;
   } // namespace
 
-  template <int dim>
-  Occupancy<dim>::Occupancy(const GridWindow<dim>    &window,
-                            const unsigned int        points_per_cell,
-                            const bool                share_points,
-                            const SharedParting<dim> &parting)
-    : points_per_cell(points_per_cell)
-    , share_points(share_points)
-    , contents(window, parting)
-  {}
-
-  template <int dim>
-  Occupancy<dim>::Occupancy(const GridBox<dim> &box)
-    : Occupancy(GridWindow<dim>(box))
-  {}
-
 
   template <int dim>
   void
@@ -275,15 +260,6 @@ namespace Morula
     subdivides_ = subdivides_ || n_points > 1;
   }
 
-
-  template <int dim>
-  void
-  Occupancy<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
-  {
-    // The contents travel to the wider window; rows are found anew from these.
-    contents.widen(grid, here);
-    find_rows();
-  }
 
   template <int dim>
   void

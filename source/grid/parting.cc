@@ -272,14 +272,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Parting<dim>::is_contested(const unsigned int number) const
-  {
-    return std::binary_search(contested_.begin(), contested_.end(), number);
-  }
-
-
-  template <int dim>
   unsigned int
   Parting<dim>::n_parts(const unsigned int number) const
   {
@@ -317,15 +309,6 @@ namespace Morula
       if (const auto &[there, part] = parts[parts_of_cells[i]]; there == number)
         return part;
     return 0;
-  }
-
-
-  template <int dim>
-  unsigned int
-  Parting<dim>::part_of_patch(const types::particle_index id) const
-  {
-    const auto part = parts_of_patches.find(id);
-    return part == parts_of_patches.end() ? 0 : part->second;
   }
 
 

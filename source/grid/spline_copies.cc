@@ -482,16 +482,6 @@ namespace Morula
     return copy;
   }
 
-  template <int dim>
-  unsigned int
-  SplineCopies<dim>::copy_at(const GridIndex<dim> &spline,
-                             const unsigned int    place) const
-  {
-    const unsigned int number = window.number(spline);
-    AssertThrow(first[number] + place < first[number + 1], ExcInternalError());
-    return first[number] + place;
-  }
-
 
   template class SplineCopies<2>;
   template class SplineCopies<3>;

@@ -332,14 +332,6 @@ namespace Morula
     return weights;
   }
 
-  template <int dim>
-  ExtensionSearch<dim>::ExtensionSearch(
-    const Occupancy<dim> &occupancy, const std::vector<GridCellClass> &classes)
-    : occupancy(occupancy)
-    , nodes(occupancy.nodes())
-    , classes(classes)
-    , reached(nodes.size(), 0)
-  {}
 
   /** Grid cells with tissue within @p radius of the spline's centre that are
    *  connected, inside this window, to the copy's support. */

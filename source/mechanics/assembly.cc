@@ -216,14 +216,6 @@ namespace Morula
     return graph;
   }
 
-  template <int dim, int n_components>
-  int
-  MatrixScatter<dim, n_components>::column_id(
-    const types::global_dof_index unknown) const
-  {
-    return matrix.trilinos_matrix().ColMap().LID(
-      static_cast<TrilinosWrappers::types::int_type>(unknown * n_components));
-  }
 
   template <int dim, int n_components>
   void

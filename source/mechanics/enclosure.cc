@@ -128,14 +128,6 @@ namespace Morula
 
 
   template <int dim>
-  SweptVolume<dim>::SweptVolume(GroupedPoints<dim>          points,
-                                std::vector<Tensor<1, dim>> areas)
-    : PointTerm<dim>(std::move(points))
-    , areas(std::move(areas))
-  {}
-
-
-  template <int dim>
   void
   SweptVolume<dim>::add_point(const unsigned int       p,
                               const SplineValues<dim> &splines,

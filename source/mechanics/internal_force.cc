@@ -204,12 +204,6 @@ namespace Morula
     }
   } // namespace
 
-  template <int dim>
-  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points,
-                                    const VolumetricStrain     form)
-    : points(points)
-    , form(form)
-  {}
 
   template <int dim>
   template <typename Visit>

@@ -14,21 +14,6 @@
 
 namespace Morula
 {
-  template <int dim>
-  MomentumBalance<dim>::MomentumBalance(const SplineSpace<dim> &space,
-                                        const TermList         &terms,
-                                        TimerOutput            &timer,
-                                        const MPI_Comm          comm,
-                                        const Enclosure<dim>   *enclosure,
-                                        const PairTerm         *pairs)
-    : space(space)
-    , terms(terms)
-    , timer(timer)
-    , comm(comm)
-    , assembly(space, comm)
-    , enclosure(enclosure)
-    , pairs(pairs)
-  {}
 
 
   template <int dim>

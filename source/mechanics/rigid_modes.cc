@@ -269,14 +269,6 @@ namespace Morula
       pieces[p].free = free_motions(&sums[p * n * n], length);
   }
 
-  template <int dim>
-  bool
-  RigidModes<dim>::any() const
-  {
-    return std::any_of(pieces.begin(), pieces.end(), [](const Piece &piece) {
-      return !piece.free.empty();
-    });
-  }
 
   template <int dim>
   std::vector<Equilibrium::Vector>

@@ -61,17 +61,6 @@ namespace Morula
 
 
   template <int dim, int n_components>
-  TrilinosWrappers::MPI::Vector
-  FieldUnknowns<dim, n_components>::vector(
-    const std::vector<double> &values) const
-  {
-    Vector result = zero();
-    std::copy(values.begin(), values.end(), result.begin());
-    return result;
-  }
-
-
-  template <int dim, int n_components>
   template <typename Action>
   void
   FieldUnknowns<dim, n_components>::for_own(const Action &action) const

@@ -185,14 +185,6 @@ namespace Morula
 
 
   template <int dim>
-  PointList<dim>
-  FollowingSurface<dim>::before_losses(const Tissue<dim> &tissue) const
-  {
-    return renews() ? tissue.boundary_points().copy() : PointList<dim>();
-  }
-
-
-  template <int dim>
   void
   FollowingSurface<dim>::follow(Tissue<dim>                 &tissue,
                                 const SplineSpace<dim>      &space,
@@ -314,14 +306,6 @@ namespace Morula
                  follow_surface ? fit.enclosed : share * fit.cells});
       }
     pull_to_cells(tissue, length);
-  }
-
-
-  template <int dim>
-  bool
-  FollowingSurface<dim>::renews() const
-  {
-    return model.scene.tissue.renew_surface > 0.;
   }
 
 

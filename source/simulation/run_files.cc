@@ -247,14 +247,6 @@ namespace Morula
         }
   }
 
-  template <int dim>
-  bool
-  RunFiles<dim>::has_format(const std::string &format) const
-  {
-    return std::find(scene.output.formats->begin(),
-                     scene.output.formats->end(),
-                     format) != scene.output.formats->end();
-  }
 
   template <int dim>
   void

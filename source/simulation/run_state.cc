@@ -95,13 +95,6 @@ namespace Morula
              state_.begin + part * ((end_of_interval() - state_.begin) / parts);
   }
 
-  void
-  TimeSteps::halve()
-  {
-    // The time stays: twice as many parts of half the length are done.
-    state_.part *= 2;
-    ++state_.level;
-  }
 
   void
   TimeSteps::adapt(const double mu)

@@ -131,8 +131,8 @@ namespace Morula
     // Where folds have contact, tissue that comes near does not stick.
     if (tissue.cells().has_parts())
       return;
-    pieces.look(space, tissue.grid(), time_steps.time());
-    gaps.look(tissue, space, time_steps.time());
+    watches.look_at_pieces(space, tissue.grid(), time_steps.time());
+    watches.look_at_gaps(tissue, space, time_steps.time());
   }
 
 

@@ -314,7 +314,7 @@ namespace Morula
       return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
                                                 comm);
     };
-    lost_conditions.begin(tissue);
+    watches.begin_conditions(tissue);
     const std::uint64_t          n_before = n_points();
     const std::vector<CellEvent> removals = remove_dead_cells(tissue,
                                                               model.development,
@@ -325,7 +325,7 @@ namespace Morula
     // is no measure any more.
     const std::uint64_t n_left = n_points();
     if (n_left < n_before)
-      lost_conditions.look(tissue, time_steps.time());
+      watches.look_at_conditions(tissue, time_steps.time());
     if (surface.is_cut(n_before, n_left))
       run_state.enclosed_share.reset();
     // The events are those of this rank's cells. The length of a step is the

@@ -53,13 +53,6 @@ namespace Morula
 
 
   template <int dim>
-  const Tissue<dim> &
-  Simulation<dim>::state() const
-  {
-    return tissue;
-  }
-
-  template <int dim>
   CellQuantities
   Simulation<dim>::quantities(const unsigned int p) const
   {
@@ -89,7 +82,7 @@ namespace Morula
     row.step = run_state.n_steps;
     set_state(model, tissue, time_steps.time(), row);
     if (model.development.is_mortal())
-      of_step["pieces"] = pieces.n_pieces();
+      of_step["pieces"] = watches.n_pieces();
     const CellReader<dim> reader = model.development.reader(time_steps.time());
     for (const auto &[name, effect] : model.moments)
       effect->describe(

@@ -30,11 +30,7 @@ namespace Morula
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , tissue(model.empty_tissue(comm))
     , time_steps(scene.time)
-    , pieces(model.development.is_mortal(),
-             [this](const std::string &text) { files->message(text); })
-    , gaps([this](const std::string &text) { files->message(text); })
-    , lost_conditions(model,
-                      [this](const std::string &text) { files->message(text); })
+    , watches(model, [this](const std::string &text) { files->message(text); })
     , surface(model, run_state.next_boundary_id, timer, comm)
   {
     for (const auto &[name, equation] : model.equations)
@@ -222,7 +218,7 @@ namespace Morula
           find_steady();
         begin_moments();
         for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
-        pieces.count(*first_splines, comm, time_steps.time());
+        watches.count_pieces(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
         write_rows();

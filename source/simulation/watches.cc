@@ -16,27 +16,21 @@
 
 namespace Morula
 {
-  template <int dim>
-  ConditionWatch<dim>::ConditionWatch(const TissueModel<dim> &model,
-                                      const Announce         &announce)
-    : model(model)
-    , announce(announce)
-  {}
 
 
   template <int dim>
   void
-  ConditionWatch<dim>::begin(const Tissue<dim> &tissue)
+  Watches<dim>::begin_conditions(const Tissue<dim> &tissue)
   {
     if (!has_begun)
-      before = count(tissue);
+      points_before = count_points(tissue);
     has_begun = true;
   }
 
 
   template <int dim>
   std::map<std::string, std::uint64_t>
-  ConditionWatch<dim>::count(const Tissue<dim> &tissue) const
+  Watches<dim>::count_points(const Tissue<dim> &tissue) const
   {
     // Points keep the place and normal by which conditions choose them. The
     // names follow from the scene, so that all ranks add up the same ones.
@@ -65,43 +59,36 @@ namespace Morula
 
   template <int dim>
   void
-  ConditionWatch<dim>::look(const Tissue<dim> &tissue, const double t)
+  Watches<dim>::look_at_conditions(const Tissue<dim> &tissue, const double t)
   {
     // Some points may go with their cells, and forces.csv has their number.
     // Once the last one is gone the scene is another one. Where all cells are
     // gone nothing is left to be told of.
-    const auto now = count(tissue);
+    const auto now = count_points(tissue);
     const bool has_cells =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(),
                                          tissue.communicator()) > 0;
     for (const auto &[name, n] : now)
-      if (before[name] > 0 && n == 0 && has_cells)
+      if (points_before[name] > 0 && n == 0 && has_cells)
         {
           std::ostringstream text;
           text << "Warning: from t = " << t << " day on " << name
                << " acts on no boundary point any more, and did on "
-               << before[name]
+               << points_before[name]
                << " before: the cells near them are gone. What it held, loaded "
                   "or fed goes on without it. Keep these cells alive, or "
                   "choose a place that stays.";
           announce(text.str());
         }
-    before = now;
+    points_before = now;
   }
 
 
   template <int dim>
-  PieceWarnings<dim>::PieceWarnings(const bool counts, const Announce &announce)
-    : counts(counts)
-    , announce(announce)
-  {}
-
-
-  template <int dim>
   void
-  PieceWarnings<dim>::look(const SplineSpace<dim>    &space,
-                           const BackgroundGrid<dim> &grid,
-                           const double               t)
+  Watches<dim>::look_at_pieces(const SplineSpace<dim>    &space,
+                               const BackgroundGrid<dim> &grid,
+                               const double               t)
   {
     // The user is told of the first place only. After that no step looks for
     // another one, which would cost a search; all ranks know the same.
@@ -120,19 +107,19 @@ namespace Morula
                 "not told of.";
         announce(text.str());
       }
-    count(space, grid.communicator(), t);
+    count_pieces(space, grid.communicator(), t);
   }
 
 
   template <int dim>
   void
-  PieceWarnings<dim>::count(const SplineSpace<dim> &space,
-                            const MPI_Comm          comm,
-                            const double            t)
+  Watches<dim>::count_pieces(const SplineSpace<dim> &space,
+                             const MPI_Comm          comm,
+                             const double            t)
   {
     // Only pieces with cells count. The count of the first step has nothing to
     // be compared with.
-    if (!counts)
+    if (!model.development.is_mortal())
       return;
     const unsigned int n = pieces_with_cells(space, comm);
     if (n_pieces_ > 0 && n > n_pieces_ && !has_parted)
@@ -322,29 +309,23 @@ namespace Morula
 
 
   template <int dim>
-  GapWatch<dim>::GapWatch(const Announce &announce)
-    : announce(announce)
-  {}
-
-
-  template <int dim>
   void
-  GapWatch<dim>::look(const Tissue<dim>      &tissue,
-                      const SplineSpace<dim> &space,
-                      const double            t)
+  Watches<dim>::look_at_gaps(const Tissue<dim>      &tissue,
+                             const SplineSpace<dim> &space,
+                             const double            t)
   {
     // A gap closes in many steps, so that not each of them has to search.
     // Without a surface, or when the user knows, no rank searches. All this is
     // the same on all ranks, so that none waits in the search.
     constexpr unsigned int every = 10;
-    if (has_told || n_looks++ % every != 0 ||
+    if (has_told_of_gap || n_looks++ % every != 0 ||
         Utilities::MPI::sum<double>(tissue.boundary_points().size(),
                                     tissue.communicator()) == 0.)
       return;
     const auto gap = narrowest_gap(tissue, space);
     if (!gap)
       return;
-    has_told = true;
+    has_told_of_gap = true;
     std::ostringstream text;
     text << "Warning: from t = " << t
          << " day on the surface faces itself at a distance of " << gap->width
@@ -358,10 +339,6 @@ namespace Morula
     announce(text.str());
   }
 
-  template class ConditionWatch<2>;
-  template class ConditionWatch<3>;
-  template class PieceWarnings<2>;
-  template class PieceWarnings<3>;
-  template class GapWatch<2>;
-  template class GapWatch<3>;
+  template class Watches<2>;
+  template class Watches<3>;
 } // namespace Morula

@@ -199,7 +199,12 @@ namespace Morula
 
     /** Sums all but the quadrature points over all ranks. Collective. */
     void
-    sum(const BackgroundGrid<dim> &grid);
+    sum(const BackgroundGrid<dim> &grid)
+    {
+      // Owners add up what all ranks have counted, then tell all ranks in whose
+      // windows their grid cells lie.
+      spread(window_.to_owners(records(), grid));
+    }
 
     /** Ends the sums on one rank. */
     void
@@ -306,7 +311,12 @@ namespace Morula
 
     /** Empties the tables. */
     void
-    clear();
+    clear()
+    {
+      volumes.assign(nodes_.size(), 0);
+      counts.assign(nodes_.size(), Counts{});
+      reaches.assign(nodes_.size(), Reaches{});
+    }
 
     /** Replaces what this rank has counted by what all have, from @p records of
      *  its grid cells. Collective. */

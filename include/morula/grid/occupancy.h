@@ -114,10 +114,16 @@ namespace Morula
     explicit Occupancy(const GridWindow<dim>    &window,
                        const unsigned int        points_per_cell = 1,
                        const bool                share_points    = false,
-                       const SharedParting<dim> &parting         = {});
+                       const SharedParting<dim> &parting         = {})
+      : points_per_cell(points_per_cell)
+      , share_points(share_points)
+      , contents(window, parting)
+    {}
 
     /** The occupancy of a box on one rank. */
-    explicit Occupancy(const GridBox<dim> &box);
+    explicit Occupancy(const GridBox<dim> &box)
+      : Occupancy(GridWindow<dim>(box))
+    {}
 
     /** Adds a particle. @param id of its cell, by which its part is known */
     void
@@ -166,7 +172,13 @@ namespace Morula
 
     /** Sees a wider window after both rounds, see GridWindow. Collective. */
     void
-    widen(const BackgroundGrid<dim> &grid, const bool here);
+    widen(const BackgroundGrid<dim> &grid, const bool here)
+    {
+      // The contents travel to the wider window; rows are found anew from
+      // these.
+      contents.widen(grid, here);
+      find_rows();
+    }
 
     /**
      * Quadrature points per edge of a particle. The particle's box and the

@@ -10,6 +10,7 @@
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
 
+#include <algorithm>
 #include <memory>
 #include <unordered_map>
 #include <utility>
@@ -89,7 +90,10 @@ namespace Morula
 
     /** Whether a grid cell is contested. */
     bool
-    is_contested(const unsigned int number) const;
+    is_contested(const unsigned int number) const
+    {
+      return std::binary_search(contested_.begin(), contested_.end(), number);
+    }
 
     /** How many parts a grid cell has. */
     unsigned int
@@ -115,7 +119,11 @@ namespace Morula
     /** The part of its grid cell that a boundary point belongs to: that of the
      *  nearest cell behind it. */
     unsigned int
-    part_of_patch(const types::particle_index id) const;
+    part_of_patch(const types::particle_index id) const
+    {
+      const auto part = parts_of_patches.find(id);
+      return part == parts_of_patches.end() ? 0 : part->second;
+    }
 
     /** Whether bonds connect the cells behind two boundary points inside a ball
      *  around the middle of these, which is wide enough for a straight chain of

@@ -92,7 +92,13 @@ namespace Morula
 
     /** The copy of a spline that has that place. */
     unsigned int
-    copy_at(const GridIndex<dim> &spline, const unsigned int place) const;
+    copy_at(const GridIndex<dim> &spline, const unsigned int place) const
+    {
+      const unsigned int number = window.number(spline);
+      AssertThrow(first[number] + place < first[number + 1],
+                  ExcInternalError());
+      return first[number] + place;
+    }
 
     /** Coordinates of the grid cell that a copy's spline is centred on. */
     GridIndex<dim>

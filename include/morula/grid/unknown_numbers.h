@@ -164,7 +164,12 @@ namespace Morula
   {
   public:
     ExtensionSearch(const Occupancy<dim>             &occupancy,
-                    const std::vector<GridCellClass> &classes);
+                    const std::vector<GridCellClass> &classes)
+      : occupancy(occupancy)
+      , nodes(occupancy.nodes())
+      , classes(classes)
+      , reached(nodes.size(), 0)
+    {}
 
     /**
      * The inner nodes with the smallest Σ|e|, in the order of their numbers.

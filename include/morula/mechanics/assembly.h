@@ -150,7 +150,11 @@ namespace Morula
     /** Position in the matrix's columns of a global unknown's first
      *  component. */
     int
-    column_id(const types::global_dof_index unknown) const;
+    column_id(const types::global_dof_index unknown) const
+    {
+      return matrix.trilinos_matrix().ColMap().LID(
+        static_cast<TrilinosWrappers::types::int_type>(unknown * n_components));
+    }
 
     /** An unknown's rows that another rank adds to: the number of the owned
      *  unknown, and the positions of the columns' first components. */

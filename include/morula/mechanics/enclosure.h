@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -25,7 +26,10 @@ namespace Morula
   public:
     /** @param areas a_t n_t of the points, out of the tissue and so into the
      *         space; µm^(dim-1) */
-    SweptVolume(GroupedPoints<dim> points, std::vector<Tensor<1, dim>> areas);
+    SweptVolume(GroupedPoints<dim> points, std::vector<Tensor<1, dim>> areas)
+      : PointTerm<dim>(std::move(points))
+      , areas(std::move(areas))
+    {}
 
   private:
     void

@@ -143,7 +143,10 @@ namespace Morula
     /** Keeps a reference to the points. */
     explicit InternalForce(
       const MaterialPoints<dim> &points,
-      const VolumetricStrain     form = VolumetricStrain::pointwise);
+      const VolumetricStrain     form = VolumetricStrain::pointwise)
+      : points(points)
+      , form(form)
+    {}
 
     void
     add(const unsigned int     grid_cell,

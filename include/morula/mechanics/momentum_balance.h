@@ -41,7 +41,15 @@ namespace Morula
                     TimerOutput            &timer,
                     const MPI_Comm          comm,
                     const Enclosure<dim>   *enclosure = nullptr,
-                    const PairTerm         *pairs     = nullptr);
+                    const PairTerm         *pairs     = nullptr)
+      : space(space)
+      , terms(terms)
+      , timer(timer)
+      , comm(comm)
+      , assembly(space, comm)
+      , enclosure(enclosure)
+      , pairs(pairs)
+    {}
 
     /** To be called where the pair term has new links. */
     void

@@ -7,6 +7,7 @@
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 
+#include <utility>
 #include <vector>
 
 namespace Morula

@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -52,7 +53,12 @@ namespace Morula
 
     /** Whether any piece has an unsupported rigid motion. */
     bool
-    any() const;
+    any() const
+    {
+      return std::any_of(pieces.begin(), pieces.end(), [](const Piece &piece) {
+        return !piece.free.empty();
+      });
+    }
 
     /**
      * Orthonormal coefficient vectors that span the unsupported rigid motions

@@ -14,7 +14,9 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace Morula
@@ -51,7 +53,12 @@ namespace Morula
 
     /** The vector with these values at owned(), in order. */
     Vector
-    vector(const std::vector<double> &values) const;
+    vector(const std::vector<double> &values) const
+    {
+      Vector result = zero();
+      std::copy(values.begin(), values.end(), result.begin());
+      return result;
+    }
 
     /** Zero everywhere. */
     Vector

@@ -67,7 +67,10 @@ namespace Morula
     /** A copy of the points, to be taken before a step loses any; empty if the
      *  scene never renews the surface. */
     PointList<dim>
-    before_losses(const Tissue<dim> &tissue) const;
+    before_losses(const Tissue<dim> &tissue) const
+    {
+      return renews() ? tissue.boundary_points().copy() : PointList<dim>();
+    }
 
     /**
      * Makes the surface anew if that is due, or if the step has lost too many
@@ -95,7 +98,11 @@ namespace Morula
     change_volumes(Tissue<dim>                 &tissue,
                    const std::function<void()> &change) const;
     bool
-    renews() const;
+    renews() const
+    {
+      return model.scene.tissue.renew_surface > 0.;
+    }
+
     /** renew() for those bodies that have @p selects, body by body. */
     bool
     renew_bodies(Tissue<dim>                             &tissue,

@@ -16,6 +16,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -157,7 +158,12 @@ namespace Morula
     snapshot_due_by_clock() const;
 
     bool
-    has_format(const std::string &format) const;
+    has_format(const std::string &format) const
+    {
+      return std::find(scene.output.formats->begin(),
+                       scene.output.formats->end(),
+                       format) != scene.output.formats->end();
+    }
 
     /** Waits for the files of points, if there are any, and lists them. */
     void

@@ -10,6 +10,7 @@
 #include <morula/output/snapshot.h>
 #include <morula/particles/tissue.h>
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -156,7 +157,12 @@ namespace Morula
 
     /** Cuts the next step in two. The present time stays as it is. */
     void
-    halve();
+    halve()
+    {
+      // The time stays: twice as many parts of half the length are done.
+      state_.part *= 2;
+      ++state_.level;
+    }
 
     TimeParameters parameters;
     State          state_;

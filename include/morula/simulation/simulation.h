@@ -60,7 +60,10 @@ namespace Morula
 
     /** Cells and boundary points as they are now. */
     const Tissue<dim> &
-    state() const;
+    state() const
+    {
+      return tissue;
+    }
 
     /** The row of statistics.csv for the present state and the step that led to
      *  it. */
@@ -242,9 +245,7 @@ namespace Morula
       double force; // |R| where it began, kPa µm^(dim-1)
     } first_attempt = {0., 0.};
 
-    PieceWarnings<dim>                               pieces;
-    GapWatch<dim>                                    gaps;
-    ConditionWatch<dim>                              lost_conditions;
+    Watches<dim>                                     watches;
     FollowingSurface<dim>                            surface;
     std::vector<std::unique_ptr<EquationInRun<dim>>> equations;
     bool warned_of_long_cells = false; // once a run, or before it started

@@ -16,55 +16,42 @@
 
 namespace Morula
 {
-  /** Tells the user when a condition on the surface, of the tissue or of a
-   *  field, has lost its last point, as the cells there are gone: what it held,
-   *  loaded or fed goes on without it. */
+  /** What is looked at while a run goes on, to tell the user. */
   template <int dim>
-  class ConditionWatch
+  class Watches
   {
   public:
     /** @param model of the run; it must stay */
-    ConditionWatch(const TissueModel<dim> &model, const Announce &announce);
+    Watches(const TissueModel<dim> &model, const Announce &announce)
+      : model(model)
+      , announce(announce)
+    {}
 
     /** Counts the points of each condition, before cells are removed for the
      *  first time. Collective. */
     void
-    begin(const Tissue<dim> &tissue);
+    begin_conditions(const Tissue<dim> &tissue);
 
-    /** Counts them anew after boundary points have gone with their cells, at
-     *  @p t (day). Collective. */
+    /** Tells when a condition on the surface, of the tissue or of a field, has
+     *  lost its last point, as the cells there are gone: what it held, loaded
+     *  or fed goes on without it. To be called after boundary points have gone
+     *  with their cells, at @p t (day). Collective. */
     void
-    look(const Tissue<dim> &tissue, const double t);
+    look_at_conditions(const Tissue<dim> &tissue, const double t);
 
-  private:
-    /** How many points each condition acts on. Collective. */
-    std::map<std::string, std::uint64_t>
-    count(const Tissue<dim> &tissue) const;
-
-    const TissueModel<dim>              &model;
-    const Announce                       announce;
-    std::map<std::string, std::uint64_t> before;
-    bool                                 has_begun = false;
-  };
-
-  /** Tells the user once when pieces of the tissue join, and once when it
-   *  parts. */
-  template <int dim>
-  class PieceWarnings
-  {
-  public:
-    /** @param counts whether to count pieces; only death can part the tissue */
-    PieceWarnings(const bool counts, const Announce &announce);
-
-    /** Looks at the splines of a step that begins at @p t (day). */
+    /** Tells once when pieces of the tissue join, and once when it parts: looks
+     *  at the splines of a step that begins at @p t (day). Collective. */
     void
-    look(const SplineSpace<dim>    &space,
-         const BackgroundGrid<dim> &grid,
-         const double               t);
+    look_at_pieces(const SplineSpace<dim>    &space,
+                   const BackgroundGrid<dim> &grid,
+                   const double               t);
 
-    /** Counts the pieces, and tells if the tissue has parted. */
+    /** Counts the pieces, if cells die: only death can part the tissue. Tells
+     *  if it has parted. Collective. */
     void
-    count(const SplineSpace<dim> &space, const MPI_Comm comm, const double t);
+    count_pieces(const SplineSpace<dim> &space,
+                 const MPI_Comm          comm,
+                 const double            t);
 
     /** The last count. */
     unsigned int
@@ -73,34 +60,29 @@ namespace Morula
       return n_pieces_;
     }
 
-  private:
-    const bool      counts;
-    const Announce  announce;
-    PieceWatch<dim> watch;
-    unsigned int    n_pieces_  = 0;
-    bool            has_joined = false; // and the user knows
-    bool            has_parted = false; // likewise
-  };
-
-  /** Tells the user, once a run, of the first gap of the tissue across which
-   *  splines reach: its sides stick together. */
-  template <int dim>
-  class GapWatch
-  {
-  public:
-    explicit GapWatch(const Announce &announce);
-
-    /** Looks at the tissue at @p t (day) before every tenth step, the first one
-     *  included. Collective. */
+    /** Tells, once a run, of the first gap of the tissue across which splines
+     *  reach: its sides stick together. Looks at the tissue at @p t (day)
+     *  before every tenth step, the first one included. Collective. */
     void
-    look(const Tissue<dim>      &tissue,
-         const SplineSpace<dim> &space,
-         const double            t);
+    look_at_gaps(const Tissue<dim>      &tissue,
+                 const SplineSpace<dim> &space,
+                 const double            t);
 
   private:
-    const Announce announce;
-    bool           has_told = false;
-    unsigned int   n_looks  = 0;
+    /** How many points each condition acts on. Collective. */
+    std::map<std::string, std::uint64_t>
+    count_points(const Tissue<dim> &tissue) const;
+
+    const TissueModel<dim>              &model;
+    const Announce                       announce;
+    std::map<std::string, std::uint64_t> points_before;
+    bool                                 has_begun = false;
+    PieceWatch<dim>                      watch;
+    unsigned int                         n_pieces_  = 0;
+    bool                                 has_joined = false; // the user knows
+    bool                                 has_parted = false; // likewise
+    bool                                 has_told_of_gap = false;
+    unsigned int                         n_looks         = 0; // at gaps
   };
 } // namespace Morula
 

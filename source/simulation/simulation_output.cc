@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
+#include <morula/effects/surface/boundary_terms.h>
+#include <morula/output/cell_fields.h>
+#include <morula/output/rows.h>
+#include <morula/output/surface_fields.h>
+#include <morula/particles/cell_domain.h>
+#include <morula/scene/tissue_model.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
-#include <morula/simulation/tissue_tables.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
+#include <vector>
 
 // What a run tells of its state.
 
@@ -17,6 +25,153 @@ namespace Morula
 {
   namespace
   {
+    /** Sets the columns of @p row about the tissue at @p t (day); those of the
+     *  effects that count events or belong to the step are 0 then. Other
+     * columns about the step stay. Collective. */
+    template <int dim>
+    void
+    set_state(const TissueModel<dim> &model,
+              const Tissue<dim>      &tissue,
+              const double            t,
+              StatisticsRow          &row)
+    {
+      // The first pass goes once through this rank's cells and adds up all that
+      // is asked of them, as reading a cell with its stress is the costly part.
+      // Boundary points only extend the box around the tissue. The second pass
+      // makes sums over all ranks of it. The columns of effects are set anew in
+      // the order of the scene.
+      const auto           &columns = model.tables.columns();
+      const Cells<dim>     &cells   = tissue.cells();
+      const CellReader<dim> reader  = model.development.reader(t);
+      const MPI_Comm        comm    = tissue.communicator();
+      TissueSums<dim>       sums;
+      LongestCell<dim>      longest(model.scene.grid.spacing);
+      std::vector<double>   of_effects(columns.size(), 0.);
+      std::uint64_t         held = 0;
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          const PresentCell<dim> cell = present_cell(tissue, p, reader);
+          sums.add_cell(cell.scalars(), cell.position());
+          held += model.development.is_held(cell, t);
+          for (std::size_t k = 0; k < columns.size(); ++k)
+            // Columns that count events or belong to the step stay 0 here.
+            if (columns[k].of_cell)
+              of_effects[k] += columns[k].of_cell(cell);
+          longest.add(cell.position(), cell_shape<dim>(cell.cell()));
+        }
+      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+        sums.add_boundary_point(tissue.boundary_points().position(p));
+
+      row.time    = t;
+      row.cells   = Utilities::MPI::sum<std::uint64_t>(cells.size(), comm);
+      row.tissue  = sums.totals(comm);
+      row.lengths = longest.over_all_ranks(comm);
+      row.held_at_checkpoint = Utilities::MPI::sum(held, comm);
+      Utilities::MPI::sum(of_effects, comm, of_effects);
+      row.of_effects.clear();
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        row.of_effects.emplace_back(columns[k].name, of_effects[k]);
+    }
+
+
+    /** The table behind cells-NNNN.csv and .vtu, at @p t, day. */
+    template <int dim>
+    CellFields<dim>
+    cell_table(const TissueModel<dim> &model,
+               const Tissue<dim>      &tissue,
+               const double            t)
+    {
+      // The table has this rank's cells in the canonical order (by grid cell,
+      // then by id). The output joins those of all ranks.
+      const Cells<dim>     &cells = tissue.cells();
+      CellFields<dim>       table(t,
+                            cells.size(),
+                            cells.columns(),
+                            model.development.has_checkpoint());
+      const CellReader<dim> reader = model.development.reader(t);
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          const PresentCell<dim> cell = present_cell(tissue, p, reader);
+          // A cell's stress and phase are those of this state and not of the
+          // step that led to it.
+          table.add(cells.id(p),
+                    cells[p],
+                    cells.position(p),
+                    reader.phase(cells[p]),
+                    model.development.is_held(cell, t),
+                    cell.quantities());
+        }
+      return table;
+    }
+
+
+    /** The table behind surface-NNNN.csv and .vtu, at @p t, day. */
+    template <int dim>
+    SurfaceFields<dim>
+    surface_table(const Tissue<dim> &tissue, const double t)
+    {
+      const BoundaryPoints<dim> &points = tissue.boundary_points();
+      SurfaceFields<dim>         table(t, points.columns());
+      for (unsigned int p = 0; p < points.size(); ++p)
+        table.add(points.id(p), points[p], points.position(p));
+      return table;
+    }
+
+
+    /** The warning about cells that are too long for the grid. */
+    template <int dim>
+    std::string
+    long_cells_warning(const StatisticsRow &row,
+                       const double         grid_spacing,
+                       const bool           grows_undivided)
+    {
+      // The row is that of all ranks. The length is the grid spacing over the
+      // least number of cells in it, which is how the column is defined
+      // (doc/theory.md, section 2.1).
+      const auto        &place = row.lengths.place;
+      std::ostringstream text;
+      text << "Warning: from t = " << row.time << " day on, fewer than "
+           << CellLengths::fewest
+           << " cells fill Grid/Spacing = " << grid_spacing
+           << " um where the tissue is stretched: " << row.lengths.n_too_long
+           << (row.lengths.n_too_long == 1 ? " cell is" : " cells are")
+           << " too long, the longest, at (" << place[0] << ' ' << place[1];
+      if (dim == 3)
+        text << ' ' << place[2];
+      text
+        << ") um, " << grid_spacing / row.lengths.min_cells_per_spacing
+        << " um. Do not rely on positions and stresses there, and if it gets "
+           "worse the run may fail. Start anew with a smaller Tissue/Cell "
+           "spacing or a larger Grid/Spacing"
+        << (grows_undivided ? ", or with cells that divide when they have "
+                              "grown: Division by size/Volume" :
+                              "")
+        << "; the column min_cells_per_spacing of statistics.csv has the "
+           "number.";
+      return text.str();
+    }
+
+
+    /** The warning about a surface that does not enclose its cells any more.
+     *  @param share_at_start as RunState::enclosed_share */
+    std::string
+    misfit_warning(const StatisticsRow &row, const double share_at_start)
+    {
+      std::ostringstream text;
+      text
+        << "Warning: from t = " << row.time << " day on, the surface encloses "
+        << row.surface->share() << " of the cells' volume, and did "
+        << share_at_start
+        << " at t = 0: boundary points have left the cells, the surface has a "
+           "hole, or cells share space. Loads on the surface and fields that "
+           "enter through it are wrong by as much. Tissue/Renew surface makes "
+           "it anew; a smaller Grid/Spacing follows the tissue more closely. "
+           "The columns enclosed_volume, total_volume and surface_distance of "
+           "statistics.csv have the numbers.";
+      return text.str();
+    }
+
+
     /** A warning of forces at @p t (day) that the weak drag of scenes with
      *  obstacles balances, doc/theory.md (4.8f); nothing where they balance.
      *  @param least what counts as a force, kPa µm^(dim-1) */
@@ -238,6 +393,90 @@ namespace Morula
                        run_state,
                        model.scene.tissue.refine_surface ||
                          model.scene.flows());
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::largest_held_displacement() const
+  {
+    // Each rank looks at its own held points, and their expressions may have no
+    // value at t + dt.
+    double largest = 0.;
+    everywhere(comm, [&]() {
+      for (const auto &point : held_points(model.boundary_conditions,
+                                           tissue,
+                                           time_steps.time(),
+                                           time_steps.next()))
+        largest = std::max(largest, point.from.distance(point.to));
+    });
+    return Utilities::MPI::max(largest, comm);
+  }
+
+  template <int dim>
+  FailedStep
+  Simulation<dim>::failed_step() const
+  {
+    // The signs of doc/theory.md, section 5.10, come from three places: the
+    // cells at t, which the failed attempts have not changed; the report of the
+    // last attempt; and the first attempt, whose unbalanced force is what that
+    // of the last one is compared with. Both forms of Nitsche's method stay
+    // false where nothing is held.
+    StatisticsRow before;
+    set_state(model, tissue, time_steps.time(), before);
+    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+    const double                   dt = time_steps.next() - time_steps.time();
+    FailedStep                     step;
+    step.first_force = first_attempt.force;
+    step.last_force  = newton_report.first_residual;
+    step.part        = dt / first_attempt.dt;
+    step.energy      = newton_report.failed_at.energy;
+    step.smallest_J  = newton_report.failed_at.smallest_J.value;
+    step.curvature   = newton_report.curvature;
+    step.min_J       = before.tissue.min_elastic_volume_ratio;
+    step.max_J       = before.tissue.max_elastic_volume_ratio;
+    if (conditions.has_dirichlet())
+      {
+        step.symmetric = conditions.nitsche().form() == NitscheForm::symmetric;
+        step.unsymmetric =
+          conditions.nitsche().form() == NitscheForm::unsymmetric;
+      }
+    step.pointwise =
+      model.material.volumetric_form() == VolumetricStrain::pointwise;
+    step.loaded =
+      conditions.has(SurfaceCondition::loaded) || !model.forces.empty();
+    // The friction is that for the whole step, as the user would set it, and
+    // not for the last halved attempt.
+    step.friction = friction_against(step.curvature,
+                                     typical_stiffness,
+                                     model.scene.grid.spacing,
+                                     first_attempt.dt);
+    return step;
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::give_up_step(const std::string &reason)
+  {
+    // The message names the step, the reason of its last attempt and the
+    // diagnosis before general advice. Points that are moved by more than half
+    // a grid spacing even in the smallest step hint at a displacement that
+    // jumps.
+    std::ostringstream text;
+    text << "the step failed even at a length of "
+         << time_steps.next() - time_steps.time()
+         << " day (Time/Smallest step = " << model.scene.time.smallest_step
+         << "): " << reason << '.' << diagnosis(failed_step())
+         << " Resuming may go on with a smaller Time/Smallest step or other "
+            "Solver keys; if it does not, start anew with a larger "
+            "Grid/Spacing, with smaller loads or less growth";
+    if (model.boundary_conditions.has_dirichlet())
+      text << ", or with another Boundary conditions/Nitsche penalty";
+    text << '.';
+    if (const double way = largest_held_displacement();
+        way > 0.5 * model.scene.grid.spacing)
+      text << " Even in so short a step held points move by " << way
+           << " um: let Boundary conditions/Displacement rise from 0 with t.";
+    give_up(text.str());
   }
 
   template class Simulation<2>;

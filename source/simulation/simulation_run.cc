@@ -5,10 +5,11 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/simulation/founding.h>
+#include <morula/output/rows.h>
+#include <morula/scene/first_cells.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/step_checks.h>
-#include <morula/simulation/tissue_tables.h>
 #include <morula/solver/linear_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -23,6 +24,112 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** The points that this rank makes at t = 0, with all columns that effects
+     *  need. They may lie in grid cells of other ranks. */
+    template <int dim>
+    struct FirstPoints
+    {
+      PointList<dim> cells, boundary_points;
+      /** The founders' rows in lineage.csv. */
+      std::vector<Birth<dim>> births;
+    };
+
+    /** Adds founder number @p i. @throws InputError */
+    template <int dim>
+    void
+    add_founder(const TissueModel<dim>              &model,
+                const Founders<dim>                 &founders,
+                const std::size_t                    i,
+                const std::vector<NearSurface<dim>> &surface,
+                const CellReader<dim>               &reader,
+                FirstPoints<dim>                    &points)
+    {
+      // The row of the founder is complete before any effect sees it: an effect
+      // checks the cell that will be in the first step, and refuses what it
+      // cannot handle. The founder is added to the cells and to lineage.csv,
+      // where it has no mother (-1).
+      const Point<dim>            X     = founders.positions[i];
+      const types::particle_index id    = founders.first_id + i;
+      std::vector<double>         row   = founder_row(model.development,
+                                            model.equations,
+                                            founders,
+                                            surface,
+                                            i,
+                                            model.scene.time.step);
+      const StateColumns<dim>    &state = model.development.state();
+      const CellView<dim, double> cell(make_array_view(row),
+                                       model.development.columns());
+      const PresentCell<dim>      founder(cell, id, X, reader);
+      for (const auto &named : model.equations)
+        named.effect->check_cell(founder, model.scene.time.step);
+      for (const auto &trait : model.traits)
+        trait->check_cell(founder, model.scene.time.step);
+      for (const auto &named : model.step_effects)
+        named.effect->check_cell(founder, model.scene.time.step);
+      for (const auto &named : model.forces)
+        named.effect->check_cell(founder, model.scene.time.step);
+      points.cells.add(id, X, make_array_view(row));
+      points.births.push_back(
+        {id,
+         -1,
+         founders.generations.empty() ? 0 : founders.generations[i],
+         0.,
+         X,
+         state.type.exists() ? cell.get(state.type) : 0});
+    }
+
+    /** Gives founders and patches the state in which they begin. Collective.
+     *  @throws InputError on all ranks if an effect cannot handle a founder */
+    template <int dim>
+    FirstPoints<dim>
+    found(const TissueModel<dim>  &model,
+          const SeededTissue<dim> &seeded,
+          const MPI_Comm           comm)
+    {
+      // Founders come first, as an effect may refuse one of them; patches
+      // cannot fail. Each rank has a part of both, numbered from first_id on,
+      // so that ids do not depend on who has which part. The points may lie
+      // anywhere: Tissue::place() sends them to the owners of their grid cells
+      // later.
+      const Founders<dim>       &founders = seeded.founders;
+      const SurfacePatches<dim> &patches  = seeded.surface;
+      const BoundaryColumns<dim> boundary = model.boundary_columns();
+      FirstPoints<dim>           points{PointList<dim>(
+                                model.development.columns().n_numbers()),
+                              PointList<dim>(boundary.n_numbers()),
+                                        {}};
+      points.cells.reserve(founders.positions.size());
+      points.births.reserve(founders.positions.size());
+      // The distance to the surface needs the patches of all ranks, so that the
+      // call is collective. The loop below is not, and may throw on one rank.
+      const auto surface =
+        near_surface_of(model.development.state(), founders, patches, comm);
+      const CellReader<dim> reader = model.development.reader(0.);
+      everywhere(comm, [&]() {
+        for (std::size_t i = 0; i < founders.positions.size(); ++i)
+          add_founder(model, founders, i, surface, reader, points);
+      });
+      for (std::size_t i = 0; i < patches.positions.size(); ++i)
+        {
+          // The condition of a patch is decided here, once for the whole run:
+          // it depends on the initial position and normal only.
+          const Point<dim>     X   = patches.positions[i];
+          const Tensor<1, dim> N   = patches.normals[i];
+          std::vector<double>  row = boundary.initial_point(
+            X, N, patches.areas[i], model.boundary_conditions.condition(X, N));
+          if (boundary.body.exists())
+            boundary.body.set(make_array_view(row), patches.bodies.at(i));
+          points.boundary_points.add(patches.first_id + i,
+                                     X,
+                                     make_array_view(row));
+        }
+      return points;
+    }
+  } // namespace
+
+
   template <int dim>
   Simulation<dim>::Simulation(const Scene &scene, const MPI_Comm comm)
     : model(scene)
@@ -357,90 +464,6 @@ namespace Morula
       files->newton(run_state.n_steps + 1, newton_report.trace);
     files->write_timings(timer);
     throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
-  }
-
-  template <int dim>
-  double
-  Simulation<dim>::largest_held_displacement() const
-  {
-    // Each rank looks at its own held points, and their expressions may have no
-    // value at t + dt.
-    double largest = 0.;
-    everywhere(comm, [&]() {
-      for (const auto &point : held_points(model.boundary_conditions,
-                                           tissue,
-                                           time_steps.time(),
-                                           time_steps.next()))
-        largest = std::max(largest, point.from.distance(point.to));
-    });
-    return Utilities::MPI::max(largest, comm);
-  }
-
-  template <int dim>
-  FailedStep
-  Simulation<dim>::failed_step() const
-  {
-    // The signs of doc/theory.md, section 5.10, come from three places: the
-    // cells at t, which the failed attempts have not changed; the report of the
-    // last attempt; and the first attempt, whose unbalanced force is what that
-    // of the last one is compared with. Both forms of Nitsche's method stay
-    // false where nothing is held.
-    StatisticsRow before;
-    set_state(model, tissue, time_steps.time(), before);
-    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    const double                   dt = time_steps.next() - time_steps.time();
-    FailedStep                     step;
-    step.first_force = first_attempt.force;
-    step.last_force  = newton_report.first_residual;
-    step.part        = dt / first_attempt.dt;
-    step.energy      = newton_report.failed_at.energy;
-    step.smallest_J  = newton_report.failed_at.smallest_J.value;
-    step.curvature   = newton_report.curvature;
-    step.min_J       = before.tissue.min_elastic_volume_ratio;
-    step.max_J       = before.tissue.max_elastic_volume_ratio;
-    if (conditions.has_dirichlet())
-      {
-        step.symmetric = conditions.nitsche().form() == NitscheForm::symmetric;
-        step.unsymmetric =
-          conditions.nitsche().form() == NitscheForm::unsymmetric;
-      }
-    step.pointwise =
-      model.material.volumetric_form() == VolumetricStrain::pointwise;
-    step.loaded =
-      conditions.has(SurfaceCondition::loaded) || !model.forces.empty();
-    // The friction is that for the whole step, as the user would set it, and
-    // not for the last halved attempt.
-    step.friction = friction_against(step.curvature,
-                                     typical_stiffness,
-                                     model.scene.grid.spacing,
-                                     first_attempt.dt);
-    return step;
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::give_up_step(const std::string &reason)
-  {
-    // The message names the step, the reason of its last attempt and the
-    // diagnosis before general advice. Points that are moved by more than half
-    // a grid spacing even in the smallest step hint at a displacement that
-    // jumps.
-    std::ostringstream text;
-    text << "the step failed even at a length of "
-         << time_steps.next() - time_steps.time()
-         << " day (Time/Smallest step = " << model.scene.time.smallest_step
-         << "): " << reason << '.' << diagnosis(failed_step())
-         << " Resuming may go on with a smaller Time/Smallest step or other "
-            "Solver keys; if it does not, start anew with a larger "
-            "Grid/Spacing, with smaller loads or less growth";
-    if (model.boundary_conditions.has_dirichlet())
-      text << ", or with another Boundary conditions/Nitsche penalty";
-    text << '.';
-    if (const double way = largest_held_displacement();
-        way > 0.5 * model.scene.grid.spacing)
-      text << " Even in so short a step held points move by " << way
-           << " um: let Boundary conditions/Displacement rise from 0 with t.";
-    give_up(text.str());
   }
 
   template class Simulation<2>;

@@ -6,9 +6,9 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/fixed.h>
-#include <morula/simulation/founding.h>
 #include <morula/simulation/run_state.h>
 #include <morula/simulation/simulation.h>
+#include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/step_checks.h>
 #include <morula/simulation/stop_signals.h>
 

@@ -3,7 +3,6 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/expression_parser.h>
-#include <morula/base/expression_syntax.h>
 #include <morula/base/input_error.h>
 
 #include <boost/algorithm/string.hpp>
@@ -16,6 +15,63 @@
 
 namespace Morula
 {
+  const char *
+  name_of(const Variable variable)
+  {
+    // The order is that of the enumeration.
+    constexpr std::array<const char *, n_variables> names = {
+      {"X",        "Y",           "Z",
+       "t",        "x",           "y",
+       "z",        "generation",  "age",
+       "type_age", "cycle_phase", "type",
+       "volume",   "growth",      "J_e",
+       "pressure", "tension",     "shear",
+       "energy",   "depth",       "present_depth",
+       "noise"}};
+    return names[static_cast<unsigned int>(variable)];
+  }
+
+
+  std::string
+  Vocabulary::name_of(const Variable variable) const
+  {
+    return is_field(variable) ? fields[field_number(variable)] :
+                                Morula::name_of(variable);
+  }
+
+
+  std::vector<Variable>
+  Vocabulary::all_variables() const
+  {
+    // Fields are variables with numbers behind all others.
+    std::vector<Variable> all = variables;
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      all.push_back(field_variable(k));
+    return all;
+  }
+
+
+  std::string
+  Vocabulary::names() const
+  {
+    std::string text;
+    for (const Variable variable : all_variables())
+      text += (text.empty() ? "" : ", ") + name_of(variable);
+    for (const auto &[name, value] : constants)
+      text += ", " + name;
+    return text;
+  }
+
+
+  const Vocabulary &
+  place_and_time()
+  {
+    static const Vocabulary vocabulary{
+      {Variable::X, Variable::Y, Variable::Z, Variable::t}};
+    return vocabulary;
+  }
+
+
   namespace
   {
     /** What every message about a text ends with. */
@@ -267,13 +323,6 @@ namespace Morula
   }
 
 
-  void
-  Expression::set_rule(const Rule<double> &new_rule)
-  {
-    rule = std::make_shared<const Rule<double>>(new_rule);
-  }
-
-
   double
   Expression::value(const VariableValues &values,
                     const unsigned int    component) const
@@ -332,13 +381,6 @@ namespace Morula
 
 
   bool
-  Expression::uses(const Variable variable) const
-  {
-    return std::binary_search(used_.begin(), used_.end(), variable);
-  }
-
-
-  bool
   Expression::follows_state() const
   {
     // These change by themselves, or never, or at events only. Everything else
@@ -365,14 +407,6 @@ namespace Morula
 
 
   bool
-  Expression::depends_on_state() const
-  {
-    // used_ is sorted, and the state's variables follow X, Y, Z and t.
-    return !used_.empty() && used_.back() > Variable::t;
-  }
-
-
-  bool
   Expression::is_always(const double       number,
                         const unsigned int n_components) const
   {
@@ -385,13 +419,6 @@ namespace Morula
     return std::all_of(of_types.begin(), of_types.end(), [=](const auto &own) {
       return own.second.is_always(number, n_components);
     });
-  }
-
-
-  std::optional<double>
-  Expression::number() const
-  {
-    return constants.empty() ? std::optional<double>() : constants[0];
   }
 
 

@@ -113,21 +113,6 @@ namespace Morula
   }
 
 
-  void
-  ExpressionKey::admit_commas()
-  {
-    commas = true;
-  }
-
-
-  ExpressionKey &
-  ExpressionKey::symbol(const std::string &symbol)
-  {
-    symbol_ = symbol;
-    return *this;
-  }
-
-
   ExpressionKey &
   ExpressionKey::operator=(const std::string &text)
   {
@@ -155,24 +140,6 @@ namespace Morula
   }
 
 
-  void
-  ExpressionKey::set_types(const std::map<std::string, double> &names)
-  {
-    types = names;
-    parsed.reset();
-  }
-
-
-  void
-  ExpressionKey::set_fields(const std::vector<std::string> &names)
-  {
-    // Fields exist only where cells are asked, at events and in steps.
-    if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
-      fields = names;
-    parsed.reset();
-  }
-
-
   ExpressionKey
   ExpressionKey::in_section_of_type(const std::string &section) const
   {
@@ -183,16 +150,6 @@ namespace Morula
                       n_components);
     key.rule = rule;
     return key;
-  }
-
-
-  void
-  ExpressionKey::set_for_type(const unsigned int type,
-                              const std::string &path,
-                              const std::string &text)
-  {
-    of_types[type] = {path, text};
-    parsed.reset();
   }
 
 
@@ -232,37 +189,6 @@ namespace Morula
         parsed_for = dim;
       }
     return *parsed;
-  }
-
-
-  std::optional<Expression>
-  ExpressionKey::optional(const unsigned int dim) const
-  {
-    return empty() ? std::optional<Expression>() : expression(dim);
-  }
-
-
-  void
-  ExpressionKey::assign(const std::string &text)
-  {
-    *this = text;
-  }
-
-
-  std::unique_ptr<Patterns::PatternBase>
-  ExpressionKey::pattern() const
-  {
-    return std::make_unique<Patterns::Anything>();
-  }
-
-
-  void
-  ExpressionKey::check(const unsigned int dim) const
-  {
-    // An empty key that may be empty has no expression.
-    if (empty() && default_text().empty())
-      return;
-    check_expression(expression(dim), dim);
   }
 
 

@@ -50,13 +50,6 @@ namespace Morula
 
 
   std::string
-  Json::truth(const bool value)
-  {
-    return value ? "true" : "false";
-  }
-
-
-  std::string
   Json::texts(const std::vector<std::string> &values)
   {
     std::vector<std::string> quoted;

@@ -26,20 +26,6 @@ namespace Morula
   }
 
 
-  void
-  AnyKey::place_in(const std::string &section)
-  {
-    path_ = section + "/" + path_;
-  }
-
-
-  void
-  AnyKey::add_documentation(const std::string &text)
-  {
-    documentation_ += text;
-  }
-
-
   std::string
   AnyKey::unit() const
   {
@@ -118,44 +104,6 @@ namespace Morula
   {
     if (rule.holds)
       rules.push_back(rule);
-  }
-
-
-  template <typename T>
-  Key<T> &
-  Key<T>::require(const std::function<bool(const T &)> &rule,
-                  const std::string                    &allowed,
-                  const std::string                    &remedy)
-  {
-    rules.push_back({rule, allowed, remedy});
-    return *this;
-  }
-
-
-  template <typename T>
-  Key<T> &
-  Key<T>::with(const std::string &method, const std::string &text)
-  {
-    with_method[method] = text;
-    return *this;
-  }
-
-
-  template <typename T>
-  Key<T> &
-  Key<T>::formerly(const std::string &path)
-  {
-    former_paths_.push_back(path);
-    return *this;
-  }
-
-
-  template <typename T>
-  Key<T> &
-  Key<T>::of_file()
-  {
-    names_file_ = true;
-    return *this;
   }
 
 
@@ -255,15 +203,6 @@ namespace Morula
       return {"true", "false"};
     else
       return {};
-  }
-
-
-  template <typename T>
-  bool
-  Key<T>::is_of_numbers() const
-  {
-    return std::is_same<T, double>::value ||
-           std::is_same<T, std::vector<double>>::value;
   }
 
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/parameter_file.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/base/suggestion.h>
 
 #include <boost/algorithm/string.hpp>
@@ -39,26 +39,19 @@ namespace Morula
              c == 0x7F;
     }
 
-    /** Reads one file line by line and keeps track of the open sections. */
-    class Reader
+    /** A subsection that is open: its name, the line where it begins, and how
+     *  far that is indented, characters. */
+    struct Open
     {
-    public:
-      Reader(std::istream &input,
-             // An included file has a reader of its own, which begins in the
-             // sections that are open where it is included.
-             const std::string       &name,
-             std::vector<Statement>  &statements,
-             std::vector<std::string> sections = {},
-             std::vector<std::string> openings = {},
-             const unsigned int       depth    = 0)
-        : input(input)
-        , name(name)
-        , statements(statements)
-        , sections(std::move(sections))
-        , openings(std::move(openings))
-        , depth(depth)
-      {}
+      std::string name, opening;
+      std::size_t indent;
+    };
 
+    /** Reads one file line by line and keeps track of the open sections. An
+     *  included file has a reader of its own, which begins in the sections that
+     *  are open where it is included. */
+    struct Reader
+    {
       void
       read()
       {
@@ -66,7 +59,7 @@ namespace Morula
         // one statement. The length is limited, as the file may be anything.
         // Sections that were open before belong to the file that includes this
         // one, so the file must not close them, and must close all of its own.
-        const std::size_t n_outer = sections.size();
+        const std::size_t n_outer = open.size();
         std::string       line, part;
         while (get_line(part))
           {
@@ -96,24 +89,23 @@ namespace Morula
                "Check its permissions and the disk.");
         // The last line may have no end.
         read_line(line, n_outer);
-        if (sections.size() > n_outer && !unclosed.section.empty())
+        if (open.size() > n_outer && !unclosed.name.empty())
           throw InputError(unclosed.opening + ": subsection",
-                           unclosed.section,
+                           unclosed.name,
                            "a subsection that is closed by 'end'",
                            "Add the missing 'end': by the indentation it "
                            "belongs before line " +
-                             std::to_string(unclosed.line_number) + ".");
-        if (sections.size() > n_outer)
+                             std::to_string(unclosed_at) + ".");
+        if (open.size() > n_outer)
           throw InputError(
-            openings[n_outer] + ": subsection",
-            sections[n_outer],
+            open[n_outer].opening + ": subsection",
+            open[n_outer].name,
             "a subsection that is closed by 'end'",
             "Add the missing 'end', of this subsection or of one "
             "within it; the file ends with line " +
               std::to_string(line_number) + ".");
       }
 
-    private:
       /**
        * Reads the next line, but not more than a line may have, since the file
        * may be anything. Comments may be longer.
@@ -182,27 +174,30 @@ namespace Morula
         else if ((word == "subsection" || word == "SUBSECTION") &&
                  !rest.empty())
           {
-            sections.push_back(rest);
-            openings.push_back(place());
-            indents.push_back(indent);
-            if (sections.size() > max_sections)
+            open.push_back({rest, place(), indent});
+            if (open.size() > max_sections)
               fail(line,
                    "at most " + std::to_string(max_sections) +
                      " subsections in each other",
                    "Is an 'end' missing?");
-            add(Statement::section, boost::join(sections, "/"), "");
+            add(true, boost::join(names(), "/"), "");
           }
         else if ((word == "include" || word == "INCLUDE") && !rest.empty())
           read_include(rest);
         else if (line == "end" || line == "END")
           {
-            if (sections.size() == n_outer)
+            if (open.size() == n_outer)
               fail(line,
                    "an 'end' for every 'subsection'",
                    "No subsection is open here: remove the 'end'.");
-            note_indentation();
-            sections.pop_back();
-            openings.pop_back();
+            // The first 'end' that stands further left than the section that it
+            // closes was meant for an outer one.
+            if (indent < open.back().indent && unclosed.name.empty())
+              {
+                unclosed    = open.back();
+                unclosed_at = line_number;
+              }
+            open.pop_back();
           }
         else
           fail(line,
@@ -211,15 +206,14 @@ namespace Morula
                  "Correct the line, or begin it with '#' if it is a comment.");
       }
 
-      /** Remembers the first 'end' that stands further left than the section
-       *  that it closes: it was meant for an outer one. */
-      void
-      note_indentation()
+      /** The names of the open sections. */
+      std::vector<std::string>
+      names() const
       {
-        const std::size_t of_section = indents.back();
-        indents.pop_back();
-        if (indent < of_section && unclosed.section.empty())
-          unclosed = {sections.back(), openings.back(), line_number};
+        std::vector<std::string> list;
+        for (const Open &section : open)
+          list.push_back(section.name);
+        return list;
       }
 
       /** What the user may have meant by a line that is no statement. */
@@ -245,9 +239,9 @@ namespace Morula
           fail("set " + assignment,
                "'set Key = value'",
                "Put '=' between the key and its value.");
-        std::vector<std::string> path = sections;
+        std::vector<std::string> path = names();
         path.push_back(boost::trim_copy(assignment.substr(0, equals)));
-        add(Statement::set,
+        add(false,
             boost::join(path, "/"),
             boost::trim_copy(assignment.substr(equals + 1)));
       }
@@ -271,15 +265,17 @@ namespace Morula
                "a file that can be read",
                "Correct the name; it counts from the working directory or from "
                "this file.");
-        Reader(stream, found, statements, sections, openings, depth + 1).read();
+        Reader{stream, found, statements, open, depth + 1}.read();
       }
 
       void
-      add(const Statement::Kind kind,
-          const std::string    &path,
-          const std::string    &value)
+      add(const bool         is_section,
+          const std::string &path,
+          const std::string &value)
       {
-        statements.push_back({kind, path, value, place() + ": ", openings});
+        statements.push_back({is_section, path, value, place() + ": "});
+        for (const Open &section : open)
+          statements.back().around.push_back(section.opening);
       }
 
       std::string
@@ -296,20 +292,15 @@ namespace Morula
         throw InputError(place(), what, allowed, remedy);
       }
 
-      std::istream            &input;
-      const std::string        name;
-      std::vector<Statement>  &statements;
-      std::vector<std::string> sections; // open ones, the outermost first
-      std::vector<std::string> openings; // the lines where they begin
-      const unsigned int       depth;
-      unsigned int             line_number = 0;
-      std::size_t              indent      = 0; // of the statement, characters
-      std::vector<std::size_t> indents;         // of the file's open sections
-      struct
-      {
-        std::string  section, opening;
-        unsigned int line_number;
-      } unclosed = {};
+      std::istream           &input;
+      const std::string       name;
+      std::vector<Statement> &statements;
+      std::vector<Open>       open        = {}; // the outermost first
+      const unsigned int      depth       = 0;
+      unsigned int            line_number = 0;
+      std::size_t             indent      = 0;  // of the statement, characters
+      Open                    unclosed    = {}; // by the indentation
+      unsigned int            unclosed_at = 0;
     };
 
     /** Why a file cannot be a scene; empty if it can. */
@@ -345,7 +336,7 @@ namespace Morula
   read_statements(std::istream &input, const std::string &name)
   {
     std::vector<Statement> statements;
-    Reader(input, name, statements).read();
+    Reader{input, name, statements}.read();
     return statements;
   }
 
@@ -391,7 +382,7 @@ namespace Morula
     boost::split(path, key, boost::is_any_of("/"));
     for (std::string &name : path)
       boost::trim(name);
-    return {Statement::set,
+    return {false,
             boost::join(path, "/"),
             boost::trim_copy(text.substr(equals + 1)),
             "-s: "};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-// Without this, json_parser.hpp of Boost 1.74 prints a note about placeholders.
+#include <morula/base/expression_key.h>
 #include <morula/base/input_error.h>
+#include <morula/base/json.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/base/suggestion.h>
 
@@ -15,6 +16,8 @@
 #include <cstdlib>
 #include <ostream>
 #include <regex>
+
+// Without this, json_parser.hpp of Boost 1.74 prints a note about placeholders.
 
 namespace Morula
 {
@@ -125,21 +128,6 @@ namespace Morula
 
 
   std::string
-  ParameterKeys::current_name(const std::string &path) const
-  {
-    const AnyKey *key = find(path);
-    return key == nullptr ? path : key->path();
-  }
-
-
-  bool
-  ParameterKeys::has_section(const std::string &path) const
-  {
-    return std::find(sections.begin(), sections.end(), path) != sections.end();
-  }
-
-
-  std::string
   ParameterKeys::missing_end(const Statement &statement) const
   {
     // A key that would exist if some section around it were closed tells of a
@@ -149,16 +137,15 @@ namespace Morula
     // Names may have a slash in them by mistake, and -s has no subsections.
     // Then nothing can be said.
     if (names.size() !=
-        statement.around.size() + (statement.kind == Statement::set ? 1 : 0))
+        statement.around.size() + (statement.is_section ? 0 : 1))
       return "";
     for (std::size_t n = names.size() - 1; n-- > 0;)
       {
         const std::vector<std::string> outer(names.begin(), names.begin() + n);
         const std::string              path =
           boost::join(outer, "/") + (n > 0 ? "/" : "") + names.back();
-        const bool known = statement.kind == Statement::section ?
-                             has_section(path) :
-                             find(path) != nullptr;
+        const bool known =
+          statement.is_section ? has_section(path) : find(path) != nullptr;
         if (known)
           return "'subsection " + names[n] + "' of " + statement.around[n] +
                  " is still open here: is an 'end' missing? ";
@@ -175,7 +162,7 @@ namespace Morula
     // not exist either: the message says which.
     const std::string section =
       statement.path.substr(0, statement.path.rfind('/'));
-    const bool               is_section = statement.kind == Statement::section;
+    const bool               is_section = statement.is_section;
     std::vector<std::string> paths;
     if (is_section)
       paths = sections;
@@ -212,7 +199,7 @@ namespace Morula
     // their own. A value must match the pattern of its key, and numbers must be
     // finite. What converting it still throws is refused with the same words:
     // what the key means, what it allows, its default and unit.
-    if (statement.kind == Statement::section)
+    if (statement.is_section)
       {
         if (!has_section(statement.path))
           refuse_unknown(statement);
@@ -296,5 +283,94 @@ namespace Morula
       }
     while (!open.empty())
       leave();
+  }
+
+
+  namespace
+  {
+    template <typename T>
+    bool
+    is(const AnyKey &key)
+    {
+      return dynamic_cast<const Key<T> *>(&key) != nullptr;
+    }
+
+    /** What kind of value a key has. */
+    std::string
+    // The types are those that programs which write scenes need to tell apart.
+    type_of(const AnyKey &key)
+    {
+      if (dynamic_cast<const ExpressionKey *>(&key) != nullptr)
+        return "expression";
+      if (key.names_file())
+        return "file";
+      if (is<double>(key))
+        return "number";
+      if (is<unsigned int>(key))
+        return "integer";
+      if (is<bool>(key))
+        return "boolean";
+      if (is<std::vector<double>>(key))
+        return "list of numbers";
+      if (is<std::vector<std::string>>(key))
+        return "list of words";
+      return key.choices().empty() ? "text" : "word";
+    }
+
+    /** The documentation without its last sentence, the unit. */
+    std::string
+    meaning_of(const AnyKey &key)
+    {
+      const std::string &all = key.documentation();
+      return key.unit().empty() ?
+               all :
+               boost::trim_right_copy(all.substr(0, all.rfind("Units: ")));
+    }
+
+    std::string
+    as_json(const AnyKey &key)
+    {
+      // Members that do not apply to a key are left out.
+      std::vector<std::pair<std::string, std::string>> members = {
+        {"path", Json::text(key.path())},
+        {"type", Json::text(type_of(key))},
+        {"unit", Json::text(key.unit())},
+        {"allowed", Json::text(key.allowed())},
+        {"default", Json::text(key.default_text())},
+        {"meaning", Json::text(meaning_of(key))}};
+      if (!key.choices().empty())
+        members.emplace_back("choices", Json::texts(key.choices()));
+      if (!key.texts_by_method().empty())
+        {
+          std::vector<std::pair<std::string, std::string>> texts;
+          for (const auto &[method, text] : key.texts_by_method())
+            texts.emplace_back(method, Json::text(text));
+          members.emplace_back("default by method", Json::object(texts));
+        }
+      if (!key.former_paths().empty())
+        members.emplace_back("formerly", Json::texts(key.former_paths()));
+      if (const auto *expression = dynamic_cast<const ExpressionKey *>(&key))
+        {
+          members.emplace_back("components",
+                               std::to_string(expression->components()));
+          members.emplace_back(
+            "evaluated", Json::text(description_of(expression->evaluated())));
+          std::vector<std::string> variables;
+          for (const Variable variable : variables_of(expression->evaluated()))
+            variables.emplace_back(name_of(variable));
+          members.emplace_back("variables", Json::texts(variables));
+        }
+      return Json::object(members);
+    }
+  } // namespace
+
+
+  void
+  ParameterKeys::print_json(std::ostream &out) const
+  {
+    std::vector<std::string> all;
+    for (const AnyKey *key : keys)
+      all.push_back("\n " + as_json(*key));
+    out << Json::list(all) << '\n';
   }
 } // namespace Morula

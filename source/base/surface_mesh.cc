@@ -22,25 +22,25 @@
 
 namespace Morula
 {
-  using namespace MeshFile;
 
   namespace
   {
     namespace Processing = CGAL::Polygon_mesh_processing;
 
+    using Kernel = MeshSoup::Kernel;
     using Mesh   = CGAL::Surface_mesh<Kernel::Point_3>;
     using Inside = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
     using Tree   = Inside::AABB_tree;
 
     /** Refuses a surface with an edge that does not have two polygons. */
     void
-    check_edges(const Soup &soup, const NamedFile &file)
+    check_edges(const MeshSoup &soup)
     {
       // All edges are looked at, so that the message can tell how many are
       // wrong; the first of each kind says where.
       std::size_t n_many = 0, n_open = 0;
       std::string first_many, first_open;
-      for (const auto &[edge, n_polygons] : edges_of(soup))
+      for (const auto &[edge, n_polygons] : soup.edges())
         if (n_polygons != 2)
           {
             ++(n_polygons > 2 ? n_many : n_open);
@@ -50,19 +50,18 @@ namespace Morula
                       place(soup.points[edge.second]) + " um";
           }
       if (n_many > 0)
-        refuse(file,
-               "The surface is non-manifold: " + std::to_string(n_many) +
-                 " edges belong to more than two polygons, such as that from " +
-                 first_many +
-                 ". Remove inner walls and fins, and separate bodies that "
-                 "touch.");
+        soup.refuse(
+          "The surface is non-manifold: " + std::to_string(n_many) +
+          " edges belong to more than two polygons, such as that from " +
+          first_many +
+          ". Remove inner walls and fins, and separate bodies that "
+          "touch.");
       if (n_open > 0)
-        refuse(file,
-               "The surface is open: " + std::to_string(n_open) +
-                 " edges belong to one polygon only, such as that from " +
-                 first_open +
-                 ". Close the holes, or merge the vertices that should "
-                 "coincide.");
+        soup.refuse("The surface is open: " + std::to_string(n_open) +
+                    " edges belong to one polygon only, such as that from " +
+                    first_open +
+                    ". Close the holes, or merge the vertices that should "
+                    "coincide.");
     }
 
     std::string
@@ -77,7 +76,7 @@ namespace Morula
 
     /** Refuses a triangle so thin that rounding would spoil its normal. */
     void
-    check_areas(const Mesh &mesh, const NamedFile &file)
+    check_areas(const Mesh &mesh, const MeshSoup &soup)
     {
       // Below this, rounding of the corners decides about the normal.
       constexpr double smallest = 1e-14; // of the longest edge's square
@@ -91,17 +90,17 @@ namespace Morula
                                  mesh.point(mesh.source(edge)),
                                  mesh.point(mesh.target(edge)))));
           if (!(Processing::face_area(face, mesh) > smallest * longest))
-            refuse(file,
-                   "The triangle with the corners " + corners(mesh, face) +
-                     " has no area: remove such triangles with a mesh editor, "
-                     "or export the surface again.");
+            soup.refuse(
+              "The triangle with the corners " + corners(mesh, face) +
+              " has no area: remove such triangles with a mesh editor, "
+              "or export the surface again.");
         }
     }
 
     /** Refuses triangles that cross or touch other ones than their neighbours.
      */
     void
-    check_intersections(const Mesh &mesh, const NamedFile &file)
+    check_intersections(const Mesh &mesh, const MeshSoup &soup)
     {
       std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
       Processing::self_intersections(mesh, std::back_inserter(pairs));
@@ -110,12 +109,11 @@ namespace Morula
       // The smallest pair is the same in each run, whatever order CGAL finds
       // them in.
       const auto [one, other] = *std::min_element(pairs.begin(), pairs.end());
-      refuse(file,
-             "The surface intersects or touches itself: " +
-               std::to_string(pairs.size()) +
-               " pairs of triangles meet, such as those with the corners " +
-               corners(mesh, one) + " and " + corners(mesh, other) +
-               ". Repair it with a mesh editor.");
+      soup.refuse("The surface intersects or touches itself: " +
+                  std::to_string(pairs.size()) +
+                  " pairs of triangles meet, such as those with the corners " +
+                  corners(mesh, one) + " and " + corners(mesh, other) +
+                  ". Repair it with a mesh editor.");
     }
 
     /** Whether @p turned goes round the other way than @p given; both have the
@@ -135,7 +133,7 @@ namespace Morula
     using CornerLists = std::vector<std::vector<Kernel::Point_3>>;
 
     CornerLists
-    corners_of(const Soup &soup)
+    corners_of(const MeshSoup &soup)
     {
       CornerLists lists(soup.polygons.size());
       for (std::size_t i = 0; i < lists.size(); ++i)
@@ -159,7 +157,7 @@ namespace Morula
     /** How many polygons of the soup have to be turned round so that all
      *  normals point out of the inside. */
     std::size_t
-    count_turned(Soup soup)
+    count_turned(MeshSoup soup)
     {
       // First polygons are turned like their neighbours, then closed parts as
       // a whole. CGAL keeps the numbers: face i is polygon i, or a part of it.
@@ -186,31 +184,31 @@ namespace Morula
     }
 
     Mesh
-    read_mesh(const NamedFile &file)
+    read_mesh(const std::string &key, const std::string &file)
     {
       // From what a file holds to a surface that bounds a volume. Each step is
       // possible only after the one before: edges are counted in the soup, so
       // that faults can be named; polygons are turned alike and become a mesh;
       // a closed mesh of triangles is tested for flat and crossing ones; at
       // last the normals are turned outward, also those of cavities.
-      Soup soup = read_soup(file);
-      check_edges(soup, file);
+      MeshSoup soup(key, file);
+      check_edges(soup);
       Processing::orient_polygon_soup(soup.points, soup.polygons);
       if (!Processing::is_polygon_soup_a_polygon_mesh(soup.polygons))
-        refuse(file, "The surface is non-manifold: repair it.");
+        soup.refuse("The surface is non-manifold: repair it.");
 
       Mesh mesh;
       Processing::polygon_soup_to_polygon_mesh(soup.points,
                                                soup.polygons,
                                                mesh);
       if (!CGAL::is_closed(mesh))
-        refuse(file, "The surface has no inside: repair its orientation.");
+        soup.refuse("The surface has no inside: repair its orientation.");
       if (!Processing::triangulate_faces(mesh))
-        refuse(file,
-               "Some polygons cannot be cut into triangles: export the surface "
-               "as triangles.");
-      check_areas(mesh, file);
-      check_intersections(mesh, file);
+        soup.refuse(
+          "Some polygons cannot be cut into triangles: export the surface "
+          "as triangles.");
+      check_areas(mesh, soup);
+      check_intersections(mesh, soup);
       Processing::orient_to_bound_a_volume(mesh);
       // Numbers of faces have to be without gaps, as they are used as indices.
       mesh.collect_garbage();
@@ -273,8 +271,8 @@ namespace Morula
   // the tree.
   struct SurfaceMesh::Implementation
   {
-    explicit Implementation(const NamedFile &file)
-      : mesh(read_mesh(file))
+    Implementation(const std::string &key, const std::string &file)
+      : mesh(read_mesh(key, file))
       , tree(mesh.faces().begin(), mesh.faces().end(), mesh)
       , inside(tree)
     {}
@@ -285,7 +283,7 @@ namespace Morula
   };
 
   SurfaceMesh::SurfaceMesh(const std::string &key, const std::string &file)
-    : implementation(std::make_unique<Implementation>(NamedFile{key, file}))
+    : implementation(std::make_unique<Implementation>(key, file))
   {
     const Mesh &mesh = implementation->mesh;
     all_triangles.reserve(mesh.number_of_faces());
@@ -366,7 +364,7 @@ namespace Morula
   {
     // The file is read once more for this, as the mesh keeps none of the
     // numbers.
-    const Soup soup = read_soup({key, name});
+    const MeshSoup soup(key, name);
     if (soup.n_merged > 0)
       review.warn(key,
                   name,

@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/near_tree.h>
+#include <morula/base/surface_mesh.h>
 #include <morula/base/surface_mesh_soup.h>
 
 #include <CGAL/IO/OBJ.h>
@@ -21,29 +22,13 @@
 #include <limits>
 #include <locale>
 
-namespace Morula::MeshFile
+namespace Morula
 {
   using namespace dealii;
-  namespace Processing = CGAL::Polygon_mesh_processing;
-
   namespace
   {
-    /** The file's ending in small letters, with its point. */
-    std::string
-    ending_of(const NamedFile &file)
-    {
-      return boost::algorithm::to_lower_copy(
-        file.name.substr(std::min(file.name.rfind('.'), file.name.size())));
-    }
-
-    /** All bytes of a file; nothing of one that is not there. */
-    std::string
-    content_of(const NamedFile &file)
-    {
-      std::ifstream stream(file.name, std::ios::binary);
-      return {std::istreambuf_iterator<char>(stream),
-              std::istreambuf_iterator<char>()};
-    }
+    namespace Processing = CGAL::Polygon_mesh_processing;
+    using Kernel         = MeshSoup::Kernel;
 
     /** Whether @p word, a blank and something else stand in a line. */
     bool
@@ -126,7 +111,7 @@ namespace Morula::MeshFile
 
     /** Refuses an STL file that ends before its last triangle. */
     void
-    check_complete(const std::string &text, const NamedFile &file)
+    check_complete(const std::string &text, const MeshSoup &soup)
     {
       // A text has no null byte, whereas the coordinates and counts of a binary
       // file always have some. Both kinds are told apart by that, as also
@@ -134,9 +119,9 @@ namespace Morula::MeshFile
       if (text.find('\0') == std::string::npos)
         {
           if (text.find("endsolid") == std::string::npos)
-            refuse(file,
-                   "The file is cut off: it has no 'endsolid'. Copy or export "
-                   "it again.");
+            soup.refuse(
+              "The file is cut off: it has no 'endsolid'. Copy or export "
+              "it again.");
           return;
         }
       // A binary STL file has 80 bytes of header, the number of triangles, and
@@ -146,13 +131,12 @@ namespace Morula::MeshFile
         std::memcpy(&n, text.data() + 80, sizeof(n));
       const std::size_t there = text.size() < 84 ? 0 : (text.size() - 84) / 50;
       if (text.size() < 84 || there < n)
-        refuse(file,
-               "The file is cut off: it has " + std::to_string(there) +
-                 " whole triangles" +
-                 (text.size() < 84 ?
-                    "" :
-                    ", and says that it has " + std::to_string(n)) +
-                 ". Copy or export it again.");
+        soup.refuse("The file is cut off: it has " + std::to_string(there) +
+                    " whole triangles" +
+                    (text.size() < 84 ?
+                       "" :
+                       ", and says that it has " + std::to_string(n)) +
+                    ". Copy or export it again.");
     }
 
     /** Lets CGAL's reader of the format @p ending append to @p soup.
@@ -160,7 +144,7 @@ namespace Morula::MeshFile
     bool
     read_polygons(const std::string &text,
                   const std::string &ending,
-                  Soup              &soup)
+                  MeshSoup          &soup)
     {
       // These formats may be binary; the readers then find out by themselves.
       std::istringstream stream(text, std::ios::in | std::ios::binary);
@@ -176,35 +160,29 @@ namespace Morula::MeshFile
              CGAL::IO::read_OFF(stream, soup.points, soup.polygons);
     }
 
-    /** Refuses a polygon with a vertex that the file does not have: CGAL reads
-     *  it in silence. */
+    /** Refuses polygons with a vertex that the file does not have, which CGAL
+     *  reads in silence, and coordinates that are no numbers, or so large that
+     *  areas and volumes would overflow. */
     void
-    check_indices(const Soup &soup, const NamedFile &file)
+    check_numbers(const MeshSoup &soup)
     {
       for (std::size_t i = 0; i < soup.polygons.size(); ++i)
         for (const std::size_t vertex : soup.polygons[i])
           if (vertex >= soup.points.size())
-            refuse(file,
-                   "Polygon " + std::to_string(i) +
-                     " (counted from 0) names a vertex that is none of the " +
-                     std::to_string(soup.points.size()) +
-                     " there: copy or export the file again.");
-    }
-
-    /** Refuses coordinates that are no numbers, or so large that areas and
-     *  volumes would overflow. */
-    void
-    check_finite(const Soup &soup, const NamedFile &file)
-    {
+            soup.refuse(
+              "Polygon " + std::to_string(i) +
+              " (counted from 0) names a vertex that is none of the " +
+              std::to_string(soup.points.size()) +
+              " there: copy or export the file again.");
       for (std::size_t i = 0; i < soup.points.size(); ++i)
         {
           const Kernel::Point_3 &p = soup.points[i];
           const double           largest =
             std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
           if (std::isnan(p.x() + p.y() + p.z()) || !(largest < 1e100))
-            refuse(file,
-                   "Vertex " + std::to_string(i) + " (counted from 0) is at " +
-                     place(p) + " um: export the surface again, in um.");
+            soup.refuse("Vertex " + std::to_string(i) +
+                        " (counted from 0) is at " + place(p) +
+                        " um: export the surface again, in um.");
         }
     }
 
@@ -218,7 +196,7 @@ namespace Morula::MeshFile
      * @returns how many vertices have gone
      */
     std::size_t
-    merge_vertices(Soup &soup)
+    merge_vertices(MeshSoup &soup)
     {
       std::vector<Point<3>> points;
       double                largest = 0.;
@@ -251,46 +229,49 @@ namespace Morula::MeshFile
     }
   } // namespace
 
-  [[noreturn]] void
-  refuse(const NamedFile &file, const std::string &remedy)
+  void
+  MeshSoup::refuse(const std::string &remedy) const
   {
-    throw InputError(file.key,
-                     file.name,
+    throw InputError(key,
+                     name,
                      "a closed surface that does not intersect itself, as an "
                      "STL, OFF, PLY or OBJ file",
                      remedy);
   }
 
-  Edges
-  edges_of(const Soup &soup)
+  std::map<std::pair<std::size_t, std::size_t>, unsigned int>
+  MeshSoup::edges() const
   {
-    Edges edges;
-    for (const std::vector<std::size_t> &polygon : soup.polygons)
+    std::map<std::pair<std::size_t, std::size_t>, unsigned int> found;
+    for (const std::vector<std::size_t> &polygon : polygons)
       for (std::size_t i = 0; i < polygon.size(); ++i)
-        ++edges[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
-    return edges;
+        ++found[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
+    return found;
   }
 
-  Soup
-  read_soup(const NamedFile &file)
+  MeshSoup::MeshSoup(const std::string &key, const std::string &name)
+    : key(key)
+    , name(name)
   {
     // CGAL reads the file and repairs the polygons, which drops what is there
     // twice or has no three corners. In between is refused what would make the
     // repair undefined: numbers of vertices that do not exist, coordinates that
     // are no numbers. Only a surface with open edges has its vertices merged:
     // one that is closed stays as it is.
-    const std::string ending = ending_of(file), content = content_of(file);
-    Soup              soup;
+    const std::string ending = boost::algorithm::to_lower_copy(
+      name.substr(std::min(name.rfind('.'), name.size())));
+    std::ifstream     stream(name, std::ios::binary);
+    const std::string content{std::istreambuf_iterator<char>(stream), {}};
     bool              good = false;
-    if (std::ifstream(file.name) &&
+    if (std::ifstream(name) &&
         content.find_first_not_of(" \t\r\n") == std::string::npos)
-      refuse(file, "The file is empty: copy or export it again.");
+      refuse("The file is empty: copy or export it again.");
     const std::string text = readable(content, ending);
     if (ending == ".stl" && !content.empty())
-      check_complete(text, file);
+      check_complete(text, *this);
     try
       {
-        good = read_polygons(text, ending, soup);
+        good = read_polygons(text, ending, *this);
       }
     catch (const std::exception &)
       {
@@ -298,24 +279,38 @@ namespace Morula::MeshFile
       }
     if (!good)
       refuse(
-        file,
         "The file cannot be read: check that it exists, that its name ends "
-        "with .stl, .off, .ply or .obj, that it is whole, and that it holds "
-        "numbers only, with decimal points.");
-    check_indices(soup, file);
-    check_finite(soup, file);
-    Processing::repair_polygon_soup(soup.points, soup.polygons);
-    if (soup.polygons.empty())
-      refuse(file, "The file has no polygons: export the surface again.");
-    const Edges edges = edges_of(soup);
-    if (std::any_of(edges.begin(), edges.end(), [](const auto &edge) {
+        "with .stl, .off, .ply or .obj, that it is whole, and that it "
+        "holds numbers only, with decimal points.");
+    check_numbers(*this);
+
+    Processing::repair_polygon_soup(points, polygons);
+    if (polygons.empty())
+      refuse("The file has no polygons: export the surface again.");
+    const auto all = edges();
+    if (std::any_of(all.begin(), all.end(), [](const auto &edge) {
           return edge.second < 2;
         }))
       {
-        soup.n_merged = merge_vertices(soup);
-        if (soup.n_merged > 0)
-          Processing::repair_polygon_soup(soup.points, soup.polygons);
+        n_merged = merge_vertices(*this);
+        if (n_merged > 0)
+          Processing::repair_polygon_soup(points, polygons);
       }
-    return soup;
   }
-} // namespace Morula::MeshFile
+
+  std::vector<std::array<Point<3>, 3>>
+  read_triangles(const std::string &key, const std::string &file)
+  {
+    const MeshSoup soup(key, file);
+    const auto     point = [&soup](const std::size_t i) {
+      const Kernel::Point_3 &p = soup.points[i];
+      return Point<3>(p.x(), p.y(), p.z());
+    };
+    std::vector<std::array<Point<3>, 3>> triangles;
+    for (const std::vector<std::size_t> &polygon : soup.polygons)
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+        triangles.push_back(
+          {{point(polygon[0]), point(polygon[i]), point(polygon[i + 1])}});
+    return triangles;
+  }
+} // namespace Morula

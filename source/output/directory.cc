@@ -6,7 +6,7 @@
 #include <morula/base/version.h>
 #include <morula/output/directory.h>
 #include <morula/output/output_file.h>
-#include <morula/output/time_left.h>
+#include <morula/output/progress.h>
 
 #include <unistd.h>
 
@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
 
@@ -121,6 +122,117 @@ namespace Morula
                        remedy);
     }
 
+    /** The path of `parameters.prm` in a directory. */
+    std::string
+    parameters_file(const std::string &directory)
+    {
+      return (fs::path(directory) / "parameters.prm").string();
+    }
+
+    /**
+     * What a later run must know about a run that it finds in its directory. It
+     * stands in the comments at the beginning of parameters.prm.
+     *
+     *     # A run of Morula 0.2.0.
+     *     # scene: ../../prm/demo.prm
+     *     # state: finished after 84.2 s
+     */
+    struct RunRecord
+    {
+      /**
+       * The scene's file, relative to the directory. So the record stays true
+       * when scenes and runs are moved or copied together, and two scenes of
+       * the same name in different directories are different.
+       */
+      std::string scene;
+      bool        finished     = false;
+      double      wall_seconds = 0.; // of a finished run
+
+      /** The comments, complete lines. */
+      std::string
+      comments() const
+      {
+        std::ostringstream text;
+        text << "# A run of Morula " << version_number() << ".\n"
+             << "# scene: " << scene << "\n# state: ";
+        if (finished)
+          text << "finished after " << wall_seconds << " s\n";
+        else
+          text << "not finished\n";
+        return text.str();
+      }
+
+      /** The record of the run in a directory. Nothing if there are no such
+       *  comments. */
+      static std::optional<RunRecord>
+      read(const std::string &directory)
+      {
+        // Three lines in front of parameters.prm; any other beginning is not of
+        // Morula, or of one without records.
+        std::ifstream in(parameters_file(directory));
+        std::string   first, second, third;
+        std::getline(in, first);
+        std::getline(in, second);
+        std::getline(in, third);
+        static const std::regex scene_line("# scene: (.*)");
+        static const std::regex state_line(
+          "# state: (?:not finished|finished after ([0-9.e+-]+) s)");
+        std::smatch scene, state;
+        if (!in || first.rfind("# A run of Morula ", 0) != 0 ||
+            !std::regex_match(second, scene, scene_line) ||
+            !std::regex_match(third, state, state_line))
+          return {};
+        RunRecord record;
+        record.scene    = scene[1];
+        record.finished = state[1].matched;
+        if (record.finished)
+          std::istringstream(state[1]) >> record.wall_seconds;
+        return record;
+      }
+    };
+
+    /** Whether @p scene_file is the parameters.prm of the directory. Then the
+     *  run is repeated from its own keys. */
+    bool
+    is_own_parameters(const std::string &directory,
+                      const std::string &scene_file)
+    {
+      std::error_code ignored; // a missing file is another file
+      return fs::equivalent(parameters_file(directory), scene_file, ignored);
+    }
+
+    /** The absolute path, with links resolved as far as the path exists. */
+    fs::path
+    full_path(const std::string &path, std::error_code &error)
+    {
+      const fs::path absolute = fs::absolute(path, error);
+      return error ? fs::path() : fs::weakly_canonical(absolute, error);
+    }
+
+    /** RunRecord::scene for a run of @p scene_file. A run that is repeated from
+     *  its own keys keeps the name that it had. */
+    std::string
+    recorded_name(const std::string &directory, const std::string &scene_file)
+    {
+      // A run that was started from its own parameters.prm is still of the
+      // scene that it was of before.
+      if (is_own_parameters(directory, scene_file))
+        if (const auto record = RunRecord::read(directory))
+          return record->scene;
+      std::error_code error;
+      std::string     name  = scene_file;
+      const fs::path  scene = full_path(scene_file, error);
+      const fs::path  from  = error ? fs::path() : full_path(directory, error);
+      // A relative path stays right when directory and scene are moved
+      // together.
+      if (!error)
+        name = scene.lexically_relative(from).string();
+      for (char &c : name) // a comment is one line
+        if (static_cast<unsigned char>(c) < ' ' || c == '\\')
+          c = '?';
+      return name;
+    }
+
     void
     write_parameters(const std::string &directory,
                      const RunSetup    &run,
@@ -133,13 +245,6 @@ namespace Morula
                        record.comments() + run.parameters);
     }
 
-    /** The absolute path, with links resolved as far as the path exists. */
-    fs::path
-    full_path(const std::string &path, std::error_code &error)
-    {
-      const fs::path absolute = fs::absolute(path, error);
-      return error ? fs::path() : fs::weakly_canonical(absolute, error);
-    }
   } // namespace
 
   std::string
@@ -293,78 +398,5 @@ namespace Morula
     on_root(comm, [&]() {
       write_parameters(directory, run, {"", true, wall_seconds});
     });
-  }
-
-  std::string
-  RunRecord::comments() const
-  {
-    std::ostringstream text;
-    text << "# A run of Morula " << version_number() << ".\n"
-         << "# scene: " << scene << "\n# state: ";
-    if (finished)
-      text << "finished after " << wall_seconds << " s\n";
-    else
-      text << "not finished\n";
-    return text.str();
-  }
-
-  std::optional<RunRecord>
-  RunRecord::read(const std::string &directory)
-  {
-    // Three lines in front of parameters.prm; any other beginning is not of
-    // Morula, or of one without records.
-    std::ifstream in(parameters_file(directory));
-    std::string   first, second, third;
-    std::getline(in, first);
-    std::getline(in, second);
-    std::getline(in, third);
-    static const std::regex scene_line("# scene: (.*)");
-    static const std::regex state_line(
-      "# state: (?:not finished|finished after ([0-9.e+-]+) s)");
-    std::smatch scene, state;
-    if (!in || first.rfind("# A run of Morula ", 0) != 0 ||
-        !std::regex_match(second, scene, scene_line) ||
-        !std::regex_match(third, state, state_line))
-      return {};
-    RunRecord record;
-    record.scene    = scene[1];
-    record.finished = state[1].matched;
-    if (record.finished)
-      std::istringstream(state[1]) >> record.wall_seconds;
-    return record;
-  }
-
-  std::string
-  parameters_file(const std::string &directory)
-  {
-    return (fs::path(directory) / "parameters.prm").string();
-  }
-
-  bool
-  is_own_parameters(const std::string &directory, const std::string &scene_file)
-  {
-    std::error_code ignored; // a missing file is another file
-    return fs::equivalent(parameters_file(directory), scene_file, ignored);
-  }
-
-  std::string
-  recorded_name(const std::string &directory, const std::string &scene_file)
-  {
-    // A run that was started from its own parameters.prm is still of the scene
-    // that it was of before.
-    if (is_own_parameters(directory, scene_file))
-      if (const auto record = RunRecord::read(directory))
-        return record->scene;
-    std::error_code error;
-    std::string     name  = scene_file;
-    const fs::path  scene = full_path(scene_file, error);
-    const fs::path  from  = error ? fs::path() : full_path(directory, error);
-    // A relative path stays right when directory and scene are moved together.
-    if (!error)
-      name = scene.lexically_relative(from).string();
-    for (char &c : name) // a comment is one line
-      if (static_cast<unsigned char>(c) < ' ' || c == '\\')
-        c = '?';
-    return name;
   }
 } // namespace Morula

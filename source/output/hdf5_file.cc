@@ -8,8 +8,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <stdexcept>
-#include <type_traits>
+#include <utility>
 
 namespace Morula
 {
@@ -17,14 +19,44 @@ namespace Morula
 
   namespace
   {
+    /** Owns an identifier of the HDF5 library. */
+    class Handle
+    {
+    public:
+      Handle(const hid_t id, herr_t (*const close)(hid_t))
+        : id(id)
+        , close(close)
+      {}
+
+      ~Handle()
+      {
+        if (id >= 0)
+          close(id);
+      }
+
+      Handle(Handle &&other) noexcept
+        : id(std::exchange(other.id, H5I_INVALID_HID))
+        , close(other.close)
+      {}
+
+      operator hid_t() const
+      {
+        return id;
+      }
+
+    private:
+      hid_t id;
+      herr_t (*close)(hid_t);
+    };
+
     /**
      * Properties of a file that the ranks access through MPI I/O. A single rank
      * uses MPI I/O too, since it takes no locks, which some file systems lack.
      */
-    Hdf5Handle
+    Handle
     access_by(const MPI_Comm comm)
     {
-      Hdf5Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       H5Pset_fapl_mpio(list, comm, MPI_INFO_NULL);
       return list;
     }
@@ -37,46 +69,25 @@ namespace Morula
       return path.find(':') == std::string::npos ? path : "ufs:" + path;
     }
 
-    /** HDF5's type of T, which is double, int, unsigned int or unsigned long
-     *  long. */
-    template <typename T>
     hid_t
-    native_type()
-    {
-      if constexpr (std::is_same_v<T, double>)
-        return H5T_NATIVE_DOUBLE;
-      else if constexpr (std::is_same_v<T, int>)
-        return H5T_NATIVE_INT;
-      else if constexpr (std::is_same_v<T, unsigned int>)
-        return H5T_NATIVE_UINT;
-      else
-        {
-          static_assert(std::is_same_v<T, unsigned long long>,
-                        "no such values in a file");
-          return H5T_NATIVE_ULLONG;
-        }
-    }
-
-    Hdf5Handle
     create_file(const std::string &path, const MPI_Comm comm)
     {
-      const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+      const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
       // HDF5 leaves so many bytes at the beginning of the file alone: there the
       // seal goes.
       H5Pset_userblock(creation, size_of_seal);
-      return {H5Fcreate(name_for_mpi(path).c_str(),
-                        H5F_ACC_TRUNC,
-                        creation,
-                        access_by(comm)),
-              H5Fclose};
+      return H5Fcreate(name_for_mpi(path).c_str(),
+                       H5F_ACC_TRUNC,
+                       creation,
+                       access_by(comm));
     }
 
     /** The type of a string of fixed length, at least 1: HDF5 has no strings of
      *  length zero. */
-    Hdf5Handle
+    Handle
     string_type(const std::size_t length)
     {
-      Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+      Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
       H5Tset_size(type, std::max<std::size_t>(length, 1));
       H5Tset_strpad(type, H5T_STR_NULLPAD);
       H5Tset_cset(type, H5T_CSET_UTF8);
@@ -93,7 +104,7 @@ namespace Morula
       return result;
     }
 
-    Hdf5Handle
+    Handle
     open_dataset(const hid_t file, const std::string &name)
     {
       return {check(H5Dopen2(file, name.c_str(), H5P_DEFAULT),
@@ -112,18 +123,47 @@ namespace Morula
     }
   } // namespace
 
-  Hdf5Silence::Hdf5Silence()
+  Hdf5File::Hdf5File(const MPI_Comm comm)
+    : comm(comm)
   {
     // HDF5 prints every error; here they are handled, or tried for.
-    H5Eget_auto2(H5E_DEFAULT, &function, &data);
-    H5Eset_auto2(H5E_DEFAULT, &Hdf5Silence::remember, this);
+    H5Eget_auto2(H5E_DEFAULT, &printer, &printer_data);
+    H5Eset_auto2(H5E_DEFAULT, &Hdf5File::remember, this);
   }
 
-  herr_t
-  Hdf5Silence::remember(const hid_t stack, void *silence)
+
+  Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
+    : Hdf5File(comm)
   {
-    std::string &reason = static_cast<Hdf5Silence *>(silence)->reason_;
-    if (!reason.empty())
+    file = create_file(path, comm);
+    note(file >= 0);
+  }
+
+
+  Hdf5File::Hdf5File(const std::string &path)
+    // Each rank reads by itself, but through MPI I/O as it was written.
+    : Hdf5File(MPI_COMM_SELF)
+  {
+    file = check(H5Fopen(name_for_mpi(path).c_str(),
+                         H5F_ACC_RDONLY,
+                         access_by(MPI_COMM_SELF)),
+                 "the file as HDF5");
+  }
+
+
+  Hdf5File::~Hdf5File()
+  {
+    if (file >= 0)
+      H5Fclose(file);
+    H5Eset_auto2(H5E_DEFAULT, printer, printer_data);
+  }
+
+
+  herr_t
+  Hdf5File::remember(const hid_t stack, void *file)
+  {
+    std::string &first = static_cast<Hdf5File *>(file)->first_error;
+    if (!first.empty())
       return 0;
     // From the call that failed inward: the last one says most.
     const auto read =
@@ -132,77 +172,63 @@ namespace Morula
           *static_cast<std::string *>(text) = error->desc;
         return herr_t(0);
       };
-    return H5Ewalk2(stack, H5E_WALK_DOWNWARD, read, &reason);
+    return H5Ewalk2(stack, H5E_WALK_DOWNWARD, read, &first);
   }
 
-  Hdf5Silence::~Hdf5Silence()
-  {
-    H5Eset_auto2(H5E_DEFAULT, function, data);
-  }
-
-  Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
-    : comm(comm)
-    , file(create_file(path, comm))
-  {
-    note(file >= 0);
-  }
 
   void
   Hdf5File::group(const std::string &name)
   {
-    const Hdf5Handle group(
+    const Handle group(
       H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Gclose);
     note(group >= 0);
   }
 
-  template <typename T>
   void
-  Hdf5File::attribute(const std::string &group,
-                      const std::string &name,
-                      const T            value)
+  Hdf5File::write_attribute(const std::string &group,
+                            const std::string &name,
+                            const hid_t        type,
+                            const void        *value)
   {
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Hdf5Handle attribute(H5Acreate_by_name(file,
-                                                 group.c_str(),
-                                                 name.c_str(),
-                                                 native_type<T>(),
-                                                 space,
-                                                 H5P_DEFAULT,
-                                                 H5P_DEFAULT,
-                                                 H5P_DEFAULT),
-                               H5Aclose);
-    note(H5Awrite(attribute, native_type<T>(), &value) >= 0);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle attribute(H5Acreate_by_name(file,
+                                             group.c_str(),
+                                             name.c_str(),
+                                             type,
+                                             space,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT),
+                           H5Aclose);
+    note(H5Awrite(attribute, type, value) >= 0);
   }
+
 
   void
   Hdf5File::text(const std::string &name, const std::string &value)
   {
-    const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
-    // Rank 0 writes the text; the others take part in the call with no rows.
-    write_dataset(
-      name, string_type(value.size()), {1}, 0, root ? 1 : 0, value.c_str());
+    write_of_root(name, string_type(value.size()), 1, value.c_str());
   }
 
-  template <typename T>
+
   void
-  Hdf5File::table(const std::string &name, const std::vector<T> &values)
+  Hdf5File::write_of_root(const std::string &name,
+                          const hid_t        type,
+                          const hsize_t      n,
+                          const void        *values)
   {
     const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
-    write_dataset(name,
-                  native_type<T>(),
-                  {values.size()},
-                  0,
-                  root ? values.size() : 0,
-                  values.data());
+    write_dataset(name, type, {n}, 0, root ? n : 0, values);
   }
 
-  template <typename T>
+
   void
-  Hdf5File::rows(const std::string &name,
-                 const T           *values,
-                 const hsize_t      n_local_rows,
-                 const hsize_t      n_columns)
+  Hdf5File::write_rows(const std::string &name,
+                       const hid_t        type,
+                       const void        *values,
+                       const hsize_t      n_local_rows,
+                       const hsize_t      n_columns)
   {
     // The first row of each rank is the number of rows of all lower ranks.
     const unsigned long long n_local = n_local_rows;
@@ -211,12 +237,13 @@ namespace Morula
       MPI_Exscan(&n_local, &before, 1, MPI_UNSIGNED_LONG_LONG, MPI_SUM, comm);
     AssertThrowMPI(ierr);
     write_dataset(name,
-                  native_type<T>(),
+                  type,
                   {Utilities::MPI::sum(n_local, comm), n_columns},
                   Utilities::MPI::this_mpi_process(comm) == 0 ? 0 : before,
                   n_local_rows,
                   values);
   }
+
 
   void
   Hdf5File::write_dataset(const std::string          &name,
@@ -230,23 +257,23 @@ namespace Morula
     // Then each selects its rows in the file and in memory, and all write in
     // one collective call. Errors are noted and not thrown, as a rank that
     // leaves would let the others wait; close() tells all of them.
-    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     // Without times of creation and without fill values the file depends on the
     // data alone, bit by bit.
     H5Pset_obj_track_times(creation, false);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
-    const Hdf5Handle file_space(H5Screate_simple(global_size.size(),
-                                                 global_size.data(),
-                                                 nullptr),
-                                H5Sclose);
-    const Hdf5Handle dataset(H5Dcreate2(file,
-                                        name.c_str(),
-                                        type,
-                                        file_space,
-                                        H5P_DEFAULT,
-                                        creation,
-                                        H5P_DEFAULT),
-                             H5Dclose);
+    const Handle file_space(H5Screate_simple(global_size.size(),
+                                             global_size.data(),
+                                             nullptr),
+                            H5Sclose);
+    const Handle dataset(H5Dcreate2(file,
+                                    name.c_str(),
+                                    type,
+                                    file_space,
+                                    H5P_DEFAULT,
+                                    creation,
+                                    H5P_DEFAULT),
+                         H5Dclose);
     note(dataset >= 0);
 
     // A data set without any value has no place in the file, and nothing is to
@@ -261,7 +288,7 @@ namespace Morula
     std::vector<hsize_t> count = global_size;
     offset[0]                  = first_row;
     count[0]                   = n_local_rows;
-    const Hdf5Handle memory_space(
+    const Handle memory_space(
       H5Screate_simple(count.size(), count.data(), nullptr), H5Sclose);
     // A rank without rows takes part with an empty selection.
     const bool nothing = has_no_values(count);
@@ -278,7 +305,7 @@ namespace Morula
                                count.data(),
                                nullptr) >= 0);
 
-    const Hdf5Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+    const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
     H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE);
     const char no_data = 0;
     note(H5Dwrite(dataset,
@@ -293,7 +320,7 @@ namespace Morula
   Hdf5File::close()
   {
     // Whether the file was closed without an error counts as well.
-    note(file.release());
+    note(H5Fclose(std::exchange(file, H5I_INVALID_HID)) >= 0);
     return Utilities::MPI::min(good ? 1 : 0, comm) == 1;
   }
 
@@ -301,37 +328,27 @@ namespace Morula
   Hdf5File::reason() const
   {
     for (const std::string &text :
-         Utilities::MPI::all_gather(comm, silence.reason()))
+         Utilities::MPI::all_gather(comm, first_error))
       if (!text.empty())
         return text;
     return "";
   }
 
-  Hdf5File::Hdf5File(const std::string &path)
-    // Each rank reads by itself, but through MPI I/O as it was written.
-    : comm(MPI_COMM_SELF)
-    , file(H5Fopen(name_for_mpi(path).c_str(),
-                   H5F_ACC_RDONLY,
-                   access_by(MPI_COMM_SELF)),
-           H5Fclose)
+  void
+  Hdf5File::read_attribute(const std::string &group,
+                           const std::string &name,
+                           const hid_t        type,
+                           void              *value) const
   {
-    check<hid_t>(file, "the file as HDF5");
-  }
-
-  template <typename T>
-  T
-  Hdf5File::attribute(const std::string &group, const std::string &name) const
-  {
-    T                value{};
-    const Hdf5Handle attribute(
+    const std::string what = "the attribute '" + name + "'";
+    const Handle      attribute(
       check(H5Aopen_by_name(
               file, group.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-            "the attribute '" + name + "'"),
+            what),
       H5Aclose);
-    check(H5Aread(attribute, native_type<T>(), &value),
-          "the attribute '" + name + "'");
-    return value;
+    check(H5Aread(attribute, type, value), what);
   }
+
 
   std::vector<std::string>
   Hdf5File::attribute_names(const std::string &group) const
@@ -369,9 +386,9 @@ namespace Morula
   Hdf5File::text(const std::string &name) const
   {
     const std::string what    = "the data set '" + name + "'";
-    const Hdf5Handle  dataset = open_dataset(file, name);
-    const Hdf5Handle  type(check(H5Dget_type(dataset), what), H5Tclose);
-    const Hdf5Handle  space(check(H5Dget_space(dataset), what), H5Sclose);
+    const Handle      dataset = open_dataset(file, name);
+    const Handle      type(check(H5Dget_type(dataset), what), H5Tclose);
+    const Handle      space(check(H5Dget_space(dataset), what), H5Sclose);
     // Only what the writer has made is accepted: one string of fixed length.
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
         H5Sget_simple_extent_npoints(space) != 1)
@@ -389,51 +406,57 @@ namespace Morula
   Hdf5File::size(const std::string &name) const
   {
     const std::string    what    = "the data set '" + name + "'";
-    const Hdf5Handle     dataset = open_dataset(file, name);
-    const Hdf5Handle     space(check(H5Dget_space(dataset), what), H5Sclose);
+    const Handle         dataset = open_dataset(file, name);
+    const Handle         space(check(H5Dget_space(dataset), what), H5Sclose);
     std::vector<hsize_t> size(check(H5Sget_simple_extent_ndims(space), what));
     check(H5Sget_simple_extent_dims(space, size.data(), nullptr), what);
     return size;
   }
 
-  template <typename T>
-  std::vector<T>
-  Hdf5File::table(const std::string &name) const
+  hsize_t
+  Hdf5File::length(const std::string &name) const
   {
     const std::vector<hsize_t> n = size(name);
     if (n.size() != 1)
       throw std::runtime_error("cannot read the data set '" + name +
                                "' as a vector");
-    return rows<T>(name, 0, n[0]);
+    return n[0];
   }
 
-  template <typename T>
-  std::vector<T>
-  Hdf5File::rows(const std::string &name,
-                 const hsize_t      begin,
-                 const hsize_t      end) const
+
+  std::size_t
+  Hdf5File::n_values(const std::string &name,
+                     const hsize_t      begin,
+                     const hsize_t      end) const
   {
-    // The range is checked against the file before memory is taken. Of the
-    // columns all are read: a selection of rows [begin, end) in the file, the
-    // same number of values in memory.
+    // The range is checked against the file before memory is taken.
+    const std::vector<hsize_t> all = size(name);
+    if (all.empty() || end < begin || end > all[0])
+      throw std::runtime_error("cannot read the data set '" + name + "'");
+    return std::accumulate(all.begin() + 1,
+                           all.end(),
+                           std::size_t(end - begin),
+                           std::multiplies<>());
+  }
+
+
+  void
+  Hdf5File::read_rows(const std::string &name,
+                      const hid_t        type,
+                      const hsize_t      begin,
+                      const hsize_t      end,
+                      void              *values) const
+  {
+    // Of the columns all are read: a selection of rows [begin, end) in the
+    // file, the same number of values in memory.
     const std::string    what  = "the data set '" + name + "'";
     std::vector<hsize_t> count = size(name);
-    if (count.empty() || end < begin || end > count[0])
-      throw std::runtime_error("cannot read " + what);
     std::vector<hsize_t> offset(count.size(), 0);
-    offset[0] = begin;
-    count[0]  = end - begin;
-
-    hsize_t n_values = 1;
-    for (const hsize_t n : count)
-      n_values *= n;
-    std::vector<T> values(n_values);
-    if (n_values == 0)
-      return values;
-
-    const Hdf5Handle dataset = open_dataset(file, name);
-    const Hdf5Handle file_space(check(H5Dget_space(dataset), what), H5Sclose);
-    const Hdf5Handle memory_space(
+    offset[0]            = begin;
+    count[0]             = end - begin;
+    const Handle dataset = open_dataset(file, name);
+    const Handle file_space(check(H5Dget_space(dataset), what), H5Sclose);
+    const Handle memory_space(
       check(H5Screate_simple(count.size(), count.data(), nullptr), what),
       H5Sclose);
     check(H5Sselect_hyperslab(file_space,
@@ -443,55 +466,7 @@ namespace Morula
                               count.data(),
                               nullptr),
           what);
-    check(H5Dread(dataset,
-                  native_type<T>(),
-                  memory_space,
-                  file_space,
-                  H5P_DEFAULT,
-                  values.data()),
+    check(H5Dread(dataset, type, memory_space, file_space, H5P_DEFAULT, values),
           what);
-    return values;
   }
-
-  template void
-  Hdf5File::attribute(const std::string &, const std::string &, const double);
-  template void
-  Hdf5File::attribute(const std::string &, const std::string &, const int);
-  template void
-  Hdf5File::table(const std::string &, const std::vector<double> &);
-  template void
-  Hdf5File::table(const std::string &, const std::vector<int> &);
-
-  template void
-  Hdf5File::rows(const std::string &,
-                 const double *,
-                 const hsize_t,
-                 const hsize_t);
-  template void
-  Hdf5File::rows(const std::string &,
-                 const unsigned int *,
-                 const hsize_t,
-                 const hsize_t);
-  template void
-  Hdf5File::rows(const std::string &,
-                 const unsigned long long *,
-                 const hsize_t,
-                 const hsize_t);
-
-  template double
-  Hdf5File::attribute(const std::string &, const std::string &) const;
-  template int
-  Hdf5File::attribute(const std::string &, const std::string &) const;
-
-  template std::vector<double>
-  Hdf5File::table(const std::string &) const;
-  template std::vector<int>
-  Hdf5File::table(const std::string &) const;
-
-  template std::vector<double>
-  Hdf5File::rows(const std::string &, const hsize_t, const hsize_t) const;
-  template std::vector<unsigned int>
-  Hdf5File::rows(const std::string &, const hsize_t, const hsize_t) const;
-  template std::vector<unsigned long long>
-  Hdf5File::rows(const std::string &, const hsize_t, const hsize_t) const;
 } // namespace Morula

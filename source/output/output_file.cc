@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
 #include <morula/output/output_file.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -16,6 +20,8 @@
 
 namespace Morula
 {
+  using namespace dealii;
+
   namespace
   {
     using Mode = OutputFile::Mode;
@@ -170,5 +176,31 @@ namespace Morula
     OutputFile file(path, OutputFile::Mode::replace);
     file.write(text);
     file.commit();
+  }
+
+
+  void
+  BackgroundFiles::start(std::function<void()> write, const bool wait)
+  {
+    finish();
+    is_pending = true;
+    // std::async is used, as a task of deal.II would run in this thread if
+    // deal.II was told to use one. It also keeps what the thread throws.
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      thread = std::async(wait ? std::launch::deferred : std::launch::async,
+                          std::move(write));
+    if (wait)
+      finish();
+  }
+
+  bool
+  BackgroundFiles::written() const
+  {
+    // All ranks must get the same answer, as the next step depends on it.
+    return is_pending &&
+           Utilities::MPI::broadcast(comm,
+                                     !thread.valid() ||
+                                       thread.wait_for(std::chrono::seconds(
+                                         0)) == std::future_status::ready);
   }
 } // namespace Morula

@@ -2,15 +2,113 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/output/output_file.h>
 #include <morula/output/progress.h>
+#include <morula/output/table.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <vector>
 
 namespace Morula
 {
+
+  double
+  TimeLeft::seconds() const
+  {
+    // The work so far is taken as a power of the simulated time, whose exponent
+    // follows from the first and the second half: tissue that grows takes
+    // longer and longer. The rest of the run follows by the same power.
+    const double first       = records.front().first;
+    const auto [last, spent] = records.back();
+    const double done        = last - first;
+    if (done <= 0. || spent <= 0.)
+      return -1.;
+    if (last >= end)
+      return 0.;
+
+    // The wall time at half of the simulated time is interpolated between
+    // records.
+    const double half   = first + 0.5 * done;
+    const auto   after  = std::lower_bound(records.begin() + 1,
+                                        records.end(),
+                                        half,
+                                        [](const auto &record, const double t) {
+                                          return record.first < t;
+                                        });
+    const auto   before = *(after - 1);
+    const double weight = (half - before.first) / (after->first - before.first);
+    const double spent_at_half =
+      before.second + weight * (after->second - before.second);
+
+    // A few steps say nothing about growth, so they count as even. The lower
+    // bound holds where the set-up outweighs the first steps, the upper one
+    // where cells have doubled four times.
+    const double exponent =
+      records.size() > 4 && spent_at_half > 0. ?
+        std::clamp(std::log2(spent / spent_at_half), 0.5, 4.) :
+        1.;
+    return spent * (std::pow((end - first) / done, exponent) - 1.);
+  }
+
+  std::string
+  duration(const double seconds)
+  {
+    const long long s = std::llround(seconds);
+    char            text[64];
+    if (s < 60)
+      std::snprintf(text, sizeof(text), "%lld s", s);
+    else if (s < 3600)
+      std::snprintf(text, sizeof(text), "%lld min %02lld s", s / 60, s % 60);
+    else if (s < 86400)
+      std::snprintf(
+        text, sizeof(text), "%lld h %02lld min", s / 3600, s / 60 % 60);
+    else
+      std::snprintf(
+        text, sizeof(text), "%lld d %02lld h", s / 86400, s / 3600 % 24);
+    return text;
+  }
+
+
+  SectionTimes
+  section_times(const TimerOutput &timer, const SectionTimes &before)
+  {
+    SectionTimes times = before;
+    // A resumed run goes on from the times of the snapshot.
+    for (const auto &section :
+         timer.get_summary_data(TimerOutput::total_wall_time))
+      times[section.first].wall_seconds += section.second;
+    for (const auto &section : timer.get_summary_data(TimerOutput::n_calls))
+      times[section.first].calls += section.second;
+    return times;
+  }
+
+  void
+  write_timings(const std::string  &path,
+                const SectionTimes &sections,
+                const double        total_seconds,
+                const MPI_Comm      comm)
+  {
+    std::string text;
+    const auto  add = [&](const std::string &name, const SectionTime &time) {
+      const TableRow row = {
+        {"section", name},
+        {"calls", time.calls},
+        {"wall_seconds", time.wall_seconds},
+        {"share", total_seconds > 0. ? time.wall_seconds / total_seconds : 0.}};
+      text += (text.empty() ? row.header() : "") + row.text();
+    };
+    for (const auto &section : sections)
+      add(section.first, section.second);
+    // The total is no sum of the sections, which do not cover all of the run.
+    add("total", {1., total_seconds});
+
+    on_root(comm, [&]() { write_atomically(path, text); });
+  }
+
+
   namespace
   {
     template <typename... Values>

@@ -1,17 +1,113 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/digest.h>
+#include <morula/base/input_error.h>
 #include <morula/output/output_file.h>
 #include <morula/output/sealed_file.h>
+#include <morula/output/snapshot.h>
 
+#include <array>
 #include <cstdint>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <vector>
 
 namespace Morula
 {
+  namespace
+  {
+    /** The generator without its highest term. As in a digest, the highest bit
+     *  is the coefficient of x^0. */
+    constexpr std::uint64_t generator = 0xc96c5795d7870f42u;
+
+    /** Tables[k][b]: the remainder of byte b with k bytes of zeros behind it.
+     */
+    using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
+
+    constexpr Tables
+    make_tables()
+    {
+      Tables tables{};
+      for (unsigned int byte = 0; byte < 256; ++byte)
+        {
+          // The remainder of one byte, bit by bit; then with more and more
+          // zeros behind it.
+          std::uint64_t rest = byte;
+          for (unsigned int bit = 0; bit < 8; ++bit)
+            rest = (rest >> 1) ^ ((rest & 1) != 0 ? generator : 0);
+          tables[0][byte] = rest;
+        }
+      for (unsigned int k = 1; k < tables.size(); ++k)
+        for (unsigned int byte = 0; byte < 256; ++byte)
+          {
+            const std::uint64_t rest = tables[k - 1][byte];
+            tables[k][byte]          = (rest >> 8) ^ tables[0][rest & 255];
+          }
+      return tables;
+    }
+
+    constexpr Tables tables = make_tables();
+
+    /** Eight bytes as a number, the first one its lowest. */
+    std::uint64_t
+    little_endian(const unsigned char *bytes)
+    {
+      std::uint64_t number = 0;
+      for (unsigned int k = 0; k < 8; ++k)
+        number |= std::uint64_t(bytes[k]) << (8 * k);
+      return number;
+    }
+  } // namespace
+
+  void
+  Digest::add(const std::string_view bytes)
+  {
+    const auto *byte = reinterpret_cast<const unsigned char *>(bytes.data());
+    const auto *const end  = byte + bytes.size();
+    std::uint64_t     rest = remainder;
+    // Eight bytes at a time: each has a table of its own, for its distance to
+    // the end of the eight, and the results do not wait for each other.
+    for (; end - byte >= 8; byte += 8)
+      {
+        const std::uint64_t word = rest ^ little_endian(byte);
+        rest                     = 0;
+        for (unsigned int k = 0; k < 8; ++k)
+          rest ^= tables[7 - k][word >> (8 * k) & 255];
+      }
+    // The last few bytes, one at a time.
+    for (; byte != end; ++byte)
+      rest = (rest >> 8) ^ tables[0][(rest ^ *byte) & 255];
+    remainder = rest;
+  }
+
+  std::string
+  digest_text(const std::uint64_t digest)
+  {
+    char text[32];
+    std::snprintf(text,
+                  sizeof(text),
+                  "%016llx",
+                  static_cast<unsigned long long>(digest));
+    return text;
+  }
+
+  std::vector<int>
+  as_integers(const std::uint64_t digest)
+  {
+    // Snapshots have tables of ints, so a digest is two of them.
+    return {static_cast<int>(digest >> 32),
+            static_cast<int>(digest & 0xffffffffu)};
+  }
+
+  std::uint64_t
+  digest_of_integers(const std::vector<int> &halves)
+  {
+    return (std::uint64_t(static_cast<std::uint32_t>(halves[0])) << 32) |
+           static_cast<std::uint32_t>(halves[1]);
+  }
+
+
   namespace
   {
     const std::string first_line = "Morula snapshot\n";
@@ -59,22 +155,34 @@ namespace Morula
     file.commit();
   }
 
-  SealState
-  examine_seal(const std::string &path)
+  void
+  check_seal(const std::string &path)
   {
-    std::ifstream in(path, std::ios::binary);
     // An HDF5 file without a seal is told from other files, as its message says
     // something else.
+    std::ifstream in(path, std::ios::binary);
     if (!in)
-      return SealState::missing;
+      throw InputError("--resume",
+                       path,
+                       "a snapshot that can be read",
+                       "There is none: start the run without --resume, "
+                       "and with --replace if there are files of it.");
     std::string found(size_of_seal, '\0');
     in.read(found.data(), found.size());
     found.resize(in.gcount());
     if (begins_with(found, "\x89HDF\r\n\x1a\n"))
-      return SealState::plain_hdf5;
+      refuse_snapshot(path,
+                      "a snapshot that begins with a digest (this is the "
+                      "HDF5 file of another program, or of a Morula that "
+                      "wrote none)");
     if (!begins_with(found, first_line))
-      return SealState::foreign;
+      refuse_snapshot(path,
+                      "a snapshot of Morula (this file does not begin as "
+                      "one)");
     // If the file ends within the seal, the number of bytes differs, too.
-    return seal_of_rest(path) == found ? SealState::whole : SealState::damaged;
+    if (seal_of_rest(path) != found)
+      refuse_snapshot(path,
+                      "an undamaged snapshot (this file's bytes are not "
+                      "those that Morula wrote: their digest differs)");
   }
 } // namespace Morula

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
 #include <morula/output/table.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
+#include <stdexcept>
 
 namespace Morula
 {
+  using namespace dealii;
+
   void
   append_number(std::string &text, const double value)
   {
@@ -28,5 +37,124 @@ namespace Morula
                       10)
           .ptr;
     text.append(digits, end);
+  }
+
+
+  namespace
+  {
+    struct Beginning
+    {
+      std::size_t size = 0; // bytes
+      Digest      digest;
+    };
+
+    /**
+     * The header and the first complete rows of a file, as many rows as in
+     * @p kept.
+     * @throws InputError
+     */
+    Beginning
+    beginning_of(const std::string &path,
+                 const std::string &header,
+                 const TableExtent &kept)
+    {
+      // A resumed run appends to this file, so what it has must be what the run
+      // has written up to the snapshot. Header, number of rows and digest are
+      // compared, and the reason is said. What stands behind, rows of steps
+      // after the snapshot, is cut off by the caller.
+      std::ifstream in(path, std::ios::binary);
+      if (!in)
+        throw InputError("--resume",
+                         path,
+                         "a readable file next to the snapshot",
+                         "Restore the file, or start the run anew.");
+
+      std::string line;
+      std::getline(in, line);
+      if (in.eof() || line + '\n' != header)
+        throw InputError("--resume",
+                         path,
+                         "a file with the header '" +
+                           header.substr(0, header.size() - 1) + "'",
+                         "Restore the file, or start the run anew.");
+
+      Beginning beginning;
+      beginning.size = header.size();
+      beginning.digest.add(header);
+      for (std::uint64_t row = 0; row < kept.n_rows; ++row)
+        {
+          std::getline(in, line);
+          // A last line without its newline is incomplete.
+          if (in.eof() || !in)
+            throw InputError("--resume",
+                             path,
+                             "a file with at least the " +
+                               std::to_string(kept.n_rows) +
+                               " rows that the snapshot counts (there are " +
+                               std::to_string(row) + ")",
+                             "Restore the file, or start the run anew.");
+          line += '\n';
+          beginning.size += line.size();
+          beginning.digest.add(line);
+        }
+      if (beginning.digest.value() != kept.digest)
+        throw InputError("--resume",
+                         path,
+                         "a file whose first " + std::to_string(kept.n_rows) +
+                           " rows are those of the run (their digest is not "
+                           "the snapshot's)",
+                         "Restore the file, or start the run anew.");
+      return beginning;
+    }
+  } // namespace
+
+  AppendedCsv::AppendedCsv(const std::string &path,
+                           const std::string &header,
+                           const MPI_Comm     comm)
+    : comm(comm)
+  {
+    on_root(comm, [&]() {
+      file = std::make_unique<OutputFile>(path, OutputFile::Mode::create);
+      file->write(header);
+      digest.add(header);
+    });
+  }
+
+  AppendedCsv::AppendedCsv(const std::string &path,
+                           const std::string &header,
+                           const TableExtent &kept,
+                           const MPI_Comm     comm)
+    : comm(comm)
+    , n_rows(kept.n_rows)
+  {
+    on_root(comm, [&]() {
+      const Beginning beginning = beginning_of(path, header, kept);
+      // Rows that were written after the snapshot are computed again.
+      file   = std::make_unique<OutputFile>(path, OutputFile::Mode::change);
+      digest = beginning.digest;
+      file->truncate(beginning.size);
+    });
+  }
+
+  void
+  AppendedCsv::check(const std::string &path,
+                     const std::string &header,
+                     const TableExtent &kept,
+                     const MPI_Comm     comm)
+  {
+    on_root(comm, [&]() { beginning_of(path, header, kept); });
+  }
+
+  void
+  AppendedCsv::append(const std::string &rows)
+  {
+    on_root(comm, [&]() {
+      // Somebody may have moved the file while the run went on.
+      file->check_in_place();
+      file->write(rows);
+      digest.add(rows);
+    });
+    n_rows += Utilities::MPI::broadcast(
+      comm, std::uint64_t(std::count(rows.begin(), rows.end(), '\n')));
   }
 } // namespace Morula

@@ -4,7 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/output/output_file.h>
-#include <morula/output/vtu.h>
+#include <morula/output/point_fields.h>
 
 #include <deal.II/base/data_out_base.h>
 

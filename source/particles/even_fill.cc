@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
-#include <morula/particles/even_fill.h>
+#include <morula/particles/even_spread.h>
 
 #include <cmath>
 #include <map>

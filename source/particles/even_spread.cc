@@ -5,8 +5,6 @@
 #include <morula/grid/grid_box.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/particles/surface_around.h>
-#include <morula/particles/uneven_growth.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -30,10 +28,6 @@ namespace Morula
      *  part of its width that it moves then at most. */
     constexpr double spread_part = 0.2;
     constexpr double longest_way = 0.1;
-
-    /** The variance of ln det F_g from which on growth is fully uneven: that of
-     *  cells half of which are larger by a half than the others. */
-    constexpr double fully_uneven = 0.04;
 
     /** The depth below the surface, in widths of the cell, above which a cell
      *  is not moved towards it. */
@@ -383,21 +377,5 @@ namespace Morula
     tissue.move(places, points.positions());
   }
 
-  template <int dim>
-  void
-  spread_uneven_growth(Tissue<dim> &tissue, const double dt)
-  {
-    const UnevenGrowth<dim> growth(tissue);
-    if (!growth.exists())
-      return;
-    std::vector<double> parts;
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      parts.push_back(
-        std::min(1.,
-                 growth.variance(tissue.cells().position(p)) / fully_uneven));
-    spread_cells(tissue, dt, parts);
-  }
-
   MORULA_INSTANTIATE(spread_cells);
-  MORULA_INSTANTIATE(spread_uneven_growth);
 } // namespace Morula

@@ -3,8 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
-#include <morula/particles/cell_domain.h>
-#include <morula/particles/find_parting.h>
+#include <morula/particles/tissue.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
 #include <morula/base/send_records.h>
 #include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/particles/surface_around.h>
+#include <morula/particles/tissue.h>
 #include <morula/particles/voronoi_facets.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,12 +16,77 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
+#include <vector>
 
 namespace Morula
 {
   namespace
   {
+    /** Where the surface of the tissue is, to be asked near this rank's cells.
+     */
+    template <int dim>
+    class SurfaceAround
+    {
+    public:
+      /** Looks at the boundary points of the tissue, on any rank, within @p
+       * reach (µm) of this rank's grid cells. Collective. */
+      SurfaceAround(const Tissue<dim> &tissue, const double reach)
+      {
+        const BoundaryPoints<dim> &store = tissue.boundary_points();
+        PointList<dim>             list;
+        for (unsigned int k = 0; k < store.size(); ++k)
+          list.add(store.id(k), store.position(k), {});
+        list.append(halo(list, tissue.grid(), reach));
+        points = list.positions;
+        if (points.empty())
+          return;
+        box  = std::make_unique<const GridBox<dim>>(box_around(points, reach));
+        bins = std::make_unique<const PointBins<dim>>(*box, points);
+      }
+
+      /** Midway, the same bits for both orders. */
+      static Point<dim>
+      middle(const Point<dim> &x, const Point<dim> &y)
+      {
+        Point<dim> found;
+        for (unsigned int d = 0; d < dim; ++d)
+          found[d] = 0.5 * (x[d] + y[d]);
+        return found;
+      }
+
+      /** Whether a boundary point is that near to a place, which may look no
+       *  farther than the reach of a grid cell of this rank. Radius in µm. */
+      bool
+      is_within(const Point<dim> &x, const double radius) const
+      {
+        bool found = false;
+        if (bins)
+          bins->visit_within(x, radius, [&](const unsigned int) {
+            found = true;
+          });
+        return found;
+      }
+
+      /** Whether the surface passes between two places, one of which is in a
+       * grid cell of this rank: a boundary point lies in the ball that has them
+       * at its ends. In full tissue there is none; across a gap, and outside of
+       * a concave surface, there are some, as long as boundary points stand no
+       *  farther apart than cells do. */
+      bool
+      is_between(const Point<dim> &x, const Point<dim> &y) const
+      {
+        return is_within(middle(x, y), 0.5 * x.distance(y));
+      }
+
+    private:
+      std::vector<Point<dim>> points;
+      /** They refer to the points; none without points. */
+      std::unique_ptr<const GridBox<dim>>   box;
+      std::unique_ptr<const PointBins<dim>> bins;
+    };
+
     /** Cells farther away than this, in spacings, change no facet of a cell
      * that counts (doc/theory.md, section 12.1). */
     constexpr double ring = 3.;
@@ -187,4 +254,71 @@ namespace Morula
   INSTANTIATE(2)
   INSTANTIATE(3)
 #undef INSTANTIATE
+
+
+  namespace
+  {
+    /** Surfaces touch up to this gap, and down to this overlap, in grid
+     *  spacings: a facetted contact has gaps of a few hundredths. */
+    constexpr double touching_gap = 0.1;
+
+    /** So far beside each other points of surfaces that touch may be, in units
+     *  of the larger of their spacings: as far as contact sees, (4.8k). */
+    constexpr double beside_each_other = 1.5;
+  } // namespace
+
+
+  template <int dim>
+  std::vector<char>
+  touching_points(const Tissue<dim> &tissue)
+  {
+    // Each point looks at those of all ranks around it, as contact does: at
+    // their normals, the gap across both surfaces, and the distance along them.
+    const BoundaryPoints<dim> &store  = tissue.boundary_points();
+    const double               h      = tissue.grid().box().spacing();
+    double                     widest = 0.;
+    for (unsigned int p = 0; p < store.size(); ++p)
+      widest = std::max(widest, store[p].spacing());
+    widest = Utilities::MPI::max(widest, tissue.communicator());
+    const double reach =
+      std::hypot(beside_each_other * widest, touching_gap * h);
+    const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
+      append_flat(list, store.area_vector(p));
+      list.push_back(store[p].spacing());
+      list.push_back(store.body(p));
+    };
+    const PointList<dim> near =
+      near_points(store.positions(),
+                  store,
+                  {dim + 2, numbers, Ties::lowest_id},
+                  tissue.grid(),
+                  static_cast<int>(std::ceil(reach / h)));
+    const NearTree<dim> tree(near.positions);
+    std::vector<char>   touch(store.size(), 0);
+    for (unsigned int p = 0; p < store.size(); ++p)
+      {
+        const Point<dim>     x = store.position(p);
+        const Tensor<1, dim> n =
+          store.area_vector(p) / store.area_vector(p).norm();
+        const auto around = tree.within(x, reach);
+        touch[p] =
+          std::any_of(around.begin(), around.end(), [&](const unsigned int i) {
+            const double *const  row      = near.row(i).data();
+            const auto           area     = Flat<Tensor<1, dim>>::read(row);
+            const Tensor<1, dim> across   = 0.5 * (area / area.norm() - n);
+            const Tensor<1, dim> distance = x - near.positions[i];
+            const double         gap      = across * distance;
+            if ((!store.has_parts() && row[dim + 1] == store.body(p)) ||
+                n * area >= Parting<dim>::facing * area.norm() ||
+                std::abs(gap) > touching_gap * h)
+              return false;
+            return (distance - gap / across.norm_square() * across).norm() <
+                   beside_each_other * std::max(store[p].spacing(), row[dim]);
+          });
+      }
+    return touch;
+  }
+
+
+  MORULA_INSTANTIATE(touching_points);
 } // namespace Morula

@@ -244,6 +244,24 @@ namespace Morula
     return others;
   }
 
+  template <int dim>
+  GridBox<dim>
+  box_around(const std::vector<Point<dim>> &positions, const double spacing)
+  {
+    Point<dim> lower = positions.at(0), upper = positions.at(0);
+    for (const Point<dim> &x : positions)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lower[d] = std::min(lower[d], x[d]);
+          upper[d] = std::max(upper[d], x[d]);
+        }
+    GridIndex<dim> n;
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = static_cast<int>((upper[d] - lower[d]) / spacing) + 1;
+    return {{}, n, spacing, lower};
+  }
+
+
   template PointList<2>
   exchange(const std::map<unsigned int, PointList<2>> &,
            const unsigned int,
@@ -255,4 +273,5 @@ namespace Morula
   MORULA_INSTANTIATE(of_all_ranks);
   MORULA_INSTANTIATE(send_to_owners);
   MORULA_INSTANTIATE(halo);
+  MORULA_INSTANTIATE(box_around);
 } // namespace Morula

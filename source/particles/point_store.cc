@@ -16,11 +16,6 @@ namespace Morula
 {
   namespace
   {
-    /** Share of points out of order in memory from which putting them in order
-     *  costs less than it saves (doc/performance.md, Where cells lie in
-     *  memory). */
-    constexpr double worst_disorder = 0.1;
-
     /** The canonical order of points: by grid cell, then by id. */
     template <int dim>
     std::vector<unsigned int>
@@ -50,24 +45,6 @@ namespace Morula
       return order;
     }
   } // namespace
-
-  template <int dim>
-  PointStore<dim>::PointStore(const unsigned int          n_numbers,
-                              const Column<unsigned int> &body,
-                              const Column<unsigned int> &part)
-    : n_numbers(n_numbers)
-    , body_column(body)
-    , part_column(part)
-  {}
-
-  template <int dim>
-  void
-  PointStore<dim>::attach(const BackgroundGrid<dim> &grid)
-  {
-    Assert(order.empty(), ExcMessage("Take the points out first."));
-    handler.initialize(grid.triangulation(), mapping, n_numbers);
-    capacity = 0;
-  }
 
   template <int dim>
   void
@@ -115,14 +92,6 @@ namespace Morula
 
   template <int dim>
   void
-  PointStore<dim>::defragment(const BackgroundGrid<dim> &grid)
-  {
-    if (n_disordered > worst_disorder * order.size())
-      insert_own(take(), grid);
-  }
-
-  template <int dim>
-  void
   PointStore<dim>::move(const std::vector<Point<dim>> &positions,
                         const BackgroundGrid<dim>     &grid)
   {
@@ -154,26 +123,6 @@ namespace Morula
 
   template <int dim>
   void
-  PointStore<dim>::replace(const std::vector<unsigned int> &removed,
-                           const PointList<dim>            &inserted,
-                           const BackgroundGrid<dim>       &grid)
-  {
-    take_out(removed);
-    insert(inserted, grid);
-  }
-
-  template <int dim>
-  void
-  PointStore<dim>::remove(const std::vector<unsigned int> &removed,
-                          const BackgroundGrid<dim>       &grid)
-  {
-    n_disordered += removed.size();
-    take_out(removed);
-    sort(grid);
-  }
-
-  template <int dim>
-  void
   PointStore<dim>::take_out(const std::vector<unsigned int> &removed)
   {
     // One call removes all: deal.II counts the points of all ranks in each.
@@ -182,37 +131,6 @@ namespace Morula
     for (const unsigned int p : removed)
       particles.push_back(order[p]);
     handler.remove_particles(particles);
-  }
-
-  template <int dim>
-  PointList<dim>
-  PointStore<dim>::copy() const
-  {
-    PointList<dim> points(n_numbers);
-    points.reserve(size());
-    for (unsigned int p = 0; p < size(); ++p)
-      points.add(id(p), position(p), row(p));
-    return points;
-  }
-
-  template <int dim>
-  PointList<dim>
-  PointStore<dim>::take()
-  {
-    PointList<dim> points = copy();
-    clear();
-    return points;
-  }
-
-  template <int dim>
-  void
-  PointStore<dim>::clear()
-  {
-    order.clear();
-    grid_cells_.clear();
-    handler.clear_particles(); // gives back its memory
-    capacity     = 0;
-    n_disordered = 0;
   }
 
   template <int dim>
@@ -265,55 +183,6 @@ namespace Morula
           else
             grid_cells_.push_back({number, p, p + 1, part});
       }
-  }
-
-  template <int dim>
-  void
-  PointStore<dim>::set_parts(const std::vector<unsigned int> &parts,
-                             const BackgroundGrid<dim>       &grid)
-  {
-    for (unsigned int p = 0; p < size(); ++p)
-      set(part_column, p, parts[p]);
-    sort(grid);
-  }
-
-  template <int dim>
-  const std::vector<typename PointStore<dim>::GridCell> &
-  PointStore<dim>::grid_cells() const
-  {
-    return grid_cells_;
-  }
-
-  template <int dim>
-  std::vector<unsigned int>
-  PointStore<dim>::bodies() const
-  {
-    std::vector<unsigned int> list;
-    if (has_bodies())
-      for (unsigned int p = 0; p < size(); ++p)
-        list.push_back(body(p));
-    return list;
-  }
-
-  template <int dim>
-  std::vector<Point<dim>>
-  PointStore<dim>::positions() const
-  {
-    std::vector<Point<dim>> list;
-    list.reserve(size());
-    for (unsigned int p = 0; p < size(); ++p)
-      list.push_back(position(p));
-    return list;
-  }
-
-  template <int dim>
-  std::vector<Point<dim>>
-  PointStore<dim>::positions_of(const std::vector<unsigned int> &points) const
-  {
-    std::vector<Point<dim>> list;
-    for (const unsigned int p : points)
-      list.push_back(position(p));
-    return list;
   }
 
   template <int dim>

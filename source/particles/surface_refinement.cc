@@ -3,13 +3,18 @@
 
 #include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
+#include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_refinement.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <unordered_map>
+#include <utility>
+#include <vector>
 
 namespace Morula
 {
@@ -156,4 +161,284 @@ namespace Morula
   }
 
   MORULA_INSTANTIATE(refine_surface);
+
+
+  namespace
+  {
+    namespace bgi = boost::geometry::index;
+
+    /** Areas in units of the reference area: patches below the first merge, and
+     *  give none above the second. The second is below two, at which refinement
+     *  would split the result again. */
+    constexpr double too_small = 0.5, largest_merged = 1.6;
+
+    /** Cosine of the largest angle between the normals of patches that merge.
+     *  Sides of a box differ by a right angle, so no patch reaches across an
+     *  edge of the body. */
+    constexpr double least_cosine = 0.5;
+
+    /** The shift of doc/theory.md (4.12d) of the patch that two become, along
+     *  its normal, from their area vectors and the way from one to the other.
+     */
+    template <int dim>
+    Tensor<1, dim>
+    shift_of(const Tensor<1, dim> &a,
+             const Tensor<1, dim> &b,
+             const Tensor<1, dim> &apart)
+    {
+      const Tensor<1, dim> area = a + b;
+      const double w_a = a.norm() / (a.norm() + b.norm()), w_b = 1. - w_a;
+      return (w_a * (b * apart) - w_b * (a * apart)) / area.norm_square() *
+             area;
+    }
+
+    /** F, turned so that it takes patches with the normal @p N to ones with the
+     *  area vector @p area. */
+    template <int dim>
+    Tensor<2, dim>
+    turned(const Tensor<2, dim> &F,
+           const Tensor<1, dim> &N,
+           const Tensor<1, dim> &area)
+    {
+      // The turn K = n ⊗ m - m ⊗ n from the unit vector m to n, in their plane.
+      Tensor<1, dim> m = N * invert(F);
+      m /= m.norm();
+      const Tensor<1, dim> n = area / area.norm();
+      const double         c = m * n;
+      if (!(c > 0.))
+        return F;
+      const Tensor<2, dim> K = outer_product(n, m) - outer_product(m, n);
+      return (Tensor<2, dim>(unit_symmetric_tensor<dim>()) + K +
+              K * K / (1. + c)) *
+             F;
+    }
+
+    /** Patches that may merge, of all ranks, by id. */
+    template <int dim>
+    class Candidates
+    {
+    public:
+      Candidates(const PointList<dim>       &points,
+                 const BoundaryColumns<dim> &columns,
+                 const double                longest_edge,
+                 const std::function<bool(const BoundaryView<dim> &,
+                                          const BoundaryView<dim> &)> &alike)
+        : points(points)
+        , columns(columns)
+        , alike(alike)
+      {
+        // More than this would be split again.
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            areas.push_back(view(i).area_vector());
+            wanted.push_back(view(i).wanted_area(longest_edge));
+            // More would be split again.
+            largest.push_back(std::min(largest_merged * wanted.back(),
+                                       std::pow(longest_edge, dim - 1)));
+          }
+      }
+
+      /** The patches that are too small, each with the one that it merges with.
+       *  No patch is in two pairs. */
+      std::vector<std::pair<std::size_t, std::size_t>>
+      pairs() const
+      {
+        std::vector<std::pair<std::size_t, std::size_t>> list;
+        // Patches are taken by id, each that is too small and still free with
+        // the nearest that fits. The list of candidates is the same on all
+        // ranks, and so are the pairs.
+        std::vector<bool> taken(points.size());
+        const auto        tree = pack_rtree_of_indices(points.positions);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            if (taken[i] || !(areas[i].norm() < too_small * wanted[i]))
+              continue;
+            std::vector<std::size_t> nearest;
+            tree.query(bgi::nearest(points.positions[i], 1) &&
+                         bgi::satisfies([&](const std::size_t j) {
+                           return j != i && !taken[j] && fit(i, j);
+                         }),
+                       std::back_inserter(nearest));
+            if (nearest.empty())
+              continue;
+            // No patch is in two pairs of one round.
+            taken[i] = taken[nearest[0]] = true;
+            list.emplace_back(std::min(i, nearest[0]), std::max(i, nearest[0]));
+          }
+        return list;
+      }
+
+      /** Adds the patch that two become to a list. */
+      void
+      merge(const std::size_t i,
+            const std::size_t j,
+            PointList<dim>   &list) const
+      {
+        // What two patches become has the sum of their area vectors and keeps
+        // the enclosed volume: doc/theory.md (4.12c), (4.12d). Means are
+        // weighted by area. The larger patch gives all that is not a mean, as
+        // its condition.
+        const double         total = areas[i].norm() + areas[j].norm();
+        const double         w_i = areas[i].norm() / total, w_j = 1. - w_i;
+        const Tensor<1, dim> area   = areas[i] + areas[j];
+        const Tensor<1, dim> apart  = points.positions[j] - points.positions[i];
+        const Point<dim>     middle = points.positions[i] + w_j * apart;
+        const Tensor<1, dim> shift  = shift_of(areas[i], areas[j], apart);
+        const std::size_t    main   = w_j > w_i ? j : i;
+        std::vector<double>  row(points.row(main).begin(),
+                                points.row(main).end());
+        const BoundaryView<dim, double> merged(make_array_view(row), columns);
+        // A mean of very different deformations may have no volume.
+        Tensor<2, dim> F = w_i * view(i).F() + w_j * view(j).F();
+        if (!(determinant(F) > 0.))
+          F = view(main).F();
+        const Point<dim> X = Point<dim>(w_i * view(i).initial_position() +
+                                        w_j * view(j).initial_position());
+        // The gap of a fixed point is x - X, which must remain the mean of both
+        // gaps: so X is shifted as x is. What a slip point is held to is the
+        // wall through X, which stays where it is: X is shifted as the two
+        // patches of the wall say, and the normal is theirs.
+        Tensor<1, dim> area_of_wall;
+        if (merged.condition() == SurfaceCondition::fixed)
+          merged.set(columns.initial_position, X + shift);
+        else if (merged.condition() == SurfaceCondition::slip)
+          {
+            const Tensor<1, dim> wall_i =
+              areas[i].norm() * view(i).initial_normal();
+            const Tensor<1, dim> wall_j =
+              areas[j].norm() * view(j).initial_normal();
+            area_of_wall = wall_i + wall_j;
+            merged.set(columns.initial_position,
+                       X + shift_of(wall_i,
+                                    wall_j,
+                                    view(j).initial_position() -
+                                      view(i).initial_position()));
+            F = turned(F, area_of_wall, area);
+          }
+        else
+          merged.set(columns.initial_position, X);
+        merged.set(columns.reference_area,
+                   w_i * view(i).get(columns.reference_area) +
+                     w_j * view(j).get(columns.reference_area));
+        if (columns.force.exists())
+          merged.set(columns.force,
+                     view(i).get(columns.force) + view(j).get(columns.force));
+        columns.set_square_patch(make_array_view(row), F, area);
+        if (area_of_wall != Tensor<1, dim>())
+          merged.set(columns.initial_normal,
+                     area_of_wall / area_of_wall.norm());
+        list.add(points.ids[i], middle + shift, make_array_view(row));
+      }
+
+    private:
+      BoundaryView<dim>
+      view(const std::size_t i) const
+      {
+        return {points.row(i), columns};
+      }
+
+      /** Whether two may become one. */
+      bool
+      fit(const std::size_t i, const std::size_t j) const
+      {
+        const double a_i = areas[i].norm(), a_j = areas[j].norm();
+        // The conditions of doc/theory.md, section 4.5: small enough together,
+        // not across an edge of the body or of the walls on which it slips,
+        // near, and with the same condition and loads.
+        const double sides =
+          std::pow(a_i, 1. / (dim - 1)) + std::pow(a_j, 1. / (dim - 1));
+        return a_i + a_j <= std::min(largest[i], largest[j]) &&
+               areas[i] * areas[j] >= least_cosine * a_i * a_j &&
+               points.positions[i].distance(points.positions[j]) <= sides &&
+               view(i).condition() == view(j).condition() &&
+               (view(i).condition() != SurfaceCondition::slip ||
+                view(i).initial_normal() * view(j).initial_normal() >=
+                  least_cosine) &&
+               alike(view(i), view(j));
+      }
+
+      const PointList<dim>                                 &points;
+      const BoundaryColumns<dim>                           &columns;
+      const std::function<bool(const BoundaryView<dim> &,
+                               const BoundaryView<dim> &)> &alike;
+      std::vector<Tensor<1, dim>>                           areas;
+      std::vector<double>                                   wanted, largest;
+    };
+
+    /** Takes the merged patches in place of both; those that are this rank's
+     *  are where the first of the two was. */
+    template <int dim>
+    void
+    replace(const PointList<dim>                                   &candidates,
+            const std::vector<std::pair<std::size_t, std::size_t>> &pairs,
+            const Candidates<dim>                                  &merging,
+            PointList<dim>                                         &points)
+    {
+      // Every rank knows all pairs. The owner of the first patch puts the
+      // merged one in its place; the owner of the second drops it. Points are
+      // in another grid cell afterwards, perhaps: the caller places them anew.
+      std::unordered_map<types::particle_index, std::size_t> first, second;
+      for (std::size_t k = 0; k < pairs.size(); ++k)
+        {
+          first[candidates.ids[pairs[k].first]]   = k;
+          second[candidates.ids[pairs[k].second]] = k;
+        }
+      PointList<dim> kept(points.n_numbers);
+      kept.reserve(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          const auto pair = first.find(points.ids[i]);
+          if (pair != first.end())
+            merging.merge(pairs[pair->second].first,
+                          pairs[pair->second].second,
+                          kept);
+          else if (second.count(points.ids[i]) == 0)
+            kept.add(points.ids[i],
+                     points.positions[i],
+                     ArrayView<const double>(points.row(i)));
+        }
+      points = std::move(kept);
+    }
+  } // namespace
+
+
+  template <int dim>
+  bool
+  coarsen_surface(PointList<dim>             &points,
+                  const BoundaryColumns<dim> &columns,
+                  const double                longest_edge,
+                  const std::function<bool(const BoundaryView<dim> &,
+                                           const BoundaryView<dim> &)> &alike,
+                  const MPI_Comm                                        comm)
+  {
+    for (bool any = false;; any = true)
+      {
+        // Each round merges pairs that are disjoint, until no rank has a patch
+        // that is too small, or none of them fits another. In most steps the
+        // first test ends it, with one reduction. Only patches that may take
+        // part are shown to all ranks.
+        bool           small = false;
+        PointList<dim> own(points.n_numbers);
+        for (std::size_t i = 0; i < points.size(); ++i)
+          {
+            const ArrayView<const double> row(points.row(i));
+            const BoundaryView<dim>       point(row, columns);
+            const double                  share =
+              point.area_vector().norm() / point.wanted_area(longest_edge);
+            small = small || share < too_small;
+            if (share < largest_merged)
+              own.add(points.ids[i], points.positions[i], row);
+          }
+        if (!Utilities::MPI::logical_or(small, comm))
+          return any;
+        const PointList<dim>  all = of_all_ranks(own, comm);
+        const Candidates<dim> candidates(all, columns, longest_edge, alike);
+        const auto            pairs = candidates.pairs();
+        if (pairs.empty())
+          return any;
+        replace(all, pairs, candidates, points);
+      }
+  }
+
+  MORULA_INSTANTIATE(coarsen_surface);
 } // namespace Morula

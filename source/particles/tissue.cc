@@ -2,8 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/particles/cell_domain.h>
-#include <morula/particles/find_parting.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/mpi.h>
@@ -67,17 +65,6 @@ namespace Morula
       });
     }
   } // namespace
-
-  template <int dim>
-  Tissue<dim>::Tissue(const GridParameters       &parameters,
-                      const CellColumns<dim>     &cell_columns,
-                      const MPI_Comm              comm,
-                      const BoundaryColumns<dim> &boundary_columns)
-    : parameters(parameters)
-    , grid_(parameters, comm)
-    , cells_(cell_columns)
-    , boundary_points_(boundary_columns)
-  {}
 
   template <int dim>
   bool
@@ -156,20 +143,6 @@ namespace Morula
   }
 
   template <int dim>
-  CellView<dim, double>
-  Tissue<dim>::cell(const unsigned int p)
-  {
-    return cells_[p];
-  }
-
-  template <int dim>
-  BoundaryView<dim, double>
-  Tissue<dim>::boundary_point(const unsigned int p)
-  {
-    return boundary_points_[p];
-  }
-
-  template <int dim>
   void
   Tissue<dim>::restore(PointList<dim>        cells,
                        PointList<dim>        boundary_points,
@@ -206,37 +179,6 @@ namespace Morula
         return;
       }
     cells_.replace(mothers, daughters, grid_);
-  }
-
-  template <int dim>
-  void
-  Tissue<dim>::remove(const std::vector<unsigned int> &cells,
-                      const std::vector<unsigned int> &boundary_points)
-  {
-    cells_.remove(cells, grid_);
-    boundary_points_.remove(boundary_points, grid_);
-  }
-
-  template <int dim>
-  void
-  Tissue<dim>::replace_surface(const PointList<dim> &boundary_points)
-  {
-    const auto [first, last] = extent<dim>({&boundary_points.positions}, grid_);
-    if (!grid_.covers(first, last))
-      {
-        place(cells_.copy(), boundary_points);
-        return;
-      }
-    boundary_points_.clear();
-    boundary_points_.insert(boundary_points, grid_);
-  }
-
-  template <int dim>
-  void
-  Tissue<dim>::defragment()
-  {
-    cells_.defragment(grid_);
-    boundary_points_.defragment(grid_);
   }
 
   template <int dim>
@@ -278,14 +220,6 @@ namespace Morula
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
       parts.push_back(parting_->part_of_patch(boundary_points_.id(p)));
     boundary_points_.set_parts(parts, grid_);
-  }
-
-  template <int dim>
-  SplineSpace<dim>
-  Tissue<dim>::unparted_splines(const bool share_points) const
-  {
-    return splines_around([](const unsigned int) { return true; },
-                          share_points);
   }
 
   template <int dim>
@@ -358,29 +292,6 @@ namespace Morula
       if (belongs(boundary_points_.body(grid_cell.begin)))
         add(grid_cell.number, 0);
     return ranges;
-  }
-
-  template <int dim>
-  const Cells<dim> &
-  Tissue<dim>::cells() const
-  {
-    return cells_;
-  }
-
-  template <int dim>
-  const BoundaryPoints<dim> &
-  Tissue<dim>::boundary_points() const
-  {
-    return boundary_points_;
-  }
-
-  template <int dim>
-  ParticleDomain<dim>
-  Tissue<dim>::domain(const unsigned int p) const
-  {
-    return parameters.points_per_cell > 1 ?
-             cell_domain<dim>(cells_.position(p), cells_[p]) :
-             ParticleDomain<dim>(cells_.position(p), cells_.volume(p));
   }
 
   template <int dim>

@@ -3,9 +3,9 @@
 
 #include <morula/base/input_error.h>
 #include <morula/mechanics/materials/material.h>
-#include <morula/output/cell_fields.h>
+#include <morula/output/point_fields.h>
 #include <morula/scene/scene.h>
-#include <morula/seeding/limits.h>
+#include <morula/seeding/seeding.h>
 
 #include <cmath>
 #include <set>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/parameter_file.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/scene/scene.h>
 
@@ -258,7 +257,7 @@ namespace Morula
     // are later.
     std::map<std::string, std::string> names;
     for (const Statement &statement : statements)
-      if (statement.kind == Statement::set)
+      if (!statement.is_section)
         names[statement.path] = statement.value;
     scene.declare_sections(names);
     const ParameterKeys keys(scene.list());
@@ -266,7 +265,7 @@ namespace Morula
     for (const Statement &statement : statements)
       {
         keys.apply(statement);
-        if (statement.kind == Statement::set)
+        if (!statement.is_section)
           {
             const std::string path = keys.current_name(statement.path);
             if (scene.as_written.count(path) > 0 &&

@@ -10,7 +10,7 @@
 #include <morula/scene/warnings.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/cuts.h>
-#include <morula/seeding/near_bodies.h>
+#include <morula/seeding/pieces_at_start.h>
 #include <morula/seeding/points_surface.h>
 
 #include <algorithm>

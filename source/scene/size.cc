@@ -4,7 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/scene/size.h>
-#include <morula/seeding/limits.h>
+#include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
 
 #include <deal.II/base/mpi.h>

@@ -4,7 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/scene/reviews.h>
 #include <morula/scene/warnings.h>
-#include <morula/seeding/near_bodies.h>
+#include <morula/seeding/pieces_at_start.h>
 #include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>

@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/seeding/bodies.h>
-#include <morula/seeding/of_all_ranks.h>
 
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/boost_adaptors/point.h>

@@ -3,11 +3,10 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
-#include <morula/base/surface_mesh_soup.h>
+#include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/cuts.h>
 #include <morula/seeding/mesh_patches.h>
-#include <morula/seeding/of_all_ranks.h>
 #include <morula/seeding/well_known_text.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -87,22 +86,11 @@ namespace Morula
       return pieces;
     }
 
-    /** The triangles of a file; a polygon is a fan of them. */
+    /** The triangles of a file. */
     std::vector<CutPiece<3>>
     read_cuts(const Key<std::string> &file, const Point<3> &)
     {
-      const std::string path = file.path(), name = file;
-      const auto        soup  = MeshFile::read_soup({path, name});
-      const auto        point = [&soup](const std::size_t i) {
-        const auto &p = soup.points[i];
-        return Point<3>(p.x(), p.y(), p.z());
-      };
-      std::vector<CutPiece<3>> pieces;
-      for (const std::vector<std::size_t> &polygon : soup.polygons)
-        for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-          pieces.push_back(
-            {{point(polygon[0]), point(polygon[i]), point(polygon[i + 1])}});
-      return pieces;
+      return read_triangles(file.path(), file);
     }
 
     /** The side of a surface's patches on which a place is. */

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <queue>
+#include <string>
 #include <utility>
 
 namespace Morula
@@ -338,5 +341,84 @@ namespace Morula
       if (pieces[i].merged_into == i)
         patches.push_back(make_patch(pieces[i], area));
     return patches;
+  }
+
+
+  namespace
+  {
+    /** The body inside a closed surface that a file holds. It lies where the
+     * file places it. */
+    class MeshShape : public Shape<3>
+    {
+    public:
+      /** @throws InputError as SurfaceMesh */
+      MeshShape(const std::string &key, const std::string &file)
+        : mesh(key, file)
+      {}
+
+      BoundingBox<3>
+      bounding_box() const override
+      {
+        return mesh.bounding_box();
+      }
+
+      bool
+      contains(const Point<3> &x, const double clearance) const override
+      {
+        return mesh.contains(x, clearance);
+      }
+      std::optional<bool>
+      side_of_cube(const Point<3> &x, const double half_side) const override
+      {
+        return mesh.side_of_cube(x, half_side);
+      }
+
+      double
+      volume() const override
+      {
+        // The volume is seen from a point of the surface, so that no digits are
+        // lost if the body is far from the origin.
+        const Point<3> apex   = mesh.triangles().front().vertices[0];
+        double         volume = 0.;
+        for (const SurfaceTriangle &triangle : mesh.triangles())
+          volume +=
+            (triangle.vertices[0] - apex) * area_vector(triangle.vertices);
+        return volume / 3.;
+      }
+
+      double
+      surface_area() const override
+      {
+        double area = 0.;
+        for (const SurfaceTriangle &triangle : mesh.triangles())
+          area += area_vector(triangle.vertices).norm();
+        return area;
+      }
+
+      /** See cut_into_patches(). */
+      SurfaceTiling<3>
+      tile(const std::uint64_t n_wished) const override
+      {
+        SurfaceTiling<3>             tiling;
+        std::vector<SurfacePatch<3>> patches =
+          cut_into_patches(mesh.triangles(), n_wished);
+        tiling.n_patches = patches.size();
+        tiling.patch = [patches = std::move(patches)](const std::uint64_t i) {
+          return patches[i];
+        };
+        return tiling;
+      }
+
+    private:
+      SurfaceMesh mesh;
+    };
+  } // namespace
+
+
+  std::unique_ptr<Shape<3>>
+  make_mesh_shape(const TissueParameters &parameters)
+  {
+    return std::make_unique<MeshShape>(parameters.surface_mesh.path(),
+                                       parameters.surface_mesh);
   }
 } // namespace Morula

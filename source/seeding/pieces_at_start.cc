@@ -10,10 +10,12 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <vector>
 
 namespace Morula
 {
@@ -123,4 +125,171 @@ namespace Morula
 
 
   MORULA_INSTANTIATE(pieces_at_start);
+
+
+  namespace
+  {
+    /** Cubes of a lattice that follow each other along the last axis, far fewer
+     *  than cubes: the first one, and the place on that axis behind the last
+     *  one. */
+    template <int dim>
+    using Run = std::array<int, dim + 1>;
+
+    /** The cubes of a lattice, its lines at @p offset + i @p length (µm), that
+     *  hold points, as runs; all ranks' on rank 0. Collective. */
+    template <int dim>
+    std::vector<Run<dim>>
+    occupied(const std::vector<Point<dim>> &points,
+             const Point<dim>              &offset,
+             const double                   length,
+             const MPI_Comm                 comm)
+    {
+      // Sorted by coordinates, cubes along the last axis follow each other, and
+      // become one run where they touch. That makes far less to send.
+      std::vector<std::array<int, dim>> places(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          places[i][d] =
+            static_cast<int>(std::floor((points[i][d] - offset[d]) / length));
+      std::sort(places.begin(), places.end());
+
+      std::vector<Run<dim>> mine;
+      for (const std::array<int, dim> &place : places)
+        {
+          const int end = place[dim - 1] + 1;
+          if (!mine.empty() && end <= mine.back()[dim] + 1 &&
+              std::equal(place.begin(), place.end() - 1, mine.back().begin()))
+            mine.back()[dim] = end;
+          else
+            {
+              mine.emplace_back();
+              std::copy(place.begin(), place.end(), mine.back().begin());
+              mine.back()[dim] = end;
+            }
+        }
+      std::vector<Run<dim>> all;
+      for (const auto &runs : Utilities::MPI::gather(comm, mine, 0))
+        all.insert(all.end(), runs.begin(), runs.end());
+      return all;
+    }
+
+    /** How many groups the cubes form, of which neighbours stand at most
+     *  @p reach cubes apart along each axis. */
+    template <int dim>
+    unsigned int
+    n_groups(const std::vector<Run<dim>> &runs, const int reach)
+    {
+      // Each run is joined with those found before it in all rows within reach,
+      // where they overlap along the last axis or come as near as that. All
+      // pairs are looked at, as the later of two runs finds the earlier one.
+      using Row = std::array<int, dim - 1>; // the other axes
+      std::map<Row, std::vector<std::size_t>> rows;
+      std::vector<std::size_t>                rank(runs.size()), parent(rank);
+      boost::disjoint_sets<std::size_t *, std::size_t *> groups(rank.data(),
+                                                                parent.data());
+      std::vector<std::size_t>                           list;
+      for (std::size_t r = 0; r < runs.size(); ++r)
+        {
+          groups.make_set(r);
+          list.push_back(r);
+          const Run<dim> &run = runs[r];
+          Row             row;
+          std::copy_n(run.begin(), dim - 1, row.begin());
+          // This joins it with runs that came before.
+          for (int k = 0; k < Utilities::pow(2 * reach + 1, dim - 1); ++k)
+            {
+              Row other = row;
+              for (int d = 0, rest = k; d < dim - 1; ++d)
+                {
+                  other[d] += rest % (2 * reach + 1) - reach;
+                  rest /= 2 * reach + 1;
+                }
+              if (const auto found = rows.find(other); found != rows.end())
+                for (const std::size_t s : found->second)
+                  if (run[dim - 1] < runs[s][dim] + reach &&
+                      runs[s][dim - 1] < run[dim] + reach)
+                    groups.union_set(r, s);
+            }
+          rows[row].push_back(r);
+        }
+      return groups.count_sets(list.begin(), list.end());
+    }
+
+    /** Founders and boundary points, which make grid cells active. */
+    template <int dim>
+    std::vector<Point<dim>>
+    all_points(const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface)
+    {
+      std::vector<Point<dim>> points = founders.positions;
+      points.insert(points.end(),
+                    surface.positions.begin(),
+                    surface.positions.end());
+      return points;
+    }
+  } // namespace
+
+
+  template <int dim>
+  BodyCounts
+  count_bodies(const GridParameters      &grid,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm)
+  {
+    // Bodies are groups of cubes as long as the longest cell that stand at most
+    // two apart, pieces are groups of grid cells that touch. Both are counted
+    // on rank 0. The grid sticks bodies together that the cells keep apart
+    // where there are fewer pieces than bodies.
+    double longest = 0.;
+    for (const double V : founders.volumes)
+      longest = std::max(longest, std::pow(V, 1. / dim));
+    longest = Utilities::MPI::max(longest, comm);
+
+    Point<dim>                offset;
+    const std::vector<double> of_grid = grid.offset;
+    for (unsigned int d = 0; d < dim; ++d)
+      offset[d] = of_grid[d];
+    const auto of_bodies =
+      occupied<dim>(founders.positions, Point<dim>(), longest, comm);
+    // Boundary points make grid cells active, too.
+    const auto of_pieces =
+      occupied<dim>(all_points(founders, surface), offset, grid.spacing, comm);
+    const std::array<unsigned int, 2> counts = {
+      {n_groups<dim>(of_bodies, 2), n_groups<dim>(of_pieces, 1)}};
+    const auto of_root = Utilities::MPI::broadcast(comm, counts, 0);
+    return {of_root[0], of_root[1]};
+  }
+
+
+  template <int dim>
+  void
+  review_bodies(const GridParameters      &grid,
+                const TissueParameters    &tissue,
+                const Founders<dim>       &founders,
+                const SurfacePatches<dim> &surface,
+                const MPI_Comm             comm,
+                Review                    &review)
+  {
+    // A shape is one body. The run says when bodies come to stick later.
+    if (!tissue.is_from_file())
+      return;
+    const BodyCounts counts = count_bodies(grid, founders, surface, comm);
+    if (counts.bodies > counts.pieces)
+      review.warn(grid.spacing.path(),
+                  as_text(grid.spacing) + " um",
+                  "the tissue is " + std::to_string(counts.bodies) +
+                    " bodies, and the grid makes " +
+                    std::to_string(counts.pieces) +
+                    (counts.pieces == 1 ? " piece" : " pieces") +
+                    " of them: those within a grid spacing of each other stick "
+                    "together from the start, though their cells do not touch "
+                    "(doc/faq.md, bodies that stick).",
+                  "A Grid/Spacing of less than half the gap between them keeps "
+                  "them apart.");
+  }
+
+
+  MORULA_INSTANTIATE(count_bodies);
+  MORULA_INSTANTIATE(review_bodies);
 } // namespace Morula

@@ -5,8 +5,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
-#include <morula/base/share.h>
-#include <morula/seeding/points_file.h>
+#include <morula/seeding/seeding.h>
 
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/patterns.h>

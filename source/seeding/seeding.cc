@@ -4,12 +4,9 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/base/share.h>
 #include <morula/seeding/lattice.h>
-#include <morula/seeding/points_file.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
-#include <morula/seeding/trimming.h>
 
 #include <deal.II/base/mpi.h>
 

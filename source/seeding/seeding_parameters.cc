@@ -8,11 +8,13 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace Morula
 {
@@ -101,60 +103,75 @@ namespace Morula
       check_readable(file);
     }
 
-    /** The end of a file's name, from the last '.' on, in small letters. */
-    std::string
-    ending_of(const std::string &file)
-    {
-      std::string ending = file.substr(std::min(file.rfind('.'), file.size()));
-      std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
-        return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      });
-      return ending;
-    }
-
     bool
-    is_mesh_format(const std::string &ending)
+    is_mesh_format(const std::string &file)
     {
+      const std::string ending = boost::to_lower_copy(
+        file.substr(std::min(file.rfind('.'), file.size())));
       return ending == ".stl" || ending == ".off" || ending == ".ply" ||
              ending == ".obj";
     }
 
+    /** Refuses a file whose name does not end as it must: in 2-D as well-known
+     *  text, in 3-D as a mesh. @param words that the key may have besides */
     void
-    check_cuts(const Key<std::string> &cuts, const unsigned int dim)
+    check_ending(const Key<std::string> &file,
+                 const unsigned int      dim,
+                 const std::string      &words,
+                 const std::string      &remedy)
     {
-      const std::string ending = ending_of(cuts);
-      if (dim == 2 && ending != ".wkt")
-        cuts.refuse("a file whose name ends with .wkt",
-                    "In 2-D cuts are lines, as well-known text.");
-      if (dim == 3 && !is_mesh_format(ending))
-        cuts.refuse("a file whose name ends with .stl, .off, .ply or .obj",
-                    "In 3-D cuts are surfaces of triangles.");
-      check_readable(cuts);
+      if (dim == 2 ? !boost::iends_with(file.value(), ".wkt") :
+                     !is_mesh_format(file))
+        file.refuse(words + "a file whose name ends with " +
+                      (dim == 2 ? ".wkt" : ".stl, .off, .ply or .obj"),
+                    remedy);
     }
 
+    /** Refuses files that cannot be those of a surface, and what keys of the
+     *  surface demand of each other. */
     void
-    check_points_surface(const Key<std::string> &surface,
-                         const unsigned int      dim)
+    check_surface(const TissueParameters &tissue, const unsigned int dim)
     {
-      const std::string ending = ending_of(surface);
-      if (dim == 2 ? ending != ".wkt" : !is_mesh_format(ending))
-        surface.refuse(
-          dim == 2 ?
-            "automatic, always, none or a file whose name ends with .wkt" :
-            "automatic, always, none or a file whose name ends with .stl, "
-            ".off, .ply or .obj",
-          dim == 2 && is_mesh_format(ending) ?
-            "In 2-D the surface is made of polygons, as well-known text." :
-            "Choose one of the words, or name the file of a surface.");
-      check_readable(surface);
-    }
-
-    void
-    check_mesh_format(const Key<std::string> &file)
-    {
-      if (!is_mesh_format(ending_of(file)))
-        file.refuse("a file whose name ends with .stl, .off, .ply or .obj",
-                    "Convert the surface to one of these formats.");
+      if (tissue.has_surface_file())
+        {
+          check_ending(
+            tissue.points_surface,
+            dim,
+            "automatic, always, none or ",
+            dim == 2 && is_mesh_format(tissue.points_surface) ?
+              "In 2-D the surface is made of polygons, as well-known text." :
+              "Choose one of the words, or name the file of a surface.");
+          check_readable(tissue.points_surface);
+        }
+      if (tissue.has_cuts())
+        {
+          check_ending(tissue.cuts,
+                       dim,
+                       "",
+                       dim == 2 ? "In 2-D cuts are lines, as well-known text." :
+                                  "In 3-D cuts are surfaces of triangles.");
+          check_readable(tissue.cuts);
+        }
+      if (tissue.has_no_surface() && tissue.boundary_points > 0)
+        tissue.boundary_points.refuse(
+          "0, as Tissue/Points surface = none",
+          "Set Boundary points = 0, or Points surface = "
+          "automatic.");
+      if (tissue.has_no_surface() && tissue.refine_surface)
+        tissue.refine_surface.refuse(
+          "false, as Tissue/Points surface = none",
+          "Set Refine surface = false, or Points surface = "
+          "automatic.");
+      if (tissue.coarsen_surface && !tissue.refine_surface)
+        tissue.coarsen_surface.refuse(
+          "false, as Tissue/Refine surface = false",
+          "What is merged must be split again: set Refine "
+          "surface = true.");
+      if (tissue.renew_surface > 0. && !tissue.coarsen_surface)
+        tissue.renew_surface.refuse(
+          "0, as Tissue/Coarsen surface = false",
+          "Between two renewals patches are split and merged: "
+          "set Coarsen surface = true.");
     }
 
     /** Refuses a lattice that misses the shape. */
@@ -210,28 +227,11 @@ namespace Morula
       if (has_size(d))
         require_positive(size, size.value()[d]);
     if (is_mesh())
-      check_mesh_format(surface_mesh);
-    if (has_surface_file())
-      check_points_surface(points_surface, dim);
-    if (has_cuts())
-      check_cuts(cuts, dim);
-    if (has_no_surface() && boundary_points > 0)
-      boundary_points.refuse("0, as Tissue/Points surface = none",
-                             "Set Boundary points = 0, or Points surface = "
-                             "automatic.");
-    if (has_no_surface() && refine_surface)
-      refine_surface.refuse("false, as Tissue/Points surface = none",
-                            "Set Refine surface = false, or Points surface = "
-                            "automatic.");
-    if (coarsen_surface && !refine_surface)
-      coarsen_surface.refuse("false, as Tissue/Refine surface = false",
-                             "What is merged must be split again: set Refine "
-                             "surface = true.");
-    if (renew_surface > 0. && !coarsen_surface)
-      renew_surface.refuse("0, as Tissue/Coarsen surface = false",
-                           "Between two renewals patches are split and merged: "
-                           "set Coarsen surface = true.");
-
+      check_ending(surface_mesh,
+                   3,
+                   "",
+                   "Convert the surface to one of these formats.");
+    check_surface(*this, dim);
     // Their files are judged when they are read.
     if (is_from_file())
       return; // their files are judged when they are read
@@ -240,4 +240,123 @@ namespace Morula
     else
       check_some_cell_fits<3>(*this);
   }
+
+
+  namespace
+  {
+    void
+    refuse_long(const AnyKey &key,
+                const double  length,
+                const double  value,
+                const double  h)
+    {
+      // Lengths that are negative or no numbers are refused elsewhere.
+      if (length > longest_tissue * h)
+        throw InputError(key.path(),
+                         as_text(value),
+                         "tissue at most " + as_text(longest_tissue) +
+                           " times Grid/Spacing long, " +
+                           as_text(longest_tissue * h) + " um",
+                         "Choose a smaller tissue, or a larger Grid/Spacing.");
+    }
+
+    /** Grid cells of the box that is put around tissue of this extent. */
+    template <int dim>
+    double
+    grid_cells(const BoundingBox<dim> &box, const double h)
+    {
+      double n = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // The padding is that of BackgroundGrid::enclose().
+          const double of_tissue = std::floor(box.side_length(d) / h) + 1.;
+          n *= of_tissue + 2. * (2. + std::floor(of_tissue / 8.));
+        }
+      return n;
+    }
+
+    /** Refuses tissue that fills next to nothing of the grid around it. */
+    template <int dim>
+    void
+    check_filled(const TissueParameters &tissue,
+                 const double            h,
+                 const BoundingBox<dim> &box,
+                 const double            cells,
+                 const double            volume)
+    {
+      // A thousand grid cells for each one with tissue are much more than any
+      // real scene has: two spheroids with a gap of many diameters are far from
+      // that.
+      constexpr double most_per_cell = 1000., few_cells = 1000.;
+      const double     n = grid_cells(box, h);
+      if (n <= most_per_cell *
+                 std::max({few_cells, cells, volume / std::pow(h, dim)}))
+        return;
+      const bool              is_mesh = tissue.is_mesh();
+      const Key<std::string> &file =
+        is_mesh ? tissue.surface_mesh : tissue.points_file;
+      std::ostringstream remedy;
+      remedy << "It reaches from (" << box.get_boundary_points().first
+             << ") to (" << box.get_boundary_points().second << ") um, " << n
+             << " grid cells of " << h << " um, for some " << std::round(cells)
+             << " cells: correct the " << (is_mesh ? "vertex" : "cell")
+             << " that lies astray, or raise Grid/Spacing. If the file is in "
+                "another unit, scale it to um.";
+      file.refuse("tissue that fills a part of the grid around it",
+                  remedy.str());
+    }
+  } // namespace
+
+
+  void
+  check_lengths(const TissueParameters &tissue,
+                const double            h,
+                const unsigned int      dim)
+  {
+    // Points have volumes of their own, which are tested as they are read.
+    if (!tissue.is_points() && tissue.cell_spacing > longest_cell * h)
+      tissue.cell_spacing.refuse(
+        "a spacing of at most " + as_text(longest_cell) +
+          " times Grid/Spacing, " + as_text(longest_cell * h) + " um",
+        "Choose a smaller spacing, or a larger Grid/Spacing: a "
+        "cell deforms as a whole.");
+    if (tissue.has_radius())
+      refuse_long(tissue.radius, 2. * tissue.radius, tissue.radius, h);
+    for (unsigned int d = 0;
+         d < std::min<std::size_t>(dim, tissue.size->size());
+         ++d)
+      if (tissue.has_size(d))
+        refuse_long(tissue.size,
+                    tissue.size.value()[d],
+                    tissue.size.value()[d],
+                    h);
+  }
+
+
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const TissueParameters &tissue,
+                 const double            h,
+                 const MemoryCheck      &check_memory)
+  {
+    SeedingLimits<dim> limits;
+    limits.farthest    = farthest_place * h;
+    limits.extent      = longest_tissue * h;
+    limits.cell_length = longest_cell * h;
+    // The parameters are copied, since the check is called later, while the
+    // cells are made or read.
+    limits.check_memory = [tissue, h, check_memory](const BoundingBox<dim> &box,
+                                                    const double cells,
+                                                    const double volume) {
+      check_filled(tissue, h, box, cells, volume);
+      check_memory(cells, volume, grid_cells(box, h));
+    };
+    return limits;
+  }
+
+
+  template SeedingLimits<2>
+  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
+  template SeedingLimits<3>
+  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
 } // namespace Morula

@@ -4,11 +4,6 @@
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/seeding/shape.h>
-#include <morula/seeding/shapes/box.h>
-#include <morula/seeding/shapes/cylinder.h>
-#include <morula/seeding/shapes/ellipsoid.h>
-#include <morula/seeding/shapes/mesh.h>
-#include <morula/seeding/shapes/sphere.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -49,31 +44,22 @@ namespace Morula
   std::unique_ptr<Shape<dim>>
   make_shape(const TissueParameters &parameters)
   {
-    // Each shape takes the keys that belong to it. The parameters' own check
-    // has refused what does not exist in this dimension, so the last line is
-    // reached by points only, which have no inside.
-    const std::string &shape  = parameters.shape;
-    const Point<dim>   center = leading_components<dim>(parameters.center);
-
+    // The parameters' own check has refused what does not exist in this
+    // dimension, so the last line is reached by points only, which have no
+    // inside.
+    const std::string &shape = parameters.shape;
     if (shape == "sphere")
-      return std::make_unique<Sphere<dim>>(center,
-                                           parameters.radius,
-                                           parameters.inner_radius);
+      return make_sphere<dim>(parameters);
     if (shape == "box")
-      return std::make_unique<Box<dim>>(
-        center, leading_components<dim>(parameters.size));
+      return make_box<dim>(parameters);
     if (shape == "ellipsoid")
-      return std::make_unique<Ellipsoid<dim>>(
-        center, 0.5 * leading_components<dim>(parameters.size));
+      return make_ellipsoid<dim>(parameters);
     if constexpr (dim == 3)
       {
         if (shape == "cylinder")
-          return std::make_unique<Cylinder>(center,
-                                            parameters.radius,
-                                            parameters.size->at(2));
+          return make_cylinder(parameters);
         if (shape == "mesh")
-          return std::make_unique<MeshShape>(parameters.surface_mesh.path(),
-                                             parameters.surface_mesh);
+          return make_mesh_shape(parameters);
       }
     parameters.shape.refuse(dim == 3 ?
                               "sphere, box, ellipsoid, cylinder or mesh" :

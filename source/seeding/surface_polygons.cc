@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/seeding/closed_surface.h>
 #include <morula/seeding/seeding.h>
-#include <morula/seeding/surface_file.h>
 #include <morula/seeding/well_known_text.h>
 
 

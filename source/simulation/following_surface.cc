@@ -3,10 +3,7 @@
 
 #include <morula/effects/surface/carriers.h>
 #include <morula/particles/detached_points.h>
-#include <morula/particles/even_fill.h>
 #include <morula/particles/even_spread.h>
-#include <morula/particles/surface_coarsening.h>
-#include <morula/particles/surface_fit.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/surface_renewal.h>

@@ -2,8 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/available_memory.h>
-#include <morula/output/csv.h>
-#include <morula/output/vtu.h>
+#include <morula/output/point_fields.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
 

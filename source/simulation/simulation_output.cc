@@ -3,10 +3,9 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/output/cell_fields.h>
+#include <morula/output/point_fields.h>
 #include <morula/output/rows.h>
-#include <morula/output/surface_fields.h>
-#include <morula/particles/cell_domain.h>
+#include <morula/particles/tissue.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
@@ -359,8 +358,8 @@ namespace Morula
     if (files->writes_points() && files->output_due(t, last))
       {
         const TimerOutput::Scope section(timer, "output");
-        files->write_points(cell_table(model, tissue, t).fields(),
-                            surface_table(tissue, t).fields(),
+        files->write_points(cell_table(model, tissue, t),
+                            surface_table(tissue, t),
                             t);
       }
     if (!forces.empty() && files->forces_due(t, last))

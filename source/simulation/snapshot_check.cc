@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/parameter_file.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/simulation/snapshot_check.h>
 
 #include <map>
@@ -38,7 +38,7 @@ namespace Morula
       std::istringstream                 input(parameters);
       std::map<std::string, std::string> map;
       for (const Statement &statement : read_statements(input, name))
-        if (statement.kind == Statement::set)
+        if (!statement.is_section)
           map[statement.path] = statement.value;
       return map;
     }

@@ -41,11 +41,10 @@ TEST(ParameterKeys, KeepFormerNames)
   EXPECT_EQ(keys.current_name("Grid/Spacing"), "Grid/Spacing");
   EXPECT_EQ(keys.current_name("Grid/Other"), "Grid/Other");
 
-  keys.apply({Statement::set, "Grid/Mesh size", "20", ""});
+  keys.apply({false, "Grid/Mesh size", "20", ""});
   EXPECT_EQ(spacing, 20.);
-  expect_parts(complaint_of([&] {
-                 keys.apply({Statement::set, "Grid/Mesh size", "wide", ""});
-               }),
+  expect_parts(complaint_of(
+                 [&] { keys.apply({false, "Grid/Mesh size", "wide", ""}); }),
                {"Grid/Spacing", "'wide'", "a number"});
 
   std::ostringstream printed;

@@ -207,7 +207,7 @@ TEST(Seal, IsTheDigestThatTheDocumentationNames)
     "Morula snapshot\nbytes 9\nCRC-64/XZ 995dc9bbdf1939fa\n";
   expected.resize(size_of_seal, '\n');
   EXPECT_EQ(content(path), expected + "123456789");
-  EXPECT_EQ(examine_seal(path), SealState::whole);
-  EXPECT_EQ(examine_seal(directory / "none"), SealState::missing);
+  EXPECT_NO_THROW(check_seal(path));
+  EXPECT_THROW(check_seal(directory / "none"), InputError);
   MPI_Barrier(MPI_COMM_WORLD);
 }

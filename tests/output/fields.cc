@@ -81,7 +81,7 @@ TEST(CellFields, GivesShearStress)
   cell.writer().set(cell.columns.deformation, F);
   CellFields<3> fields(0., 1, cell.columns, false);
   fields.add(0, cell.reader(), {}, 9, false, cell.quantities(false));
-  auto values = row(fields.fields(), 0);
+  auto values = row(fields, 0);
   EXPECT_NEAR(values["sigma_xx"], mu * 0.25, 1e-15);
   EXPECT_NEAR(values["sigma_yy"], mu * 0.0625, 1e-15);
   EXPECT_NEAR(values["sigma_zz"], 0., 1e-15);
@@ -128,7 +128,7 @@ TEST(CellFields, KeepsTheOutOfPlaneStressInTwoDimensions)
   CellFields<2> fields(third, 1, cell.columns, false);
   const auto    q = cell.quantities(true);
   fields.add(12, cell.reader(), Point<2>(5., 6.), 3, false, q);
-  const auto &table  = fields.fields();
+  const auto &table  = fields;
   auto        values = row(table, 0);
 
   const std::vector<std::string> names(table.names.begin(),
@@ -218,7 +218,7 @@ TEST(CellFields, HaveTheColumnsThatEffectsWantThere)
   CellFields<2> fields(0., 1, cell.columns, true);
   const auto    q = cell.quantities(false);
   fields.add(7, cell.reader(), Point<2>(5., 6.), 3, false, q);
-  const auto &table  = fields.fields();
+  const auto &table  = fields;
   auto        values = row(table, 0);
   EXPECT_EQ(values.count("dose"), 0u);
   const std::vector<std::pair<std::string, double>> expected = {
@@ -280,7 +280,7 @@ TEST(SurfaceFields, FollowNanson)
 
   SurfaceFields<3> fields(0.5, columns);
   fields.add(4, point, Point<3>(7., 8., 9.));
-  auto values = row(fields.fields(), 0);
+  auto values = row(fields, 0);
   EXPECT_EQ(values.size(), 13u);
   EXPECT_EQ(values["time"], 0.5);
   EXPECT_EQ(values["id"], 4.);

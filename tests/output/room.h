@@ -5,21 +5,15 @@
 #define morula_tests_output_room_h
 
 #include <morula/base/input_error.h>
-#include <morula/output/appended_csv.h>
-#include <morula/output/background_files.h>
-#include <morula/output/cell_fields.h>
-#include <morula/output/csv.h>
-#include <morula/output/digest.h>
 #include <morula/output/directory.h>
-#include <morula/output/longest_cell.h>
 #include <morula/output/output_file.h>
+#include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
 #include <morula/output/rows.h>
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
-#include <morula/output/surface_fields.h>
+#include <morula/output/table.h>
 #include <morula/output/tissue_sums.h>
-#include <morula/output/vtu.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/tissue.h>
 

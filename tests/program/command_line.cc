@@ -93,7 +93,7 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
   EXPECT_EQ(few.str().find("Lumen where"), std::string::npos);
   std::size_t n_keys = 0;
   for (const Statement &statement : read_statements(out, "output"))
-    n_keys += statement.kind == Statement::set;
+    n_keys += !statement.is_section;
   EXPECT_GE(n_keys, 49u);
   expect_parts(out.str(),
                {"subsection Cell cycle",

@@ -5,7 +5,7 @@
 #define morula_tests_program_room_h
 
 #include <morula/base/input_error.h>
-#include <morula/base/parameter_file.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/program/command_line.h>
 #include <morula/program/failure.h>
 #include <morula/program/open_mpi.h>

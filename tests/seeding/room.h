@@ -5,12 +5,11 @@
 #define morula_tests_seeding_room_h
 
 #include <morula/base/input_error.h>
-#include <morula/base/share.h>
+#include <morula/base/agreement.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/tissue.h>
 #include <morula/seeding/mesh_patches.h>
-#include <morula/seeding/points_file.h>
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>

@@ -6,7 +6,10 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <utility>
 
 namespace Morula
 {
@@ -23,6 +26,17 @@ namespace Morula
   /** As everywhere(), for an @p action that only rank 0 runs. */
   void
   on_root(const MPI_Comm comm, const std::function<void()> &action);
+
+
+  /** This rank's share [begin, end) of the numbers 0...n-1: all ranks have
+   * about as many. */
+  std::pair<std::uint64_t, std::uint64_t>
+  share(const std::uint64_t n, const MPI_Comm comm);
+
+
+  /** Writes a message to the terminal and into log.txt. To be called on all
+   *  ranks; rank 0 writes. */
+  using Announce = std::function<void(const std::string &text)>;
 } // namespace Morula
 
 #endif

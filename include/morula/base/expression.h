@@ -4,13 +4,14 @@
 #ifndef morula_base_expression_h
 #define morula_base_expression_h
 
-#include <morula/base/rule.h>
-#include <morula/base/variable.h>
+#include <morula/base/key.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -21,6 +22,117 @@
 namespace Morula
 {
   using namespace dealii;
+
+  /** The variables of expressions. The names in scenes are those of the
+   *  enumerators; doc/glossary.md lists their units. */
+  enum class Variable : unsigned int
+  {
+    /** Initial position of a founder or boundary point, µm. */
+    X,
+    Y,
+    Z,
+    /** Time, day. */
+    t,
+    /** Present position of a cell, µm. */
+    x,
+    y,
+    z,
+    /** Number of divisions since the founder. */
+    generation,
+    /** Time since birth, day. */
+    age,
+    /** Time since the cell took its type, day. */
+    type_age,
+    /** The phase of the cell's cycle, as in the column `phase` of
+     *  cells-NNNN.csv. */
+    cycle_phase,
+    /** Number of the cell's type, from 0. */
+    type,
+    /** V, µm^dim. */
+    volume,
+    /** det F_g. */
+    growth,
+    /** det F_e. */
+    J_e,
+    /** -tr σ / 3, kPa. */
+    pressure,
+    /** The largest principal stress, kPa. */
+    tension,
+    /** The von Mises stress, kPa. */
+    shear,
+    /** Ψ, kPa. */
+    energy,
+    /** Distance of the founder from the surface at t = 0, µm. */
+    depth,
+    /** Distance of the cell from the surface at the beginning of the step, µm.
+     */
+    present_depth,
+    /** Uniform in (0, 1), the cell's own for its life. */
+    noise
+  };
+
+  /** Number of variables. */
+  constexpr unsigned int n_variables =
+    static_cast<unsigned int>(Variable::noise) + 1;
+
+  /** Largest number of fields in a scene. */
+  constexpr unsigned int most_fields = 32;
+
+  /** The variable that is the value of field number @p k of the scene at the
+   *  cell. Its name is that of the field: Vocabulary::name_of(). */
+  constexpr Variable
+  field_variable(const unsigned int k)
+  {
+    return static_cast<Variable>(n_variables + k);
+  }
+
+  /** Whether the variable is the value of a field. */
+  constexpr bool
+  is_field(const Variable variable)
+  {
+    return static_cast<unsigned int>(variable) >= n_variables;
+  }
+
+  /** Number of the field whose value the variable is. */
+  constexpr unsigned int
+  field_number(const Variable variable)
+  {
+    return static_cast<unsigned int>(variable) - n_variables;
+  }
+
+  /** A value for each variable. An expression reads only those that it uses. */
+  using VariableValues = std::array<double, n_variables + most_fields>;
+
+  /** Name in scenes of a variable that is no field. */
+  const char *
+  name_of(const Variable variable);
+
+  /** The variables and named numbers that an expression may use. */
+  struct Vocabulary
+  {
+    std::vector<Variable> variables;
+    /** Named numbers, e.g. the types of cells. */
+    std::map<std::string, double> constants = {};
+    /** Names of the fields, whose values are variables, too; by number. */
+    std::vector<std::string> fields = {};
+
+    /** Name of a variable. */
+    std::string
+    name_of(const Variable variable) const;
+
+    /** All variables, the fields last. */
+    std::vector<Variable>
+    all_variables() const;
+
+    /** The names, separated by blanks. */
+    std::string
+    names() const;
+  };
+
+  /** X, Y, Z and t: the variables that every place has at every time. */
+  const Vocabulary &
+  place_and_time();
+
 
   class ExpressionParser;
 
@@ -83,7 +195,10 @@ namespace Morula
 
     /** Sets the rule that values for cells must obey. */
     void
-    set_rule(const Rule<double> &rule);
+    set_rule(const Rule<double> &new_rule)
+    {
+      rule = std::make_shared<const Rule<double>>(new_rule);
+    }
 
     /** The value of one component with these values of the variables in used().
      *  @throws InputError if it is not finite, or not what the rule says */
@@ -99,7 +214,10 @@ namespace Morula
 
     /** Whether the variable is in used(). */
     bool
-    uses(const Variable variable) const;
+    uses(const Variable variable) const
+    {
+      return std::binary_search(used_.begin(), used_.end(), variable);
+    }
 
     /** The variables that the text may use, and their names. */
     const Vocabulary &
@@ -110,7 +228,11 @@ namespace Morula
 
     /** Whether it uses other variables than X, Y, Z and t. */
     bool
-    depends_on_state() const;
+    depends_on_state() const
+    {
+      // used_ is sorted, and the state's variables follow X, Y, Z and t.
+      return !used_.empty() && used_.back() > Variable::t;
+    }
 
     /** Whether it uses a variable that changes as the tissue does: not ages,
      *  which change with time alone, nor what changes in events only. */
@@ -133,7 +255,10 @@ namespace Morula
     /** The first component, if this text has no variables. Those of types do
      *  not count. */
     std::optional<double>
-    number() const;
+    number() const
+    {
+      return constants.empty() ? std::optional<double>() : constants[0];
+    }
 
     /** The expressions of types that have one of their own. */
     const std::map<unsigned int, Expression> &

@@ -66,12 +66,19 @@ namespace Morula
 
     /** Names the symbol that --explain uses. */
     ExpressionKey &
-    symbol(const std::string &symbol);
+    symbol(const std::string &symbol)
+    {
+      symbol_ = symbol;
+      return *this;
+    }
 
     /** Also accepts plain numbers separated by commas: the key was a list
      *  before it became an expression. */
     void
-    admit_commas();
+    admit_commas()
+    {
+      commas = true;
+    }
 
     /** Takes other text; it is parsed when it is next needed. */
     ExpressionKey &
@@ -111,12 +118,22 @@ namespace Morula
     /** Sets names that the text may use: the types of cells, with their
      *  numbers. */
     void
-    set_types(const std::map<std::string, double> &types);
+    set_types(const std::map<std::string, double> &names)
+    {
+      types = names;
+      parsed.reset();
+    }
 
     /** Sets the names of the scene's fields, by number. A text that is
      *  evaluated at an event or in a step may use them. */
     void
-    set_fields(const std::vector<std::string> &names);
+    set_fields(const std::vector<std::string> &names)
+    {
+      // Fields exist only where cells are asked, at events and in steps.
+      if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
+        fields = names;
+      parsed.reset();
+    }
 
     /** The names of fields that the text may use. */
     const std::vector<std::string> &
@@ -135,7 +152,11 @@ namespace Morula
     virtual void
     set_for_type(const unsigned int type,
                  const std::string &path,
-                 const std::string &text);
+                 const std::string &text)
+    {
+      of_types[type] = {path, text};
+      parsed.reset();
+    }
 
     /** Whether there is no text. */
     bool
@@ -154,7 +175,10 @@ namespace Morula
 
     /** The expression, or none without text. @throws InputError */
     std::optional<Expression>
-    optional(const unsigned int dim) const;
+    optional(const unsigned int dim) const
+    {
+      return empty() ? std::optional<Expression>() : expression(dim);
+    }
 
     std::string
     text() const override
@@ -162,16 +186,28 @@ namespace Morula
       return text_;
     }
     void
-    assign(const std::string &text) override;
+    assign(const std::string &text) override
+    {
+      *this = text;
+    }
     std::unique_ptr<Patterns::PatternBase>
-    pattern() const override;
+    pattern() const override
+    {
+      return std::make_unique<Patterns::Anything>();
+    }
     std::string
     allowed() const override
     {
       return "";
     }
     void
-    check(const unsigned int dim) const override;
+    check(const unsigned int dim) const override
+    {
+      // An empty key that may be empty has no expression.
+      if (empty() && default_text().empty())
+        return;
+      check_expression(expression(dim), dim);
+    }
 
     /** Whether some type of cells has another value. */
     bool

@@ -4,7 +4,7 @@
 #ifndef morula_base_expression_parser_h
 #define morula_base_expression_parser_h
 
-#include <morula/base/variable.h>
+#include <morula/base/expression.h>
 
 #include <muParser.h>
 
@@ -14,6 +14,26 @@
 
 namespace Morula
 {
+  /** The text of an expression, before muParser reads it. */
+  namespace ExpressionSyntax
+  {
+    /** The components of @p text, separated by ';', without outer blanks. */
+    std::vector<std::string>
+    components(const std::string &text);
+
+    /** Whether @p name occurs in @p text as an identifier. */
+    bool
+    uses(const std::string &text, const std::string &name);
+
+    /**
+     * Looks in one component for text that muParser would accept but misread.
+     * Returns a full sentence with the position and the remedy; empty if there
+     * is none.
+     */
+    std::string
+    misreading(const std::string &component);
+  } // namespace ExpressionSyntax
+
   /** Whether no expression has a variable, function or constant of this name.
    */
   bool

@@ -22,10 +22,6 @@ namespace Morula
     std::string
     number(const double value);
 
-    /** true or false. */
-    std::string
-    truth(const bool value);
-
     /** A list of texts. */
     std::string
     texts(const std::vector<std::string> &values);

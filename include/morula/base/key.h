@@ -4,23 +4,53 @@
 #ifndef morula_base_key_h
 #define morula_base_key_h
 
-#include <morula/base/rule.h>
-
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace Morula
 {
   using namespace dealii;
+
+  /** A condition on the values of a key. */
+  template <typename T>
+  struct Rule
+  {
+    std::function<bool(const T &)> holds;
+    /** A noun phrase. */
+    std::string allowed;
+    /** A full sentence. */
+    std::string remedy;
+  };
+
+  /** Refuses values <= 0. @param unit e.g. "kPa", for the message */
+  inline Rule<double>
+  positive(const std::string &unit, const std::string &remedy)
+  {
+    return {[](const double value) { return value > 0.; },
+            "a value > 0 " + unit,
+            remedy};
+  }
+
+  /** Refuses values < 0. */
+  inline Rule<double>
+  not_negative(const std::string &unit, const std::string &remedy)
+  {
+    return {[](const double value) { return value >= 0.; },
+            "a value >= 0 " + unit,
+            remedy};
+  }
+
 
   class AnyKey;
   struct Keys;
@@ -69,7 +99,10 @@ namespace Morula
 
     /** Puts the key into a section: "A" becomes "Section/A". */
     void
-    place_in(const std::string &section);
+    place_in(const std::string &section)
+    {
+      path_ = section + "/" + path_;
+    }
 
     /** The default as text. */
     const std::string &
@@ -105,7 +138,10 @@ namespace Morula
 
     /** Adds a sentence about what a program adds to the key. */
     void
-    add_documentation(const std::string &text);
+    add_documentation(const std::string &text)
+    {
+      documentation_ += text;
+    }
 
     /** Full paths that the key had before. */
     const std::vector<std::string> &
@@ -313,19 +349,35 @@ namespace Morula
     Key &
     require(const std::function<bool(const T &)> &rule,
             const std::string                    &allowed,
-            const std::string                    &remedy);
+            const std::string                    &remedy)
+    {
+      rules.push_back({rule, allowed, remedy});
+      return *this;
+    }
 
     /** Sets the text that the key gets from a value of `Method`. */
     Key &
-    with(const std::string &method, const std::string &text);
+    with(const std::string &method, const std::string &text)
+    {
+      with_method[method] = text;
+      return *this;
+    }
 
     /** Names a path that the key had before. */
     Key &
-    formerly(const std::string &path);
+    formerly(const std::string &path)
+    {
+      former_paths_.push_back(path);
+      return *this;
+    }
 
     /** Says that the value names a file, or may do so. */
     Key &
-    of_file();
+    of_file()
+    {
+      names_file_ = true;
+      return *this;
+    }
 
     /** Admits one more word. */
     void
@@ -342,7 +394,11 @@ namespace Morula
     std::vector<std::string>
     choices() const override;
     bool
-    is_of_numbers() const override;
+    is_of_numbers() const override
+    {
+      return std::is_same<T, double>::value ||
+             std::is_same<T, std::vector<double>>::value;
+    }
     void
     check(const unsigned int dim) const override;
 

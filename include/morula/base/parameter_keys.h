@@ -5,8 +5,8 @@
 #define morula_base_parameter_keys_h
 
 #include <morula/base/key.h>
-#include <morula/base/parameter_file.h>
 
+#include <algorithm>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -14,6 +14,43 @@
 namespace Morula
 {
   using namespace dealii;
+
+  /** A statement of a .prm file: 'set' or 'subsection'. */
+  struct Statement
+  {
+    bool        is_section;
+    std::string path;  // full path of the key or section, separated by '/'
+    std::string value; // of the key
+    std::string place; // of the statement, "file:line: "
+    // The beginnings of the subsections around it, "file:line", outermost
+    // first.
+    std::vector<std::string> around = {};
+  };
+
+  /**
+   * The statements of a .prm file, with the full path of every key, which the
+   * messages of deal.II's ParameterHandler lack. The grammar is that of
+   * deal.II: set, subsection ... end, include, comments from '#' on, and '\' at
+   * the end of a line that continues. A file named by include is searched in
+   * the working directory, then next to the file that includes it.
+   * @throws InputError for a file that cannot be read, a line that is no
+   *         statement, an end without a subsection, and subsections without an
+   *         end (with the line where the first of them begins)
+   */
+  std::vector<Statement>
+  read_statements(const std::string &file);
+
+  /** Reads statements from a stream. Messages call it @p name. */
+  std::vector<Statement>
+  read_statements(std::istream &input, const std::string &name);
+
+  /**
+   * The statement for the command line's word "Section/Key=value".
+   * @throws InputError if it has no '='
+   */
+  Statement
+  read_override(const std::string &text);
+
 
   /** All keys of a scene, for messages and for --parameters. */
   class ParameterKeys
@@ -27,7 +64,11 @@ namespace Morula
      * former one, else @p path.
      */
     std::string
-    current_name(const std::string &path) const;
+    current_name(const std::string &path) const
+    {
+      const AnyKey *key = find(path);
+      return key == nullptr ? path : key->path();
+    }
 
     /**
      * Applies a statement to the keys.
@@ -51,7 +92,11 @@ namespace Morula
 
   private:
     bool
-    has_section(const std::string &path) const;
+    has_section(const std::string &path) const
+    {
+      return std::find(sections.begin(), sections.end(), path) !=
+             sections.end();
+    }
 
     /** Looks for a subsection around the statement that lacks its end: without
      *  it and those inside it, the statement would be known. Returns a sentence

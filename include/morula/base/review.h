@@ -33,7 +33,11 @@ namespace Morula
     warn(const std::string &key,
          const std::string &value,
          const std::string &why,
-         const std::string &remedy);
+         const std::string &remedy)
+    {
+      warnings.push_back("Warning: " + key + " = '" + value + "': " + why +
+                         ' ' + remedy);
+    }
 
     /** Whether the scene itself gives the key a value that is not the default.
      */
@@ -48,7 +52,14 @@ namespace Morula
     void
     warn_of_idle(const AnyKey      &key,
                  const std::string &why,
-                 const std::string &remedy);
+                 const std::string &remedy)
+    {
+      if (is_given(key))
+        warn(key.path(),
+             key.text(),
+             "it does nothing here: " + why + '.',
+             remedy);
+    }
   };
 } // namespace Morula
 

@@ -93,6 +93,12 @@ namespace Morula
     std::vector<SurfaceTriangle>    all_triangles;
   };
 
+  /** The triangles of a file as above, whose surface may be open; a polygon is
+   * a fan of them. @throws InputError if the file cannot be read or is cut off
+   */
+  std::vector<std::array<Point<3>, 3>>
+  read_triangles(const std::string &key, const std::string &file);
+
   /** Warns of vertices of a good mesh that were merged though they differ, of
    *  faces that were dropped, and of those turned round. Reads the file.
    *  @param key path of the key that names the file */

@@ -14,60 +14,48 @@
 
 namespace Morula
 {
-  /** Reading the polygons of a mesh's file. Only surface_mesh.cc uses it, as
-   *  this header includes CGAL's. */
-  namespace MeshFile
+  /** The polygons of a mesh's file, which does not say which ones are
+   *  neighbours. Only surface_mesh.cc uses it, as this header includes CGAL's.
+   */
+  struct MeshSoup
   {
     using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-    /** Coordinates in µm, for messages. */
-    template <typename Position>
-    std::string
-    place(const Position &p)
-    {
-      std::ostringstream text;
-      text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
-      return text.str();
-    }
-
-    /** The polygons of a file, which does not say which ones are neighbours. */
-    struct Soup
-    {
-      std::vector<Kernel::Point_3>          points;
-      std::vector<std::vector<std::size_t>> polygons;
-      /** Vertices that differed from others by rounding, and are gone. */
-      std::size_t n_merged = 0;
-    };
-
-    /** A file and the path of the key that names it. */
-    struct NamedFile
-    {
-      const std::string &key;
-      const std::string &name;
-    };
-
-    /** Throws an InputError that says what a mesh must be.
-     *  @param remedy what is wrong with this one, and what to do */
-    [[noreturn]] void
-    refuse(const NamedFile &file, const std::string &remedy);
-
-    /** How often each edge belongs to a polygon; 2 if the surface is closed. */
-    using Edges = std::map<std::pair<std::size_t, std::size_t>, unsigned int>;
-
-    /** Counts the edges of all polygons. */
-    Edges
-    edges_of(const Soup &soup);
 
     /**
      * Reads STL, OFF, PLY or OBJ, by the file's ending. Coinciding vertices are
      * merged; if the surface is open otherwise, also those that differ by
      * rounding.
+     * @param key path of the key that names the file
      * @throws InputError for a file that cannot be read, is cut off or empty,
      * or has coordinates that are no finite numbers
      */
-    Soup
-    read_soup(const NamedFile &file);
-  } // namespace MeshFile
+    MeshSoup(const std::string &key, const std::string &name);
+
+    /** Throws an InputError that says what a mesh must be.
+     *  @param remedy what is wrong with this one, and what to do */
+    [[noreturn]] void
+    refuse(const std::string &remedy) const;
+
+    /** How often each edge belongs to a polygon; 2 if the surface is closed. */
+    std::map<std::pair<std::size_t, std::size_t>, unsigned int>
+    edges() const;
+
+    const std::string                     key, name;
+    std::vector<Kernel::Point_3>          points;
+    std::vector<std::vector<std::size_t>> polygons;
+    /** Vertices that differed from others by rounding, and are gone. */
+    std::size_t n_merged = 0;
+  };
+
+  /** Coordinates in µm, for messages. */
+  template <typename Position>
+  std::string
+  place(const Position &p)
+  {
+    std::ostringstream text;
+    text << '(' << p.x() << ", " << p.y() << ", " << p.z() << ')';
+    return text.str();
+  }
 } // namespace Morula
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef morula_effects_equation_h
 #define morula_effects_equation_h
 
-#include <morula/base/announce.h>
+#include <morula/base/agreement.h>
 #include <morula/effects/tables.h>
 #include <morula/mechanics/equilibrium.h>
 

@@ -7,7 +7,6 @@
 #include <morula/effects/part_of_step.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/term.h>
-#include <morula/particles/body_measures.h>
 #include <morula/particles/fusion.h>
 
 #include <memory>

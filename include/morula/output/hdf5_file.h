@@ -7,8 +7,9 @@
 #include <hdf5.h>
 #include <mpi.h>
 
+#include <cstddef>
 #include <string>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 // Why HDF5's C interface: deal.II's wrappers check the library's return values
@@ -17,73 +18,6 @@
 
 namespace Morula
 {
-  /** Owns an identifier of the HDF5 library. */
-  class Hdf5Handle
-  {
-  public:
-    Hdf5Handle(const hid_t id, herr_t (*const close)(hid_t))
-      : id(id)
-      , close(close)
-    {}
-
-    ~Hdf5Handle()
-    {
-      if (id >= 0)
-        close(id);
-    }
-
-    Hdf5Handle(Hdf5Handle &&other) noexcept
-      : id(std::exchange(other.id, H5I_INVALID_HID))
-      , close(other.close)
-    {}
-
-    operator hid_t() const
-    {
-      return id;
-    }
-
-    /** Closes now.
-     *  @return whether that worked */
-    bool
-    release()
-    {
-      return close(std::exchange(id, H5I_INVALID_HID)) >= 0;
-    }
-
-  private:
-    hid_t id;
-    herr_t (*close)(hid_t);
-  };
-
-  /** Keeps the HDF5 library from printing its errors while this object lives,
-   *  and remembers the first of them. */
-  class Hdf5Silence
-  {
-  public:
-    Hdf5Silence();
-    ~Hdf5Silence();
-
-    /** What the library has said of its first error on this rank; empty: it had
-     *  none. */
-    const std::string &
-    reason() const
-    {
-      return reason_;
-    }
-
-    Hdf5Silence(const Hdf5Silence &) = delete;
-    Hdf5Silence &
-    operator=(const Hdf5Silence &) = delete;
-
-  private:
-    static herr_t
-    remember(const hid_t stack, void *silence);
-
-    H5E_auto2_t function;
-    void       *data;
-    std::string reason_;
-  };
-
   /**
    * An HDF5 file that is written or read.
    *
@@ -91,7 +25,8 @@ namespace Morula
    * rank fails, it still takes part in what the others do next, and close()
    * reports the failure. The same data written by the same number of ranks give
    * the same file, byte by byte. The file begins with room for a seal
-   * (sealed_file.h), which seal() writes after the file is closed.
+   * (sealed_file.h), which seal() writes after the file is closed. While an
+   * object of this class lives the library does not print its errors.
    *
    * Each rank reads on its own. Members that read throw a std::runtime_error
    * that says what cannot be read.
@@ -105,6 +40,12 @@ namespace Morula
     /** Opens a file that is read. */
     explicit Hdf5File(const std::string &path);
 
+    ~Hdf5File();
+
+    Hdf5File(const Hdf5File &) = delete;
+    Hdf5File &
+    operator=(const Hdf5File &) = delete;
+
     /** Makes a group. */
     void
     group(const std::string &name);
@@ -113,7 +54,10 @@ namespace Morula
      *  double or int. */
     template <typename T>
     void
-    attribute(const std::string &group, const std::string &name, const T value);
+    attribute(const std::string &group, const std::string &name, const T value)
+    {
+      write_attribute(group, name, native_type<T>(), &value);
+    }
 
     /** Writes a string data set. The value is equal on all ranks. */
     void
@@ -122,7 +66,10 @@ namespace Morula
     /** Writes a vector that is equal on all ranks. T is double or int. */
     template <typename T>
     void
-    table(const std::string &name, const std::vector<T> &values);
+    table(const std::string &name, const std::vector<T> &values)
+    {
+      write_of_root(name, native_type<T>(), values.size(), values.data());
+    }
 
     /**
      * Writes all ranks' rows in the order of the ranks. A rank may have no
@@ -133,7 +80,10 @@ namespace Morula
     rows(const std::string &name,
          const T           *values,
          const hsize_t      n_local_rows,
-         const hsize_t      n_columns);
+         const hsize_t      n_columns)
+    {
+      write_rows(name, native_type<T>(), values, n_local_rows, n_columns);
+    }
 
     /** Closes the file.
      *  @return whether everything has worked on all ranks */
@@ -147,7 +97,12 @@ namespace Morula
     /** The value of an attribute of a group. */
     template <typename T>
     T
-    attribute(const std::string &group, const std::string &name) const;
+    attribute(const std::string &group, const std::string &name) const
+    {
+      T value{};
+      read_attribute(group, name, native_type<T>(), &value);
+      return value;
+    }
 
     /** The names of a group's attributes. */
     std::vector<std::string>
@@ -168,19 +123,74 @@ namespace Morula
     /** A whole vector. */
     template <typename T>
     std::vector<T>
-    table(const std::string &name) const;
+    table(const std::string &name) const
+    {
+      return rows<T>(name, 0, length(name));
+    }
 
     /** Rows [begin, end) of a data set, stored one after the other. */
     template <typename T>
     std::vector<T>
-    rows(const std::string &name, const hsize_t begin, const hsize_t end) const;
+    rows(const std::string &name, const hsize_t begin, const hsize_t end) const
+    {
+      std::vector<T> values(n_values(name, begin, end));
+      if (!values.empty())
+        read_rows(name, native_type<T>(), begin, end, values.data());
+      return values;
+    }
 
   private:
+    /** Silences the library. */
+    explicit Hdf5File(const MPI_Comm comm);
+
+    /** HDF5's type of T. */
+    template <typename T>
+    static hid_t
+    native_type()
+    {
+      if constexpr (std::is_same_v<T, double>)
+        return H5T_NATIVE_DOUBLE;
+      else if constexpr (std::is_same_v<T, int>)
+        return H5T_NATIVE_INT;
+      else if constexpr (std::is_same_v<T, unsigned int>)
+        return H5T_NATIVE_UINT;
+      else
+        {
+          static_assert(std::is_same_v<T, unsigned long long>,
+                        "no such values in a file");
+          return H5T_NATIVE_ULLONG;
+        }
+    }
+
+    /** Remembers the first of the library's errors. */
+    static herr_t
+    remember(const hid_t stack, void *file);
+
     void
     note(const bool success)
     {
       good = good && success;
     }
+
+    void
+    write_attribute(const std::string &group,
+                    const std::string &name,
+                    const hid_t        type,
+                    const void        *value);
+
+    /** Rank 0 writes; the others take part in the call with no rows. */
+    void
+    write_of_root(const std::string &name,
+                  const hid_t        type,
+                  const hsize_t      n,
+                  const void        *values);
+
+    void
+    write_rows(const std::string &name,
+               const hid_t        type,
+               const void        *values,
+               const hsize_t      n_local_rows,
+               const hsize_t      n_columns);
 
     void
     write_dataset(const std::string          &name,
@@ -190,10 +200,35 @@ namespace Morula
                   const hsize_t               n_local_rows,
                   const void                 *values);
 
+    void
+    read_attribute(const std::string &group,
+                   const std::string &name,
+                   const hid_t        type,
+                   void              *value) const;
+
+    /** Of a vector. */
+    hsize_t
+    length(const std::string &name) const;
+
+    /** How many values the rows have, which must be there. */
+    std::size_t
+    n_values(const std::string &name,
+             const hsize_t      begin,
+             const hsize_t      end) const;
+
+    void
+    read_rows(const std::string &name,
+              const hid_t        type,
+              const hsize_t      begin,
+              const hsize_t      end,
+              void              *values) const;
+
     MPI_Comm    comm;
-    Hdf5Silence silence;
+    H5E_auto2_t printer; // of the library's errors, before
+    void       *printer_data;
+    std::string first_error; // on this rank; empty: there was none
     bool        good = true;
-    Hdf5Handle  file;
+    hid_t       file = H5I_INVALID_HID;
   };
 } // namespace Morula
 

@@ -4,9 +4,16 @@
 #ifndef morula_output_output_file_h
 #define morula_output_output_file_h
 
+#include <morula/base/agreement.h>
+
+#include <mpi.h>
+
 #include <cstddef>
+#include <functional>
+#include <future>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace Morula
 {
@@ -87,6 +94,58 @@ namespace Morula
   /** Replaces a whole file; see OutputFile::commit(). */
   void
   write_atomically(const std::string &path, const std::string_view text);
+
+
+  /**
+   * Files that a thread of rank 0 writes while the run goes on. At most one lot
+   * of them is in memory. All members are collective.
+   */
+  class BackgroundFiles
+  {
+  public:
+    explicit BackgroundFiles(const MPI_Comm comm)
+      : comm(comm)
+    {}
+
+    /**
+     * Begins to write, when the lot before is finished.
+     * @param write writes the files; only rank 0 calls it. It must not
+     *   communicate.
+     * @param wait  finishes them, too
+     * @throws std::runtime_error as finish(), also about the lot before
+     */
+    void
+    start(std::function<void()> write, const bool wait);
+
+    /** Whether there are files that are not finished. */
+    bool
+    pending() const
+    {
+      return is_pending;
+    }
+
+    /** Whether there are, and they are written, so that finish() need not wait.
+     */
+    bool
+    written() const;
+
+    /**
+     * Waits for the files, if there are any.
+     * @throws std::runtime_error on all ranks, with path and reason. The files
+     *   are given up then.
+     */
+    void
+    finish()
+    {
+      if (std::exchange(is_pending, false))
+        on_root(comm, [this]() { thread.get(); });
+    }
+
+  private:
+    const MPI_Comm    comm;
+    bool              is_pending = false;
+    std::future<void> thread; // on rank 0
+  };
 } // namespace Morula
 
 #endif

@@ -4,11 +4,16 @@
 #ifndef morula_output_point_fields_h
 #define morula_output_point_fields_h
 
-#include <morula/output/gather.h>
+#include <morula/mechanics/elastic_point.h>
+#include <morula/output/table.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/cell_state.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/particles/property_pool.h>
+
+#include <mpi.h>
 
 #include <algorithm>
 #include <set>
@@ -141,6 +146,113 @@ namespace Morula
       }
     return parts;
   }
+
+
+  /**
+   * The text of a CSV file of points: a header, then the rows of all parts in
+   * the order of their ids, so that the file is the same for any number of
+   * ranks.
+   * @param parts of the ranks; at least one
+   */
+  template <int dim>
+  std::string
+  csv_text(const std::vector<PointFields<dim>> &parts);
+
+
+  /**
+   * The table behind cells-NNNN.csv and cells-NNNN.vtu. The latter also gets
+   * pressure (-tr σ / 3), the principal stresses (largest first), and the
+   * displacement x - X; σ is a tensor there. Columns that effects have declared
+   * for the output are the last ones of the CSV file, in the order of their
+   * declaration. A vector NAME has the columns NAME_x, NAME_y, NAME_z, a tensor
+   * NAME_xx, NAME_xy, ..., NAME_zz; in 2-D the third direction has zeros.
+   */
+  template <int dim>
+  struct CellFields : public PointFields<dim>
+  {
+    /**
+     * @param time           day
+     * @param n_cells        number of cells that will be added
+     * @param columns        of the cells
+     * @param has_checkpoint whether there is a column of the cells that the
+     *                       size checkpoint holds
+     * @throws std::invalid_argument for declared columns with heads that the
+     *                       table has already
+     */
+    CellFields(const double            time,
+               const std::size_t       n_cells,
+               const CellColumns<dim> &columns,
+               const bool              has_checkpoint);
+
+    /**
+     * Adds one cell of this rank.
+     * @param position current, µm
+     * @param phase    number as in the file; 9: does not proliferate
+     * @param held     whether the size checkpoint holds it; false without one
+     */
+    void
+    add(const types::particle_index        id,
+        const CellView<dim, const double> &cell,
+        const Point<dim>                  &position,
+        const unsigned int                 phase,
+        const bool                         held,
+        const CellQuantities              &quantities);
+
+  private:
+    const double                      time;
+    const bool                        has_checkpoint;
+    const std::vector<Columns::Entry> declared;
+  };
+
+  /**
+   * The table behind surface-NNNN.csv and surface-NNNN.vtu. The latter also
+   * gets the normal and the displacement as vectors. Declared columns are as in
+   * CellFields.
+   */
+  template <int dim>
+  struct SurfaceFields : public PointFields<dim>
+  {
+    /** As the constructor of CellFields. */
+    SurfaceFields(const double time, const BoundaryColumns<dim> &columns);
+
+    /** Adds one boundary point of this rank.
+     *  @param position current, µm */
+    void
+    add(const types::particle_index id,
+        const BoundaryView<dim>    &point,
+        const Point<dim>           &position);
+
+  private:
+    const double                      time;
+    const std::vector<Columns::Entry> declared;
+  };
+
+
+  /**
+   * Writes one VTU file, uncompressed, with a piece for each part. It appears
+   * when it is complete.
+   * @param parts  of the ranks
+   * @param time   day
+   * @param number of the file in its series
+   * @throws std::runtime_error with path and reason
+   */
+  template <int dim>
+  void
+  write_vtu(const std::string                   &path,
+            const std::vector<PointFields<dim>> &parts,
+            const double                         time,
+            const unsigned int                   number);
+
+  /**
+   * Writes the ParaView record of a series: times (day) and file names relative
+   * to the record. Files that are not there (the format was switched on later)
+   * are left out. Collective.
+   * @throws std::runtime_error, on all ranks, with path and reason
+   */
+  void
+  write_pvd(const std::string                                 &path,
+            const std::vector<std::pair<double, std::string>> &times_and_names,
+            const MPI_Comm                                     comm);
 } // namespace Morula
 
 #endif

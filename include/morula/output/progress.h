@@ -5,18 +5,91 @@
 #define morula_output_progress_h
 
 #include <morula/output/output_file.h>
-#include <morula/output/time_left.h>
-#include <morula/output/timings.h>
+
+#include <deal.II/base/timer.h>
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
+  using namespace dealii;
+
+  /**
+   * Estimates how long a run still takes. Tissues grow, and a simulated day
+   * costs more and more. So the wall time is extrapolated as a power
+   * (t - t_0)^p of the simulated time; p follows from the wall times of the
+   * first and the second half so far. Early in the run this is more sensible
+   * than an exponential.
+   */
+  class TimeLeft
+  {
+  public:
+    /** @param start, end simulated times at which this program begins and ends,
+     *   day */
+    TimeLeft(const double start, const double end)
+      : end(end)
+      , records({{start, 0.}})
+    {}
+
+    /** Records that the simulated time @p time was reached after so many wall
+     *  seconds. */
+    void
+    add(const double time, const double wall_seconds)
+    {
+      records.push_back({time, wall_seconds});
+    }
+
+    /** Wall seconds from the last record to the end; -1 if not known yet. */
+    double
+    seconds() const;
+
+  private:
+    double                                 end;
+    std::vector<std::pair<double, double>> records; // times, wall seconds
+  };
+
+  /** A duration as text: `42 s`, `3 min 20 s`, `2 h 05 min`, `1 d 03 h`. */
+  std::string
+  duration(const double seconds);
+
+
+  /** The cost of a named section of the program. */
+  struct SectionTime
+  {
+    double calls        = 0.;
+    double wall_seconds = 0.;
+  };
+
+  /** Costs by the sections' names. Only sections that were entered. */
+  using SectionTimes = std::map<std::string, SectionTime>;
+
+  /**
+   * The costs of the timer's sections so far, plus those of the run @p before
+   * it was resumed.
+   */
+  SectionTimes
+  section_times(const TimerOutput &timer, const SectionTimes &before = {});
+
+  /**
+   * Writes timings.csv with the columns `section,calls,wall_seconds,share`, the
+   * times of rank 0, and a last row `total`. A share is the section's fraction
+   * of @p total_seconds. Collective.
+   * @throws std::runtime_error, on all ranks, with path and reason
+   */
+  void
+  write_timings(const std::string  &path,
+                const SectionTimes &sections,
+                const double        total_seconds,
+                const MPI_Comm      comm);
+
+
   /** What the program reports of a step. */
   struct StepReport
   {

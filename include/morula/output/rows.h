@@ -4,12 +4,10 @@
 #ifndef morula_output_rows_h
 #define morula_output_rows_h
 
-#include <morula/output/longest_cell.h>
 #include <morula/output/table.h>
 #include <morula/output/tissue_sums.h>
-#include <morula/particles/birth.h>
 #include <morula/particles/cell_event.h>
-#include <morula/particles/surface_fit.h>
+#include <morula/particles/detached_points.h>
 #include <morula/solver/condition_estimate.h>
 #include <morula/solver/newton.h>
 

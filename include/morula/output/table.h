@@ -4,13 +4,20 @@
 #ifndef morula_output_table_h
 #define morula_output_table_h
 
-#include <morula/output/gather.h>
+#include <morula/output/output_file.h>
+#include <morula/output/sealed_file.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi_large_count.h>
 
 #include <mpi.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -20,6 +27,54 @@
 namespace Morula
 {
   using namespace dealii;
+
+  /**
+   * Gathers all ranks' strings, or vectors of plain values, on rank 0. The
+   * result is in the order of the ranks; on other ranks it is empty. A rank's
+   * part may be larger than 2 GB, which Utilities::MPI::gather() does not
+   * allow. Collective.
+   */
+  template <typename Container>
+  std::vector<Container>
+  gather_to_root(Container local, const MPI_Comm comm)
+  {
+    using T = typename Container::value_type;
+    static_assert(std::is_trivially_copyable<T>::value,
+                  "only plain values can be sent byte by byte");
+    constexpr int tag = 0;
+
+    const std::vector<std::size_t> sizes =
+      Utilities::MPI::gather(comm, local.size());
+    if (Utilities::MPI::this_mpi_process(comm) != 0)
+      {
+        if (!local.empty())
+          {
+            const int ierr = Utilities::MPI::LargeCount::Send_c(
+              local.data(), local.size() * sizeof(T), MPI_BYTE, 0, tag, comm);
+            AssertThrowMPI(ierr);
+          }
+        return {};
+      }
+
+    std::vector<Container> all(sizes.size());
+    all[0] = std::move(local);
+    for (std::size_t rank = 1; rank < all.size(); ++rank)
+      if (sizes[rank] > 0)
+        {
+          all[rank].resize(sizes[rank]);
+          const int ierr =
+            Utilities::MPI::LargeCount::Recv_c(&all[rank][0],
+                                               sizes[rank] * sizeof(T),
+                                               MPI_BYTE,
+                                               rank,
+                                               tag,
+                                               comm,
+                                               MPI_STATUS_IGNORE);
+          AssertThrowMPI(ierr);
+        }
+    return all;
+  }
+
 
   /**
    * Appends @p value as printf's `%.10g` does in the C locale, in any locale; a
@@ -124,6 +179,85 @@ namespace Morula
       sorted += row.second;
     return sorted;
   }
+
+
+  /** How much of a table stays when a run is resumed from a snapshot. */
+  struct TableExtent
+  {
+    std::uint64_t n_rows = 0; // below the header
+    std::uint64_t digest = 0; // of header and rows; only on rank 0
+  };
+
+  /**
+   * A CSV file to which rows are appended during a run. All members are
+   * collective and throw on all ranks alike. A crash may leave incomplete rows
+   * at the end; they are never read, since a resumed run cuts the file behind
+   * the rows that the snapshot knows of.
+   */
+  class AppendedCsv
+  {
+  public:
+    /**
+     * Starts a new file with its header, a complete line.
+     * @throws std::runtime_error with path and reason
+     */
+    AppendedCsv(const std::string &path,
+                const std::string &header,
+                const MPI_Comm     comm);
+
+    /**
+     * Continues a file: keeps the rows that @p kept names, and cuts what
+     * follows.
+     * @throws InputError if the file is missing, or has another header, fewer
+     * rows, or rows with another digest
+     */
+    AppendedCsv(const std::string &path,
+                const std::string &header,
+                const TableExtent &kept,
+                const MPI_Comm     comm);
+
+    /**
+     * Throws what the second constructor would throw, and changes nothing.
+     * @throws InputError
+     */
+    static void
+    check(const std::string &path,
+          const std::string &header,
+          const TableExtent &kept,
+          const MPI_Comm     comm);
+
+    /**
+     * Appends rank 0's @p rows, which are complete lines. On return the system
+     * has them.
+     * @throws std::runtime_error with path and reason, e.g. if somebody has
+     *   deleted the file
+     */
+    void
+    append(const std::string &rows);
+
+    /** Forces the rows to the disk. Needed before a snapshot counts them. */
+    void
+    sync()
+    {
+      on_root(comm, [&]() {
+        file->check_in_place();
+        file->sync();
+      });
+    }
+
+    /** What a snapshot stores. */
+    TableExtent
+    extent() const
+    {
+      return {n_rows, digest.value()};
+    }
+
+  private:
+    MPI_Comm                    comm;
+    std::uint64_t               n_rows = 0;
+    Digest                      digest; // of the file so far, on rank 0
+    std::unique_ptr<OutputFile> file;   // on rank 0
+  };
 } // namespace Morula
 
 #endif

@@ -19,6 +19,24 @@ namespace Morula
 {
   using namespace dealii;
 
+  /** Which cells a boundary point may look at where tissue touches tissue:
+   *  those of its body and, if its body can touch itself, those behind it. */
+  template <int dim>
+  struct Side
+  {
+    unsigned int body;
+    /** Outward normal of the surface; 0 if all cells of the body count. */
+    Tensor<1, dim> n;
+
+    /** Whether a cell at @p cell is on the side of the point at @p x. */
+    bool
+    has(const Point<dim> &x, const Point<dim> &cell) const
+    {
+      return n * (cell - x) <= 0.;
+    }
+  };
+
+
   /** What holds or loads a boundary point; numbers as in surface-NNNN.csv. */
   enum class SurfaceCondition
   {

@@ -4,6 +4,7 @@
 #ifndef morula_particles_cell_event_h
 #define morula_particles_cell_event_h
 
+#include <deal.II/base/point.h>
 #include <deal.II/particles/property_pool.h>
 
 #include <cstring>
@@ -42,6 +43,19 @@ namespace Morula
     unsigned int          to;   // and after; differs in transitions only
     const char           *cause   = "";    // of a death
     bool                  at_once = false; // a death by a condition that held
+  };
+
+
+  /** A cell's row in lineage.csv. */
+  template <int dim>
+  struct Birth
+  {
+    types::particle_index id;
+    int                   parent;     // -1 for founders
+    unsigned int          generation; // of founders 0, or as their file says
+    double                time;       // day, exact
+    Point<dim>            position;   // at birth, µm
+    unsigned int          type = 0;   // number of the type
   };
 } // namespace Morula
 

@@ -26,36 +26,97 @@ namespace Morula
   {
   public:
     /** Declares the columns of every cell. */
-    CellColumns();
+    CellColumns()
+    {
+      founder_position = add<Point<dim>>(
+        {"founder_position", "um", "initial position of the founder"});
+      initial_volume = add<double>({"initial_volume",
+                                    "um^" + std::to_string(dim),
+                                    "volume at t = 0, halved at every division",
+                                    0.,
+                                    AtDivision::halved});
+      deformation =
+        add<Tensor<2, dim>>({"deformation",
+                             "",
+                             "deformation gradient F since t = 0",
+                             Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    }
 
     /** Declares growth, if not yet declared. Effects that let cells grow call
      *  it. */
     void
-    need_growth();
+    need_growth()
+    {
+      if (!growth.exists())
+        growth =
+          add<Tensor<2, dim>>({"growth",
+                               "",
+                               "growth F_g",
+                               Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    }
 
     /** Declares parent and generation, if not yet declared. Effects that divide
      *  cells call it. */
     void
-    need_lineage();
+    need_lineage()
+    {
+      if (parent.exists())
+        return;
+      parent =
+        add<int>({"parent", "", "id of the mother, -1 for founders", -1});
+      generation =
+        add<unsigned int>({"generation", "", "divisions since the founder"});
+    }
 
     /** Declares the body and, if bodies can touch themselves, the part.
      *  Contact calls it. */
     void
-    need_bodies(const bool with_parts = false);
+    need_bodies(const bool with_parts = false)
+    {
+      if (!body.exists())
+        body = add<unsigned int>({"body",
+                                  "",
+                                  "number of the body that the cell belongs to",
+                                  0,
+                                  AtDivision::copied,
+                                  true});
+      if (with_parts && !part.exists())
+        part = add<unsigned int>(
+          {"part", "", "number of the part of its grid cell"});
+    }
 
     /** Declares the lineage key, if not yet declared. Effects that divide cells
      *  call it. */
     void
-    need_lineage_key();
+    need_lineage_key()
+    {
+      if (!lineage_key.exists())
+        lineage_key =
+          add<std::uint64_t>({"lineage_key", "", "key of the random numbers"});
+    }
 
     /** Declares the shape, if not yet declared. Effects that follow the shape
      * of cells through divisions call it. */
     void
-    need_shape();
+    need_shape()
+    {
+      if (!shape.exists())
+        shape = add<Tensor<2, dim>>(
+          {"shape",
+           "",
+           "H: F H is what divisions have left of the founder's cube",
+           Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    }
 
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
-    founder(const Point<dim> &X, const double volume) const;
+    founder(const Point<dim> &X, const double volume) const
+    {
+      std::vector<double> row = this->initial_row();
+      founder_position.set(make_array_view(row), X);
+      initial_volume.set(make_array_view(row), volume);
+      return row;
+    }
 
     /** Initial position of the founder, µm. */
     Column<Point<dim>> founder_position;

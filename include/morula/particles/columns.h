@@ -4,18 +4,156 @@
 #ifndef morula_particles_columns_h
 #define morula_particles_columns_h
 
-#include <morula/particles/flat.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
+#include <cstdint>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 namespace Morula
 {
   using namespace dealii;
+
+  /** 0 for scalars, 1 for vectors, 2 for tensors. */
+  template <typename T>
+  inline constexpr unsigned int flat_rank = 0;
+  template <int dim>
+  inline constexpr unsigned int flat_rank<Tensor<1, dim>> = 1;
+  template <int dim>
+  inline constexpr unsigned int flat_rank<Point<dim>> = 1;
+  template <int dim>
+  inline constexpr unsigned int flat_rank<Tensor<2, dim>> = 2;
+  template <int dim>
+  inline constexpr unsigned int flat_rank<SymmetricTensor<2, dim>> = 2;
+
+  /**
+   * Converts a value of type T to @p n numbers in a row, and back: numbers and
+   * enumerations of at most 32 bits, which a double holds exactly; integers of
+   * 64 bits, the lower half, then the upper half; points, vectors and tensors,
+   * row by row, of symmetric ones the upper triangle. This is the only place
+   * that takes tensors apart, for columns, snapshots and messages between
+   * ranks.
+   */
+  template <typename T>
+  struct Flat
+  {
+    /** See flat_rank. */
+    static constexpr unsigned int rank = flat_rank<T>;
+    /** Whether the numbers are integers. */
+    static constexpr bool whole = rank == 0 && !std::is_same_v<T, double>;
+
+    static constexpr unsigned int
+    count()
+    {
+      if constexpr (rank > 0)
+        return T::n_independent_components;
+      else
+        return is_long ? 2 : 1;
+    }
+
+    static constexpr bool is_long = std::is_same_v<T, std::uint64_t>;
+    static_assert(rank > 0 || is_long || std::is_same_v<T, double> ||
+                  ((std::is_integral_v<T> || std::is_enum_v<T>) &&
+                   sizeof(T) <= 4));
+
+    /** Number of numbers for a value. */
+    static constexpr unsigned int n = count();
+
+    /** The value of the numbers from @p numbers on. */
+    static T
+    read(const double *numbers)
+    {
+      if constexpr (rank > 0)
+        {
+          T value;
+          for_entries(value, [&](double &entry) { entry = *numbers++; });
+          return value;
+        }
+      else if constexpr (is_long)
+        return static_cast<std::uint64_t>(numbers[0]) |
+               (static_cast<std::uint64_t>(numbers[1]) << 32);
+      else if constexpr (std::is_enum_v<T>)
+        return static_cast<T>(static_cast<int>(*numbers));
+      else
+        return static_cast<T>(*numbers);
+    }
+
+    /** Writes the value to the numbers from @p numbers on. */
+    static void
+    write(const T &value, double *numbers)
+    {
+      if constexpr (rank > 0)
+        for_entries(value, [&](const double entry) { *numbers++ = entry; });
+      else if constexpr (is_long)
+        {
+          numbers[0] = static_cast<std::uint32_t>(value);
+          numbers[1] = static_cast<std::uint32_t>(value >> 32);
+        }
+      else if constexpr (std::is_enum_v<T>)
+        *numbers = static_cast<int>(value);
+      else
+        *numbers = value;
+    }
+
+  private:
+    /** Calls visit(entry) for the entries of a vector or tensor. */
+    template <typename Value, typename Visit>
+    static void
+    for_entries(Value &value, const Visit &visit)
+    {
+      constexpr unsigned int dim = T::dimension;
+      for (unsigned int i = 0; i < dim; ++i)
+        if constexpr (rank == 1)
+          visit(value[i]);
+        else
+          for (unsigned int j = n < dim * dim ? i : 0; j < dim; ++j)
+            visit(value[i][j]);
+    }
+  };
+
+  /** Several values, one after the other. */
+  template <typename... Ts>
+  struct Flat<std::tuple<Ts...>>
+  {
+    static constexpr unsigned int n = (Flat<Ts>::n + ...);
+    static std::tuple<Ts...>
+    read(const double *numbers)
+    {
+      const auto next = [&numbers](const auto flat) {
+        const auto value = flat.read(numbers);
+        numbers += flat.n;
+        return value;
+      };
+      // In braces the values are read from left to right.
+      return std::tuple<Ts...>{next(Flat<Ts>())...};
+    }
+    static void
+    write(const std::tuple<Ts...> &values, double *numbers)
+    {
+      std::apply(
+        [&numbers](const Ts &...value) {
+          ((Flat<Ts>::write(value, numbers), numbers += Flat<Ts>::n), ...);
+        },
+        values);
+    }
+  };
+
+  /** Appends a value to a list of numbers. */
+  template <typename T>
+  void
+  append_flat(std::vector<double> &numbers, const T &value)
+  {
+    numbers.resize(numbers.size() + Flat<T>::n);
+    Flat<T>::write(value, numbers.data() + numbers.size() - Flat<T>::n);
+  }
 
   /** Which value a daughter gets in a column. An effect may overwrite it, as
    *  the cell cycle does with its clock. */

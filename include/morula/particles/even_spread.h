@@ -4,6 +4,7 @@
 #ifndef morula_particles_even_spread_h
 #define morula_particles_even_spread_h
 
+#include <morula/grid/occupancy.h>
 #include <morula/particles/tissue.h>
 
 #include <vector>
@@ -33,6 +34,23 @@ namespace Morula
   template <int dim>
   void
   spread_uneven_growth(Tissue<dim> &tissue, const double dt);
+
+
+  /**
+   * Adapts the volumes of cells to the space that they take: it makes F smaller
+   * if cells overlap and larger if there are gaps between them, so that the
+   * next step moves them apart or together. Only inside the tissue: in grid
+   * cells that are nearly full, like all their neighbours. doc/theory.md
+   * (6.9c).
+   * @param occupancy of a configuration not long before
+   * @param part      fraction of the difference that is removed, at most 1
+   */
+  template <int dim>
+  void
+  relax_volumes_to_space(Tissue<dim>          &tissue,
+                         const Occupancy<dim> &occupancy,
+                         const double          part,
+                         const unsigned int    body = 0);
 } // namespace Morula
 
 #endif

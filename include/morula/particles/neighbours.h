@@ -89,6 +89,17 @@ namespace Morula
   template <int dim>
   std::vector<double>
   free_surfaces(const Tissue<dim> &tissue);
+
+
+  /**
+   * Whether the surface touches another one at each boundary point, by the
+   * points' numbers: that of another body, or, where bodies can touch
+   * themselves, any that faces it. Where they do, one tissue goes on behind the
+   * other. Collective.
+   */
+  template <int dim>
+  std::vector<char>
+  touching_points(const Tissue<dim> &tissue);
 } // namespace Morula
 
 #endif

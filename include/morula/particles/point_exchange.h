@@ -8,6 +8,7 @@
 #include <morula/particles/point_list.h>
 
 #include <map>
+#include <vector>
 
 namespace Morula
 {
@@ -46,6 +47,12 @@ namespace Morula
   halo(const PointList<dim>      &points,
        const BackgroundGrid<dim> &grid,
        const double               reach);
+
+  /** A box of grid cells of the edge @p spacing (µm) around @p positions, of
+   *  which there is at least one. */
+  template <int dim>
+  GridBox<dim>
+  box_around(const std::vector<Point<dim>> &positions, const double spacing);
 } // namespace Morula
 
 #endif

@@ -4,7 +4,7 @@
 #ifndef morula_particles_point_list_h
 #define morula_particles_point_list_h
 
-#include <morula/particles/flat.h>
+#include <morula/particles/columns.h>
 
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>

@@ -44,14 +44,23 @@ namespace Morula
      *         touch themselves */
     explicit PointStore(const unsigned int          n_numbers,
                         const Column<unsigned int> &body = {},
-                        const Column<unsigned int> &part = {});
+                        const Column<unsigned int> &part = {})
+      : n_numbers(n_numbers)
+      , body_column(body)
+      , part_column(part)
+    {}
 
     /**
      * Binds the store to the grid's present triangulation. All points must
      * have been taken out before; the triangulation must outlive them.
      */
     void
-    attach(const BackgroundGrid<dim> &grid);
+    attach(const BackgroundGrid<dim> &grid)
+    {
+      Assert(order.empty(), ExcMessage("Take the points out first."));
+      handler.initialize(grid.triangulation(), mapping, n_numbers);
+      capacity = 0;
+    }
 
     /**
      * Inserts points, which may be anywhere: each is sent to the rank that owns
@@ -73,22 +82,43 @@ namespace Morula
     void
     replace(const std::vector<unsigned int> &removed,
             const PointList<dim>            &inserted,
-            const BackgroundGrid<dim>       &grid);
+            const BackgroundGrid<dim>       &grid)
+    {
+      take_out(removed);
+      insert(inserted, grid);
+    }
 
     /** Removes these points of this rank, given by their positions in the
      *  order. Collective: deal.II counts the points of all ranks. */
     void
     remove(const std::vector<unsigned int> &removed,
-           const BackgroundGrid<dim>       &grid);
+           const BackgroundGrid<dim>       &grid)
+    {
+      n_disordered += removed.size();
+      take_out(removed);
+      sort(grid);
+    }
 
     /** Takes all points of this rank out of the store. */
     void
-    clear();
+    clear()
+    {
+      order.clear();
+      grid_cells_.clear();
+      handler.clear_particles(); // gives back its memory
+      capacity     = 0;
+      n_disordered = 0;
+    }
 
     /** Takes all points of this rank out of the store, and returns them in
      *  order. */
     PointList<dim>
-    take();
+    take()
+    {
+      PointList<dim> points = copy();
+      clear();
+      return points;
+    }
 
     /**
      * Sorts the memory of this rank's points into the canonical order, if many
@@ -96,15 +126,29 @@ namespace Morula
      * Loops in this order are then several times as fast.
      */
     void
-    defragment(const BackgroundGrid<dim> &grid);
+    defragment(const BackgroundGrid<dim> &grid)
+    {
+      if (n_disordered > worst_disorder * order.size())
+        insert_own(take(), grid);
+    }
 
     /** A copy of all points of this rank, in order. */
     PointList<dim>
-    copy() const;
+    copy() const
+    {
+      PointList<dim> points(n_numbers);
+      points.reserve(size());
+      for (unsigned int p = 0; p < size(); ++p)
+        points.add(id(p), position(p), row(p));
+      return points;
+    }
 
     /** Grid cells of this rank that hold points, by number. */
     const std::vector<GridCell> &
-    grid_cells() const;
+    grid_cells() const
+    {
+      return grid_cells_;
+    }
 
     /** How many points this rank has. */
     unsigned int
@@ -152,7 +196,12 @@ namespace Morula
     /** Sets the parts of all points of this rank, and orders them anew. */
     void
     set_parts(const std::vector<unsigned int> &parts,
-              const BackgroundGrid<dim>       &grid);
+              const BackgroundGrid<dim>       &grid)
+    {
+      for (unsigned int p = 0; p < size(); ++p)
+        set(part_column, p, parts[p]);
+      sort(grid);
+    }
 
     /** Whether the points know their bodies. */
     bool
@@ -164,15 +213,35 @@ namespace Morula
     /** The bodies of all points of this rank; empty in a scene without contact.
      */
     std::vector<unsigned int>
-    bodies() const;
+    bodies() const
+    {
+      std::vector<unsigned int> list;
+      if (has_bodies())
+        for (unsigned int p = 0; p < size(); ++p)
+          list.push_back(body(p));
+      return list;
+    }
 
     /** Positions of all points of this rank, µm. */
     std::vector<Point<dim>>
-    positions() const;
+    positions() const
+    {
+      std::vector<Point<dim>> list;
+      list.reserve(size());
+      for (unsigned int p = 0; p < size(); ++p)
+        list.push_back(position(p));
+      return list;
+    }
 
     /** Positions (µm) of some of this rank's points. */
     std::vector<Point<dim>>
-    positions_of(const std::vector<unsigned int> &points) const;
+    positions_of(const std::vector<unsigned int> &points) const
+    {
+      std::vector<Point<dim>> list;
+      for (const unsigned int p : points)
+        list.push_back(position(p));
+      return list;
+    }
 
     /** The value in a column. */
     template <typename T>
@@ -209,6 +278,11 @@ namespace Morula
     }
 
   private:
+    /** Share of points out of order in memory from which putting them in order
+     *  costs less than it saves (doc/performance.md, Where cells lie in
+     *  memory). */
+    static constexpr double worst_disorder = 0.1;
+
     using Iterator =
       typename Particles::ParticleHandler<dim>::particle_iterator;
 

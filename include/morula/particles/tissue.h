@@ -6,14 +6,203 @@
 
 #include <morula/grid/background_grid.h>
 #include <morula/grid/particle_domain.h>
+#include <morula/grid/parting.h>
 #include <morula/grid/spline_space.h>
-#include <morula/particles/boundary_points.h>
-#include <morula/particles/cells.h>
+#include <morula/particles/boundary_state.h>
+#include <morula/particles/cell_state.h>
+#include <morula/particles/point_store.h>
 
+#include <numeric>
 #include <vector>
 
 namespace Morula
 {
+  /**
+   * This rank's boundary points by their position p in the canonical order:
+   * `points.F(p)`, `points.area_vector(p)`. A whole point is `points[p]`. The
+   * ParticleHandler stores them.
+   */
+  template <int dim>
+  class BoundaryPoints : public PointStore<dim>
+  {
+  public:
+    /** No points yet, with these columns. */
+    explicit BoundaryPoints(const BoundaryColumns<dim> &columns)
+      : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
+      , columns_(columns)
+    {}
+
+    /** The columns of a boundary point. */
+    const BoundaryColumns<dim> &
+    columns() const
+    {
+      return columns_;
+    }
+
+    /** One boundary point. */
+    BoundaryView<dim, const double>
+    operator[](const unsigned int p) const
+    {
+      return {this->row(p), columns_};
+    }
+
+    /** One boundary point, for writing. */
+    BoundaryView<dim, double>
+    operator[](const unsigned int p)
+    {
+      return {this->row(p), columns_};
+    }
+
+    /** F. */
+    Tensor<2, dim>
+    F(const unsigned int p) const
+    {
+      return (*this)[p].F();
+    }
+
+    /** What holds or loads the point. */
+    SurfaceCondition
+    condition(const unsigned int p) const
+    {
+      return (*this)[p].condition();
+    }
+
+    /** The present area vector a n, µm^(dim-1). */
+    Tensor<1, dim>
+    area_vector(const unsigned int p) const
+    {
+      return (*this)[p].area_vector();
+    }
+
+    /** Which cells each point may look at; empty without contact. */
+    std::vector<Side<dim>>
+    sides() const
+    {
+      std::vector<unsigned int> all(this->size());
+      std::iota(all.begin(), all.end(), 0u);
+      return sides_of(all);
+    }
+
+    /** The same of some points of this rank. */
+    std::vector<Side<dim>>
+    sides_of(const std::vector<unsigned int> &points) const
+    {
+      std::vector<Side<dim>> list;
+      if (this->has_bodies())
+        for (const unsigned int p : points)
+          list.push_back({this->body(p),
+                          this->has_parts() ?
+                            area_vector(p) / area_vector(p).norm() :
+                            Tensor<1, dim>()});
+      return list;
+    }
+
+  private:
+    const BoundaryColumns<dim> columns_;
+  };
+
+
+  /**
+   * This rank's cells by their position p in the canonical order: `cells.F(p)`,
+   * `cells.growth(p)`, `cells.get(column, p)`. A whole cell is `cells[p]`. The
+   * ParticleHandler stores them.
+   */
+  template <int dim>
+  class Cells : public PointStore<dim>
+  {
+  public:
+    /** No cells yet, with these columns. */
+    explicit Cells(const CellColumns<dim> &columns)
+      : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
+      , columns_(columns)
+    {}
+
+    /** The columns of a cell. */
+    const CellColumns<dim> &
+    columns() const
+    {
+      return columns_;
+    }
+
+    /** One cell. */
+    CellView<dim, const double>
+    operator[](const unsigned int p) const
+    {
+      return {this->row(p), columns_};
+    }
+
+    /** One cell, for writing. */
+    CellView<dim, double>
+    operator[](const unsigned int p)
+    {
+      return {this->row(p), columns_};
+    }
+
+    /** Initial position of the founder, µm. */
+    Point<dim>
+    founder_position(const unsigned int p) const
+    {
+      return (*this)[p].founder_position();
+    }
+
+    /** V⁰, µm^dim. */
+    double
+    initial_volume(const unsigned int p) const
+    {
+      return (*this)[p].initial_volume();
+    }
+
+    /** F, the deformation gradient since t = 0. */
+    Tensor<2, dim>
+    F(const unsigned int p) const
+    {
+      return (*this)[p].F();
+    }
+
+    /** F_g; the identity if no effect lets cells grow. */
+    Tensor<2, dim>
+    growth(const unsigned int p) const
+    {
+      return (*this)[p].growth();
+    }
+
+    /** V = V⁰ det F, µm^dim. */
+    double
+    volume(const unsigned int p) const
+    {
+      return (*this)[p].volume();
+    }
+
+  private:
+    const CellColumns<dim> columns_;
+  };
+
+
+  /**
+   * The box of volume V around a cell, deformed as the cell is: doc/theory.md
+   * (2.2b). Where cells proliferate, only their elastic deformation counts: a
+   * cell that grows to double length and divides leaves two of the shape that
+   * it had, though F stays doubled.
+   */
+  template <int dim>
+  DeformedCube<dim>
+  cell_shape(const CellView<dim, const double> &cell)
+  {
+    if (!cell.columns().parent.exists())
+      return {cell.initial_volume(), cell.F()};
+    return {cell.initial_volume() * determinant(cell.growth()),
+            cell.elastic_deformation()};
+  }
+
+  /** As cell_shape(), around @p x, µm. */
+  template <int dim>
+  ParticleDomain<dim>
+  cell_domain(const Point<dim> &x, const CellView<dim, const double> &cell)
+  {
+    return cell_shape<dim>(cell).at(x);
+  }
+
+
   /**
    * The tissue on its background grid: cells and boundary points, distributed
    * over the ranks by the grid cell they are in.
@@ -27,7 +216,12 @@ namespace Morula
       const GridParameters       &parameters,
       const CellColumns<dim>     &cell_columns,
       const MPI_Comm              comm,
-      const BoundaryColumns<dim> &boundary_columns = BoundaryColumns<dim>());
+      const BoundaryColumns<dim> &boundary_columns = BoundaryColumns<dim>())
+      : parameters(parameters)
+      , grid_(parameters, comm)
+      , cells_(cell_columns)
+      , boundary_points_(boundary_columns)
+    {}
 
     /**
      * Takes these points, which may be anywhere, as the tissue; this rank gives
@@ -48,11 +242,17 @@ namespace Morula
 
     /** Cell @p p of this rank, to be written. */
     CellView<dim, double>
-    cell(const unsigned int p);
+    cell(const unsigned int p)
+    {
+      return cells_[p];
+    }
 
     /** Boundary point @p p of this rank, to be written. */
     BoundaryView<dim, double>
-    boundary_point(const unsigned int p);
+    boundary_point(const unsigned int p)
+    {
+      return boundary_points_[p];
+    }
 
     /**
      * Like place(), but with the box and partition that a snapshot stored; this
@@ -75,15 +275,34 @@ namespace Morula
      *  in cells() and boundary_points(), in order. Collective. */
     void
     remove(const std::vector<unsigned int> &cells,
-           const std::vector<unsigned int> &boundary_points);
+           const std::vector<unsigned int> &boundary_points)
+    {
+      cells_.remove(cells, grid_);
+      boundary_points_.remove(boundary_points, grid_);
+    }
 
     /** Takes these boundary points in place of the present ones. Collective. */
     void
-    replace_surface(const PointList<dim> &boundary_points);
+    replace_surface(const PointList<dim> &boundary_points)
+    {
+      const auto [first, last] =
+        extent<dim>({&boundary_points.positions}, grid_);
+      if (!grid_.covers(first, last))
+        {
+          place(cells_.copy(), boundary_points);
+          return;
+        }
+      boundary_points_.clear();
+      boundary_points_.insert(boundary_points, grid_);
+    }
 
     /** See PointStore. */
     void
-    defragment();
+    defragment()
+    {
+      cells_.defragment(grid_);
+      boundary_points_.defragment(grid_);
+    }
 
     /** Finds the parts of grid cells where tissue faces tissue across a gap,
      * and orders points by them; only if bodies can touch themselves.
@@ -111,7 +330,11 @@ namespace Morula
     /** The same, as if all points belonged to one body that is not parted.
      *  Collective. */
     SplineSpace<dim>
-    unparted_splines(const bool share_points = false) const;
+    unparted_splines(const bool share_points = false) const
+    {
+      return splines_around([](const unsigned int) { return true; },
+                            share_points);
+    }
 
     const BackgroundGrid<dim> &
     grid() const
@@ -120,15 +343,26 @@ namespace Morula
     }
 
     const Cells<dim> &
-    cells() const;
+    cells() const
+    {
+      return cells_;
+    }
 
     const BoundaryPoints<dim> &
-    boundary_points() const;
+    boundary_points() const
+    {
+      return boundary_points_;
+    }
 
     /** The box that cell @p p of this rank occupies: its cube, deformed if the
      *  scene gives cells several points, doc/theory.md (2.2b). */
     ParticleDomain<dim>
-    domain(const unsigned int p) const;
+    domain(const unsigned int p) const
+    {
+      return parameters.points_per_cell > 1 ?
+               cell_domain<dim>(cells_.position(p), cells_[p]) :
+               ParticleDomain<dim>(cells_.position(p), cells_.volume(p));
+    }
 
     MPI_Comm
     communicator() const
@@ -161,6 +395,11 @@ namespace Morula
     BoundaryPoints<dim>  boundary_points_;
     SharedParting<dim>   parting_ = std::make_shared<const Parting<dim>>();
   };
+
+  /** The parting of the tissue as it is now, on all ranks. Collective. */
+  template <int dim>
+  Parting<dim>
+  find_parting(const Tissue<dim> &tissue);
 
   /** One more than the largest number of a body. Collective. */
   template <int dim>

@@ -4,8 +4,10 @@
 #ifndef morula_seeding_bodies_h
 #define morula_seeding_bodies_h
 
-#include <morula/particles/body_measures.h>
+#include <morula/particles/fusion.h>
 #include <morula/seeding/seeding.h>
+
+#include <deal.II/base/mpi.templates.h>
 
 #include <mpi.h>
 
@@ -13,6 +15,19 @@
 
 namespace Morula
 {
+  /** What all ranks have, in the order of the ranks, which is that of founders'
+   *  and patches' numbers. Collective. */
+  template <typename T>
+  std::vector<T>
+  of_all_ranks(const std::vector<T> &mine, const MPI_Comm comm)
+  {
+    std::vector<T> all;
+    for (const auto &part : dealii::Utilities::MPI::all_gather(comm, mine))
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+
+
   /**
    * The body of each of this rank's founders: founders that stand together,
    * each at most widest_bond lengths from some other. Bodies have the numbers

@@ -4,6 +4,8 @@
 #ifndef morula_seeding_filling_h
 #define morula_seeding_filling_h
 
+#include <morula/seeding/seeding.h>
+
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 #include <deal.II/boost_adaptors/bounding_box.h>
@@ -63,6 +65,18 @@ namespace Morula
     const double         sigma;
     const Tree           tree;
   };
+
+
+  /**
+   * About how much room without cells a surface encloses, µm^dim: gaps and
+   * cavities with room for a cell, which are narrower than what a surface
+   * around points leaves open. On one rank, with all cells.
+   * @param patches of a closed surface around the cells
+   */
+  template <int dim>
+  double
+  room_without_cells(const AllCells<dim>       &cells,
+                     const SurfacePatches<dim> &patches);
 } // namespace Morula
 
 #endif

@@ -313,11 +313,68 @@ namespace Morula
                 const MPI_Comm            comm,
                 const SeedingLimits<dim> &limits = {});
 
+  /**
+   * Reads this rank's part of the cells in a CSV file. Its header line names
+   * the columns in any order: x, y, in 3-D z, in µm, volume, in µm^dim,
+   * generation, phase and type; others are skipped. Entries are separated by
+   * commas. Without a column of volumes every cell has @p default_volume. In
+   * 2-D a column z is allowed if it holds only zeros. Blank lines and lines
+   * that begin with # are skipped. The order of the rows is the order of the
+   * ids. Rank 0 reads the file. Collective.
+   * @throws InputError on all ranks with the file's first bad line and column:
+   * values that are no numbers, wrong columns, volumes that are not positive,
+   * generations that are no whole number, a cell beyond the limits, a second
+   * moment; then for two cells at one place, a cell far away from all others,
+   * and a file without cells
+   */
+  template <int dim>
+  Founders<dim>
+  read_points(const std::string        &file,
+              const double              default_volume,
+              const MPI_Comm            comm,
+              const SeedingLimits<dim> &limits = {});
+
   /** Tiles the shape's surface. Points from a file have none: for one around
    *  them see seed_points_surface(). */
   template <int dim>
   SurfacePatches<dim>
   seed_surface(const TissueParameters &parameters, const MPI_Comm comm);
+
+
+  /** Largest distance from the origin, in units of h. Farther out positions
+   *  lose their digits, and grid cells are counted by integers. */
+  constexpr double farthest_place = 1e8;
+
+  /** Longest tissue along an axis, in units of h. A box of this length in all
+   *  directions is more than any machine holds. In one direction it is some
+   *  metres of tissue, and nearly always due to a single stray point. */
+  constexpr double longest_tissue = 1000.;
+
+  /** Longest cell, in units of h. A cell deforms as a whole, and one of this
+   *  length takes longest_cell^dim quadrature points. */
+  constexpr double longest_cell = 10.;
+
+  /**
+   * Refuses shapes and cells whose lengths, as the scene gives them, are beyond
+   * these limits on a grid of spacing @p h (µm).
+   * @throws InputError
+   */
+  void
+  check_lengths(const TissueParameters &tissue,
+                const double            h,
+                const unsigned int      dim);
+
+  /** Refuses a tissue of so many cells, with this volume (µm^dim), on a grid of
+   *  so many grid cells, if the machines' memory cannot hold it. Collective. */
+  using MemoryCheck =
+    std::function<void(const double, const double, const double)>;
+
+  /** The limits for tissue from files on a grid of spacing @p h (µm). */
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const TissueParameters &tissue,
+                 const double            h,
+                 const MemoryCheck      &check_memory);
 } // namespace Morula
 
 #endif

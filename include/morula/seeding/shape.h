@@ -79,6 +79,22 @@ namespace Morula
     tile(const std::uint64_t n_wished) const = 0;
   };
 
+  /** The shapes, each made from its keys. In 2-D a sphere is a disc and a box a
+   *  rectangle. */
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  make_sphere(const TissueParameters &parameters);
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  make_box(const TissueParameters &parameters);
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  make_ellipsoid(const TissueParameters &parameters);
+  std::unique_ptr<Shape<3>>
+  make_cylinder(const TissueParameters &parameters);
+  std::unique_ptr<Shape<3>>
+  make_mesh_shape(const TissueParameters &parameters);
+
   /**
    * The shape that the section "Tissue" names. It must not be 'points'.
    * @throws InputError if the shape does not exist in dim dimensions or its

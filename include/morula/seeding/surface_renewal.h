@@ -5,8 +5,8 @@
 #define morula_seeding_surface_renewal_h
 
 #include <morula/particles/boundary_state.h>
-#include <morula/particles/cells.h>
 #include <morula/particles/point_list.h>
+#include <morula/particles/tissue.h>
 #include <morula/seeding/points_surface.h>
 
 #include <mpi.h>

@@ -4,14 +4,13 @@
 #ifndef morula_simulation_run_files_h
 #define morula_simulation_run_files_h
 
-#include <morula/output/appended_csv.h>
-#include <morula/output/background_files.h>
 #include <morula/output/directory.h>
+#include <morula/output/output_file.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/progress.h>
 #include <morula/output/rows.h>
 #include <morula/output/snapshot.h>
-#include <morula/output/timings.h>
+#include <morula/output/table.h>
 #include <morula/scene/scene.h>
 
 #include <deal.II/base/timer.h>

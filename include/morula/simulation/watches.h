@@ -4,7 +4,7 @@
 #ifndef morula_simulation_watches_h
 #define morula_simulation_watches_h
 
-#include <morula/base/announce.h>
+#include <morula/base/agreement.h>
 #include <morula/grid/piece_watch.h>
 #include <morula/grid/spline_space.h>
 #include <morula/particles/tissue.h>

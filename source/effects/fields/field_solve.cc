@@ -9,7 +9,7 @@
 #include <morula/mechanics/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
-#include <morula/particles/touching_points.h>
+#include <morula/particles/neighbours.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/seeding/shapes/box.h>
+#include <morula/base/instantiate.h>
+#include <morula/seeding/shape.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 namespace Morula
 {
@@ -78,92 +81,120 @@ namespace Morula
         }
       return best;
     }
+
+    /** An axis-parallel box; in 2-D, a rectangle. */
+    template <int dim>
+    class Box : public Shape<dim>
+    {
+    public:
+      /** @param size full edge lengths, µm */
+      Box(const Point<dim> &center, const Tensor<1, dim> &size)
+        : center(center)
+        , size(size)
+      {}
+
+      BoundingBox<dim>
+      bounding_box() const override
+      {
+        return BoundingBox<dim>({center - 0.5 * size, center + 0.5 * size});
+      }
+
+      bool
+      contains(const Point<dim> &x, const double clearance) const override
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!(std::abs(x[d] - center[d]) < 0.5 * size[d] - clearance))
+            return false;
+        return true;
+      }
+
+      double
+      volume() const override
+      {
+        double product = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          product *= size[d];
+        return product;
+      }
+
+      double
+      surface_area() const override
+      {
+        double area = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            double face = 1.;
+            for (unsigned int e = 0; e < dim; ++e)
+              if (e != d)
+                face *= size[e];
+            area += 2. * face;
+          }
+        return area;
+      }
+
+      /**
+       * A grid of patches on each face: -x, +x, -y, ...; within a face the
+       * lower coordinate fastest. Edges of equal length have equal numbers of
+       * patches.
+       */
+      SurfaceTiling<dim>
+      tile(const std::uint64_t n_wished) const override
+      {
+        // The patch number i counts through the faces, two for each direction,
+        // and on a face through the products of the pieces along its edges. So
+        // a patch is made from its number alone, on any rank.
+        const double patch_length =
+          std::pow(surface_area() / static_cast<double>(n_wished),
+                   1. / (dim - 1));
+        const EdgeCounts<dim> counts = cut_edges(size, patch_length, n_wished);
+
+        SurfaceTiling<dim> tiling;
+        tiling.n_patches = n_on_box<dim>(counts);
+        tiling.patch     = [box = *this, counts](std::uint64_t i) {
+          unsigned int face = 0;
+          for (; i >= n_on_face<dim>(counts, face / 2); ++face)
+            i -= n_on_face<dim>(counts, face / 2);
+
+          const unsigned int direction = face / 2;
+          const double       side      = face % 2 == 0 ? -1. : 1.;
+          SurfacePatch<dim>  patch;
+          patch.area              = 1.;
+          patch.normal[direction] = side;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d == direction)
+              patch.position[d] = box.center[d] + 0.5 * side * box.size[d];
+            else
+              {
+                // Places are measured from the middle, so that mirror images
+                // are exact.
+                const double n = static_cast<double>(counts[d]);
+                const double step =
+                  static_cast<double>(i % counts[d]) + 0.5 - 0.5 * n;
+                patch.position[d] = box.center[d] + box.size[d] * (step / n);
+                patch.area *= box.size[d] / n;
+                i /= counts[d];
+              }
+          return patch;
+        };
+        return tiling;
+      }
+
+    private:
+      Point<dim>     center;
+      Tensor<1, dim> size;
+    };
   } // namespace
 
-  template <int dim>
-  Box<dim>::Box(const Point<dim> &center, const Tensor<1, dim> &size)
-    : center(center)
-    , size(size)
-  {}
 
   template <int dim>
-  bool
-  Box<dim>::contains(const Point<dim> &x, const double clearance) const
+  std::unique_ptr<Shape<dim>>
+  make_box(const TissueParameters &parameters)
   {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (!(std::abs(x[d] - center[d]) < 0.5 * size[d] - clearance))
-        return false;
-    return true;
+    return std::make_unique<Box<dim>>(leading_components<dim>(
+                                        parameters.center),
+                                      leading_components<dim>(parameters.size));
   }
 
-  template <int dim>
-  double
-  Box<dim>::volume() const
-  {
-    double product = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
-      product *= size[d];
-    return product;
-  }
 
-  template <int dim>
-  double
-  Box<dim>::surface_area() const
-  {
-    double area = 0.;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        double face = 1.;
-        for (unsigned int e = 0; e < dim; ++e)
-          if (e != d)
-            face *= size[e];
-        area += 2. * face;
-      }
-    return area;
-  }
-
-  template <int dim>
-  SurfaceTiling<dim>
-  Box<dim>::tile(const std::uint64_t n_wished) const
-  {
-    // The patch number i counts through the faces, two for each direction, and
-    // on a face through the products of the pieces along its edges. So a patch
-    // is made from its number alone, on any rank.
-    const double patch_length =
-      std::pow(surface_area() / static_cast<double>(n_wished), 1. / (dim - 1));
-    const EdgeCounts<dim> counts = cut_edges(size, patch_length, n_wished);
-
-    SurfaceTiling<dim> tiling;
-    tiling.n_patches = n_on_box<dim>(counts);
-    tiling.patch     = [box = *this, counts](std::uint64_t i) {
-      unsigned int face = 0;
-      for (; i >= n_on_face<dim>(counts, face / 2); ++face)
-        i -= n_on_face<dim>(counts, face / 2);
-
-      const unsigned int direction = face / 2;
-      const double       side      = face % 2 == 0 ? -1. : 1.;
-      SurfacePatch<dim>  patch;
-      patch.area              = 1.;
-      patch.normal[direction] = side;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (d == direction)
-          patch.position[d] = box.center[d] + 0.5 * side * box.size[d];
-        else
-          {
-            // Places are measured from the middle, so that mirror images are
-            // exact.
-            const double n = static_cast<double>(counts[d]);
-            const double step =
-              static_cast<double>(i % counts[d]) + 0.5 - 0.5 * n;
-            patch.position[d] = box.center[d] + box.size[d] * (step / n);
-            patch.area *= box.size[d] / n;
-            i /= counts[d];
-          }
-      return patch;
-    };
-    return tiling;
-  }
-
-  template class Box<2>;
-  template class Box<3>;
+  MORULA_INSTANTIATE(make_box);
 } // namespace Morula

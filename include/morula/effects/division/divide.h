@@ -5,7 +5,7 @@
 #define morula_effects_division_divide_h
 
 #include <morula/effects/development.h>
-#include <morula/particles/birth.h>
+#include <morula/particles/cell_event.h>
 #include <morula/particles/tissue.h>
 
 #include <vector>

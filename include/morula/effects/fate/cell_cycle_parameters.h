@@ -4,7 +4,7 @@
 #ifndef morula_effects_fate_cell_cycle_parameters_h
 #define morula_effects_fate_cell_cycle_parameters_h
 
-#include <morula/base/rule.h>
+#include <morula/base/key.h>
 #include <morula/effects/effect.h>
 
 #include <string>

@@ -4,7 +4,7 @@
 #ifndef morula_effects_state_neighbour_variable_h
 #define morula_effects_state_neighbour_variable_h
 
-#include <morula/base/variable.h>
+#include <morula/base/expression.h>
 
 #include <optional>
 #include <string>

@@ -8,7 +8,6 @@
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/boundary_state.h>
-#include <morula/particles/side.h>
 
 #include <memory>
 #include <string>

@@ -6,7 +6,7 @@
 
 #include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_conditions.h>
-#include <morula/particles/surroundings.h>
+#include <morula/particles/nearest.h>
 
 #include <string>
 #include <vector>

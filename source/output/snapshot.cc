@@ -132,17 +132,13 @@ namespace Morula
                const std::string    &layout,
                const Columns        &columns)
     {
-      // Snapshots that say nothing of their columns can still be told by the
-      // length of their rows.
-      if (!layout.empty())
-        if (const std::string text = columns.differences(layout); !text.empty())
-          refuse_snapshot(path,
-                          "a snapshot whose " + what +
-                            " have the columns that the scene's effects "
-                            "declare (this one " +
-                            text + ")");
-      // A rank without points may not know how long the rows are, so it has
-      // nothing to say.
+      if (const std::string text = columns.differences(layout); !text.empty())
+        refuse_snapshot(path,
+                        "a snapshot whose " + what +
+                          " have the columns that the scene's effects declare "
+                          "(this one " +
+                          text + ")");
+      // A rank without points may not know how long the rows are.
       if (points.size() > 0 && points.n_numbers != columns.n_numbers())
         refuse_snapshot(path,
                         "a snapshot whose " + what + " have " +
@@ -373,16 +369,6 @@ namespace Morula
       return points;
     }
 
-    /** What the rows of points are, if the file says so. */
-    std::string
-    read_columns(const Hdf5File &file, const std::string &group)
-    {
-      for (const std::string &name : file.dataset_names(group))
-        if (name == "columns")
-          return file.text(group + "/columns");
-      return "";
-    }
-
     /** Checks format, and lets @p read read the file. */
     template <typename Read>
     void
@@ -444,8 +430,8 @@ namespace Morula
         data.integer_tables[name] = file.table<int>("integer tables/" + name);
       data.cells            = read_points<dim>(file, "cells", comm);
       data.boundary_points  = read_points<dim>(file, "boundary points", comm);
-      data.cell_columns     = read_columns(file, "cells");
-      data.boundary_columns = read_columns(file, "boundary points");
+      data.cell_columns     = file.text("cells/columns");
+      data.boundary_columns = file.text("boundary points/columns");
       data.grid_weights     = read_weights(file, comm);
     };
     on_root(comm, [&]() { check_seal(path); });

@@ -328,14 +328,6 @@ TEST(Snapshot, RefusesOtherColumnsByName)
               .find("boundary points have the columns that the scene's effects "
                     "declare (this one lacks 'edge_1'"),
             std::string::npos);
-
-  // Without names the numbers are counted, as in older snapshots.
-  data.cell_columns.clear();
-  data.cells = PointList<3>(own.columns.n_numbers());
-  data.cells.add(0, Point<3>(), own.columns.initial_row());
-  EXPECT_EQ(refusal(data, own.columns), "");
-  EXPECT_NE(refusal(data, CellColumns<3>()).find("numbers each"),
-            std::string::npos);
 }
 
 TEST(Snapshot, IsTheSameFileEveryTime)

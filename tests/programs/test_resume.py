@@ -10,7 +10,6 @@ import h5py
 import pytest
 
 from tests.common.program import TESTS, assert_same_columns, assert_same_file, assert_same_run
-from tests.common.sealing import seal
 
 SCENE = TESTS / "programs/small-cube.prm"
 END, INTERVAL = "Time/End time", "Output/Interval"
@@ -78,16 +77,6 @@ def test_timings(runs):
     after = runs.run("timings", SCENE, {}, "--resume").timings["calls"]
     assert after["snapshot"] == calls["snapshot"]  # the last was not paid
     assert after["tangent"] > calls["tangent"]
-
-
-def test_snapshot_without_names_of_columns(runs, whole, half):
-    """As an older program wrote it."""
-    path = half.directory / "snapshot.h5"
-    with h5py.File(path, "r+") as file:
-        for points in ("cells", "boundary points"):
-            del file[f"{points}/columns"]
-    seal(path)
-    assert_same_run(whole, runs.run("half", SCENE, {}, "--resume"))
 
 
 def test_stop_at_cells(runs):

@@ -56,8 +56,7 @@ namespace Morula
     PointList<dim>                             boundary_points;
     /** Weights of the last partition, see BackgroundGrid. */
     GridCellCounts grid_weights;
-    /** The layout of the points' rows, see Columns::layout(); empty in files of
-     *  programs that did not write it. */
+    /** The layout of the points' rows, see Columns::layout(). */
     std::string cell_columns, boundary_columns;
     /** The file that this was read from. */
     std::string file;

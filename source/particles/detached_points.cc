@@ -378,13 +378,7 @@ namespace Morula
   MORULA_INSTANTIATE(detached_points);
   MORULA_INSTANTIATE(pull_back_detached_points);
   MORULA_INSTANTIATE(pull_to_cells);
-#define INSTANTIATE(dim)                                                   \
-  template std::vector<double> attachment(const std::vector<Point<dim>> &, \
-                                          const Tissue<dim> &,             \
-                                          const std::vector<Side<dim>> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(attachment);
 
 
   template <int dim>

@@ -245,15 +245,9 @@ namespace Morula
   }
 
 
-#define INSTANTIATE(dim)                                              \
-  template double              mean_cell_volume(const Tissue<dim> &); \
-  template NeighbourGraph<dim> neighbours(const Tissue<dim> &,        \
-                                          const PointList<dim> &,     \
-                                          const NeighbourSearch &);   \
-  template std::vector<double> free_surfaces(const Tissue<dim> &);
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(mean_cell_volume);
+  MORULA_INSTANTIATE(neighbours);
+  MORULA_INSTANTIATE(free_surfaces);
 
 
   namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/particles/voronoi_facets.h>
 
 #include <deal.II/base/numbers.h>
@@ -448,14 +449,5 @@ namespace Morula
   }
 
 
-  template std::vector<VoronoiFacet>
-  voronoi_facets(const std::vector<Point<2>> &,
-                 const std::vector<types::particle_index> &,
-                 const double,
-                 const double);
-  template std::vector<VoronoiFacet>
-  voronoi_facets(const std::vector<Point<3>> &,
-                 const std::vector<types::particle_index> &,
-                 const double,
-                 const double);
+  MORULA_INSTANTIATE(voronoi_facets);
 } // namespace Morula

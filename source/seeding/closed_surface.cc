@@ -267,7 +267,7 @@ namespace Morula
             }
           triangles.push_back(triangle);
         }
-      return cut_into_patches(triangles, n_wished, PatchArea::projected);
+      return cut_into_patches(triangles, n_wished, true);
     }
 
     template <int dim>

@@ -264,10 +264,10 @@ namespace Morula
     }
 
     SurfacePatch<3>
-    make_patch(const Piece &piece, const PatchArea area)
+    make_patch(const Piece &piece, const bool projected)
     {
       SurfacePatch<3> patch;
-      patch.area = area == PatchArea::whole ? piece.area : piece.vector.norm();
+      patch.area     = projected ? piece.vector.norm() : piece.area;
       patch.normal   = piece.vector / piece.vector.norm();
       patch.position = piece.center();
       // A centre of several triangles may lie off the surface, so it is moved
@@ -327,7 +327,7 @@ namespace Morula
   std::vector<SurfacePatch<3>>
   cut_into_patches(const std::vector<SurfaceTriangle> &triangles,
                    const std::uint64_t                 n_wished,
-                   const PatchArea                     area)
+                   const bool                          projected)
   {
     // Large triangles are cut, small ones are merged, until the number of
     // pieces is about the wish. What has not been merged into another piece is
@@ -339,7 +339,7 @@ namespace Morula
     std::vector<SurfacePatch<3>> patches;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       if (pieces[i].merged_into == i)
-        patches.push_back(make_patch(pieces[i], area));
+        patches.push_back(make_patch(pieces[i], projected));
     return patches;
   }
 

@@ -37,14 +37,6 @@ namespace Morula
       return shape;
     }
 
-    std::string
-    length(const double value)
-    {
-      std::ostringstream text;
-      text << value << " um";
-      return text.str();
-    }
-
     /** "It reaches from ... to ... um" */
     template <int dim>
     std::string
@@ -54,32 +46,6 @@ namespace Morula
       text << "It reaches from (" << box.get_boundary_points().first << ") to ("
            << box.get_boundary_points().second << ") um";
       return text.str();
-    }
-
-    /** Refuses a surface with a vertex far away from the others. */
-    template <int dim>
-    [[noreturn]] void
-    throw_too_long(const TissueParameters &parameters,
-                   const BoundingBox<dim> &box,
-                   const double            limit)
-    {
-      parameters.surface_mesh.refuse(
-        "a surface in um that is at most " + length(limit) +
-          " long (a number of times Grid/Spacing)",
-        reach(box) + ": correct the vertex that lies astray. If the file "
-                     "is in another unit, scale it to um.");
-    }
-
-    template <int dim>
-    [[noreturn]] void
-    throw_far_away(const TissueParameters &parameters,
-                   const BoundingBox<dim> &box,
-                   const double            limit)
-    {
-      parameters.surface_mesh.refuse(
-        "a surface at most " + length(limit) +
-          " from the origin (a number of times Grid/Spacing)",
-        reach(box) + ": move the scene nearer to the origin.");
     }
 
     /** Refuses a surface that holds no cell or too many. Then its file most
@@ -115,10 +81,17 @@ namespace Morula
       for (unsigned int d = 0; d < dim; ++d)
         {
           if (!(box.side_length(d) <= limits.extent))
-            throw_too_long(parameters, box, limits.extent);
+            parameters.surface_mesh.refuse(
+              "a surface in um that is at most " + as_text(limits.extent) +
+                " um long (a number of times Grid/Spacing)",
+              reach(box) + ": correct the vertex that lies astray. If the file "
+                           "is in another unit, scale it to um.");
           if (!(std::max(std::abs(box.lower_bound(d)),
                          std::abs(box.upper_bound(d))) <= limits.farthest))
-            throw_far_away(parameters, box, limits.farthest);
+            parameters.surface_mesh.refuse(
+              "a surface at most " + as_text(limits.farthest) +
+                " um from the origin (a number of times Grid/Spacing)",
+              reach(box) + ": move the scene nearer to the origin.");
         }
       // A box around the surface with room for too many cells is refused before
       // it is filled: its file most likely has another unit.

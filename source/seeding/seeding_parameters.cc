@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/seeding/lattice.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
@@ -355,8 +356,5 @@ namespace Morula
   }
 
 
-  template SeedingLimits<2>
-  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
-  template SeedingLimits<3>
-  seeding_limits(const TissueParameters &, const double, const MemoryCheck &);
+  MORULA_INSTANTIATE(seeding_limits);
 } // namespace Morula

@@ -32,25 +32,21 @@ namespace Morula
                const std::uint64_t                   n_pieces,
                std::vector<std::array<Point<3>, 3>> &pieces);
 
-  /** The area of a patch of several triangles. */
-  enum class PatchArea
-  {
-    whole,    // that of the triangles: the areas add up to the surface's
-    projected // along the mean normal: areas times normals add up to zero
-  };
-
   /**
    * Tiles a closed surface with about @p n_wished patches of about equal area.
    * Triangles larger than the mean patch are cut. Smaller ones are merged, the
    * smallest first, each into the neighbour whose centre is nearest, but never
    * across an edge sharper than 30 degrees. So more patches than wished may
-   * remain. A patch has its triangles' mean normal, and the @p area. It lies at
-   * their common centroid, moved onto the nearest of them and off its edges.
+   * remain. A patch has its triangles' mean normal. It lies at their common
+   * centroid, moved onto the nearest of them and off its edges.
+   * @param projected whether a patch's area is that along its mean normal, so
+   * that areas times normals add up to zero; else it is that of the triangles,
+   * and the areas add up to the surface's
    */
   std::vector<SurfacePatch<3>>
   cut_into_patches(const std::vector<SurfaceTriangle> &triangles,
                    const std::uint64_t                 n_wished,
-                   const PatchArea                     area = PatchArea::whole);
+                   const bool                          projected = false);
 } // namespace Morula
 
 #endif

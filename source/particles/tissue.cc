@@ -223,6 +223,15 @@ namespace Morula
   }
 
   template <int dim>
+  SplineSpace<dim>
+  Tissue<dim>::unparted_splines(const bool share_points) const
+  {
+    return splines_around([](const unsigned int) { return true; },
+                          share_points);
+  }
+
+
+  template <int dim>
   template <typename Belongs>
   SplineSpace<dim>
   Tissue<dim>::splines_around(const Belongs            &belongs,

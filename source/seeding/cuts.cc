@@ -5,9 +5,9 @@
 #include <morula/base/near_tree.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
+#include <morula/seeding/closed_surface.h>
 #include <morula/seeding/cuts.h>
 #include <morula/seeding/mesh_patches.h>
-#include <morula/seeding/well_known_text.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.templates.h>
@@ -78,12 +78,7 @@ namespace Morula
     std::vector<CutPiece<2>>
     read_cuts(const Key<std::string> &file, const Point<2> &)
     {
-      std::vector<CutPiece<2>> pieces;
-      for (const Wkt::Line &line : Wkt::read<Wkt::Lines>(file, "LINESTRING"))
-        for (std::size_t i = 0; i + 1 < line.size(); ++i)
-          pieces.push_back({{Point<2>(line[i].x(), line[i].y()),
-                             Point<2>(line[i + 1].x(), line[i + 1].y())}});
-      return pieces;
+      return read_segments(file);
     }
 
     /** The triangles of a file. */

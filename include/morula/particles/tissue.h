@@ -330,11 +330,7 @@ namespace Morula
     /** The same, as if all points belonged to one body that is not parted.
      *  Collective. */
     SplineSpace<dim>
-    unparted_splines(const bool share_points = false) const
-    {
-      return splines_around([](const unsigned int) { return true; },
-                            share_points);
-    }
+    unparted_splines(const bool share_points = false) const;
 
     const BackgroundGrid<dim> &
     grid() const

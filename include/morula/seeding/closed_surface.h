@@ -110,6 +110,11 @@ namespace Morula
   refuse_outside(const Key<std::string>                        &file,
                  const std::vector<Point<dim>>                 &cells,
                  const std::function<bool(const Point<dim> &)> &is_inside);
+
+  /** The straight parts of the lines of well-known text (WKT) in a file, in µm.
+   *  @throws InputError if the text is none */
+  std::vector<std::array<Point<2>, 2>>
+  read_segments(const Key<std::string> &file);
 } // namespace Morula
 
 #endif

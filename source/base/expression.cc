@@ -188,17 +188,13 @@ namespace Morula
            std::to_string(n_max) :
            std::to_string(n_min) + " to " + std::to_string(n_max)) +
         (n_max == 1 ? " expression" : " expressions separated by ';'");
+      const auto refuse = [&](const std::string &what) {
+        throw InputError(key, text, number, what + advice);
+      };
       if (boost::trim_copy(text).empty())
-        throw InputError(key,
-                         text,
-                         number,
-                         "Write at least a number." + advice);
+        refuse("Write at least a number.");
       if (components.size() < n_min || components.size() > n_max)
-        throw InputError(key,
-                         text,
-                         number,
-                         "There are " + std::to_string(components.size()) +
-                           "." + advice);
+        refuse("There are " + std::to_string(components.size()) + ".");
       // muParser would read some texts otherwise than they look; these are
       // refused with what to write instead.
       for (unsigned int c = 0; c < components.size(); ++c)
@@ -208,11 +204,7 @@ namespace Morula
               "there is nothing. Write 0 where nothing acts." :
               ExpressionSyntax::misreading(components[c]);
           if (!problem.empty())
-            throw InputError(key,
-                             text,
-                             number,
-                             component_name(c, components.size()) + problem +
-                               advice);
+            refuse(component_name(c, components.size()) + problem);
         }
     }
   } // namespace

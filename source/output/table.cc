@@ -62,21 +62,21 @@ namespace Morula
       // has written up to the snapshot. Header, number of rows and digest are
       // compared, and the reason is said. What stands behind, rows of steps
       // after the snapshot, is cut off by the caller.
-      std::ifstream in(path, std::ios::binary);
-      if (!in)
+      const auto refuse = [&path](const std::string &allowed) {
         throw InputError("--resume",
                          path,
-                         "a readable file next to the snapshot",
+                         allowed,
                          "Restore the file, or start the run anew.");
+      };
+      std::ifstream in(path, std::ios::binary);
+      if (!in)
+        refuse("a readable file next to the snapshot");
 
       std::string line;
       std::getline(in, line);
       if (in.eof() || line + '\n' != header)
-        throw InputError("--resume",
-                         path,
-                         "a file with the header '" +
-                           header.substr(0, header.size() - 1) + "'",
-                         "Restore the file, or start the run anew.");
+        refuse("a file with the header '" +
+               header.substr(0, header.size() - 1) + "'");
 
       Beginning beginning;
       beginning.size = header.size();
@@ -86,24 +86,17 @@ namespace Morula
           std::getline(in, line);
           // A last line without its newline is incomplete.
           if (in.eof() || !in)
-            throw InputError("--resume",
-                             path,
-                             "a file with at least the " +
-                               std::to_string(kept.n_rows) +
-                               " rows that the snapshot counts (there are " +
-                               std::to_string(row) + ")",
-                             "Restore the file, or start the run anew.");
+            refuse("a file with at least the " + std::to_string(kept.n_rows) +
+                   " rows that the snapshot counts (there are " +
+                   std::to_string(row) + ")");
           line += '\n';
           beginning.size += line.size();
           beginning.digest.add(line);
         }
       if (beginning.digest.value() != kept.digest)
-        throw InputError("--resume",
-                         path,
-                         "a file whose first " + std::to_string(kept.n_rows) +
-                           " rows are those of the run (their digest is not "
-                           "the snapshot's)",
-                         "Restore the file, or start the run anew.");
+        refuse("a file whose first " + std::to_string(kept.n_rows) +
+               " rows are those of the run (their digest is not "
+               "the snapshot's)");
       return beginning;
     }
   } // namespace

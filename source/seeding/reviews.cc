@@ -211,11 +211,7 @@ namespace Morula
                     "' say nothing about cells here and are skipped.",
                   "Columns that count are x, y, z, volume, generation, phase "
                   "and type: correct the name of one that is misspelt.");
-    double volume = 0.;
-    for (const double V : founders.volumes)
-      volume += V;
-    const double length =
-      std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global, 1. / dim);
+    const double length = cell_length(founders, comm);
     if (length < shortest_usual || length > longest_usual)
       review.warn(tissue.cell_spacing.path(),
                   tissue.cell_spacing.text(),

@@ -4,8 +4,8 @@
 #ifndef morula_tests_seeding_room_h
 #define morula_tests_seeding_room_h
 
-#include <morula/base/input_error.h>
 #include <morula/base/agreement.h>
+#include <morula/base/input_error.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/tissue.h>

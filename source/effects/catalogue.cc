@@ -188,22 +188,12 @@ namespace Morula
   }
 
 
-  void
-  Catalogue::declare_types(const std::vector<std::string> &types)
+  std::vector<EffectKeys *>
+  Catalogue::all_keys()
   {
-    for_each(*this, [&](auto &choice) { choice.keys().declare_types(types); });
-  }
-
-
-  void
-  Catalogue::see_expressions(const std::vector<ExpressionKey *> &keys,
-                             const std::vector<std::string>     &types,
-                             const std::vector<std::string>     &fields)
-  {
-    for_each(*this, [&](auto &choice) {
-      choice.keys().see_expressions(keys, types, fields);
-      choice.keys().see_others(*this);
-    });
+    std::vector<EffectKeys *> list;
+    for_each(*this, [&list](auto &choice) { list.push_back(&choice.keys()); });
+    return list;
   }
 
 
@@ -231,10 +221,9 @@ namespace Morula
   TypeTensions
   Catalogue::tensions() const
   {
-    TypeTensions tensions;
-    for (const EffectKeys *const keys : all_keys())
-      keys->add_tensions(tensions);
-    return tensions;
+    const auto &with_surface = keys<TypeSurfaceTensionParameters>().tensions;
+    return {keys<TypeTensionParameters>().matrix(),
+            {with_surface.begin(), with_surface.end()}};
   }
 
 
@@ -243,23 +232,9 @@ namespace Morula
   {
     std::vector<NamedField> all;
     for (const EffectKeys *const keys : all_keys())
-      for (const NamedField &field : keys->named_fields())
+      for (const NamedField &field : keys->facts().fields)
         all.push_back(field);
     return all;
-  }
-
-
-  NeighbourSearch
-  Catalogue::neighbour_search() const
-  {
-    return keys<NeighbourParameters>().search();
-  }
-
-
-  const std::vector<NeighbourVariable> &
-  Catalogue::neighbour_variables() const
-  {
-    return keys<NeighbourParameters>().variables;
   }
 
 

@@ -8,15 +8,6 @@
 // so a new effect overrides only what concerns it.
 namespace Morula
 {
-  bool
-  EffectKeys::is_on() const
-  {
-    // Effects that a scene chooses by name are never asked; others have a
-    // switch.
-    return true;
-  }
-
-
   std::string
   EffectKeys::details() const
   {

@@ -42,8 +42,9 @@ namespace Morula
     // A value without time is asked for once at each founder, others at all
     // moments of the run, as far as that is quick. The first one that acts ends
     // the search: few are asked for but where nothing happens.
-    const double n_steps = std::ceil(scene.end_time / scene.step - 1e-9);
-    const bool   of_time = value.depends_on_time();
+    const double n_steps =
+      std::ceil(scene.keys.time.end_time / scene.keys.time.step - 1e-9);
+    const bool of_time = value.depends_on_time();
     if (!is_of_place_and_time(value) ||
         (of_time &&
          n_steps * std::max<double>(1, scene.n_founders) > most_asked))
@@ -52,8 +53,10 @@ namespace Morula
     for (double i = 0.; of_time && i < n_steps; ++i)
       {
         if (moments == AskedAt::all_moments)
-          times.push_back(std::min((i + 0.5) * scene.step, scene.end_time));
-        times.push_back(std::min((i + 1.) * scene.step, scene.end_time));
+          times.push_back(std::min((i + 0.5) * scene.keys.time.step,
+                                   scene.keys.time.end_time.value()));
+        times.push_back(std::min((i + 1.) * scene.keys.time.step,
+                                 scene.keys.time.end_time.value()));
       }
     std::vector<const Expression *> of_types = {&value};
     for (const auto &[type, own] : value.types())

@@ -80,7 +80,7 @@ namespace Morula
       for (const AppliedCondition &one : applied)
         if (const auto *const choice =
               find_choice(scene.catalogue.boundary_conditions, one.name))
-          if (const AnyKey *const where = choice->keys().switch_key())
+          if (const AnyKey *const where = choice->keys().facts().switch_key)
             action(one, *where);
     }
   } // namespace

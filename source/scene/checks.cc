@@ -38,8 +38,9 @@ namespace Morula
       types::particle_index n_dividing = 0;
       for (const EffectKeys *const keys : scene.keys_in_use())
         {
-          const ExpressionKey *const where = keys->founders_key();
-          const AnyKey *const        key   = keys->switch_key();
+          const EffectFacts          facts = keys->facts();
+          const ExpressionKey *const where = facts.founders_key;
+          const AnyKey *const        key   = facts.switch_key;
           if (where == nullptr)
             continue;
           const Expression     &holds = where->expression(dim);
@@ -56,7 +57,7 @@ namespace Morula
                                                 " = " + key->default_text()) +
                             ". Founders sit at centers of cells, inside of the "
                             "tissue.");
-          if (keys->divides_cells())
+          if (facts.divides_cells)
             n_dividing += n;
         }
       return n_dividing;
@@ -119,14 +120,12 @@ namespace Morula
           const std::vector<Tensor<1, dim>> &normals,
           const MPI_Comm                     comm)
   {
-    return {founders,
+    return {model.scene,
+            founders,
             Utilities::MPI::sum<types::particle_index>(founders.size(), comm),
             boundary_points,
             normals,
             model.boundary_conditions.has(SurfaceCondition::fixed),
-            model.scene.time.end_time,
-            model.scene.time.step,
-            model.scene.grid.spacing,
             comm};
   }
 
@@ -222,7 +221,7 @@ namespace Morula
             if (conditions.list()[c].name != choice.name())
               continue;
             n = Utilities::MPI::sum(acting.winning[c], comm);
-            const AnyKey *const where = choice.keys().switch_key();
+            const AnyKey *const where = choice.keys().facts().switch_key;
             if (Utilities::MPI::sum(acting.anywhere[c], comm) == 0 &&
                 where != nullptr)
               where->refuse("a condition that holds at some boundary point",

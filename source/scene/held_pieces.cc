@@ -321,7 +321,7 @@ namespace Morula
     balanced_by(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (choice.keys().is_on() && choice.keys().names_key() != nullptr)
+        if (choice.keys().is_on() && choice.keys().facts().names_key != nullptr)
           return "the weak drag (4.8f)";
       return "inertia";
     }

@@ -117,9 +117,12 @@ namespace Morula
                        scene.division_axes(),
                        review);
     else if (const EffectKeys *const way = scene.first_way_to_divide())
-      review_switched_off(scene, scene.division, *way->switch_key(), review);
+      review_switched_off(scene,
+                          scene.division,
+                          *way->facts().switch_key,
+                          review);
     for (const EffectKeys *const keys : scene.effect_keys())
-      if (const AnyKey *const key = keys->switch_key();
+      if (const AnyKey *const key = keys->facts().switch_key;
           key != nullptr && !keys->is_on())
         review_switched_off(scene, *keys, *key, review);
     review_needs(scene, review);

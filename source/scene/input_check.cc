@@ -6,6 +6,7 @@
 #include <morula/output/point_fields.h>
 #include <morula/scene/scene.h>
 #include <morula/seeding/seeding.h>
+#include <morula/scene/tissue_model.h>
 
 #include <cmath>
 #include <set>
@@ -55,6 +56,15 @@ namespace Morula
       if (!known)
         kernel.refuse("on this processor one of " + runnable,
                       "'automatic' takes the fastest.");
+    }
+
+    /** Lets the keys of an effect refuse what contradicts them. */
+    void
+    check_with(const Scene &scene, const EffectKeys &keys)
+    {
+      // Warnings come later, when the scene has passed all checks.
+      Review none{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+      keys.check(scene, none);
     }
 
     /** Refuses a type's value of a key that does nothing, because what it
@@ -156,16 +166,19 @@ namespace Morula
       for (const auto &choice : choices)
         {
           const EffectKeys   &keys       = choice.keys();
-          const AnyKey *const switch_key = keys.switch_key();
+          const AnyKey *const switch_key = keys.facts().switch_key;
           if (keys.is_on())
             try_effect<dim>(scene, choice);
           else
             for (const AnyKey *key : keys.list())
               if (!key->is_default())
                 key->check(dim);
-          keys.check_with(scene.rest_of_scene());
+          check_with(scene, keys);
           if (!keys.is_on() && switch_key != nullptr)
-            refuse_forgotten(scene, *switch_key, keys, keys.how_to_switch_on());
+            refuse_forgotten(scene,
+                             *switch_key,
+                             keys,
+                             "Set " + switch_key->path());
         }
     }
 
@@ -177,14 +190,14 @@ namespace Morula
       const Choice<Fate> *first = nullptr;
       for (const auto &choice : scene.catalogue.fates)
         {
-          const AnyKey *const key = choice.keys().switch_key();
-          if (!choice.keys().is_on() || !choice.keys().divides_cells() ||
-              key == nullptr)
+          const EffectFacts   facts = choice.keys().facts();
+          const AnyKey *const key   = facts.switch_key;
+          if (!choice.keys().is_on() || !facts.divides_cells || key == nullptr)
             continue;
           if (first != nullptr)
             key->refuse("its default, as cells divide by the " + first->name(),
                         "Remove this key, or " +
-                          first->keys().switch_key()->path() +
+                          first->keys().facts().switch_key->path() +
                           ", also in the sections of types.");
           first = &choice;
         }
@@ -203,8 +216,9 @@ namespace Morula
       check_one_way_to_divide(scene);
       if (!scene.cells_divide() && way != nullptr)
         {
-          const std::string remedy = way->how_to_switch_on();
-          refuse_forgotten(scene, *way->switch_key(), division, remedy);
+          const AnyKey     &switch_key = *way->facts().switch_key;
+          const std::string remedy     = "Set " + switch_key.path();
+          refuse_forgotten(scene, switch_key, division, remedy);
           check_named<dim>(scene,
                            scene.catalogue.division_rules,
                            division.axis,
@@ -241,10 +255,10 @@ namespace Morula
       // scene names the columns of some, and the table of all columns refuses
       // two that are equal.
       for (const auto &choice : scene.catalogue.equations)
-        choice.keys().check_with(scene.rest_of_scene());
+        check_with(scene, choice.keys());
       check_switched<dim>(scene, scene.catalogue.equations);
       for (const auto &choice : scene.catalogue.equations)
-        if (const AnyKey *const names = choice.keys().names_key();
+        if (const AnyKey *const names = choice.keys().facts().names_key;
             names != nullptr && choice.keys().is_on())
           try
             {
@@ -290,7 +304,7 @@ namespace Morula
         if (choice.keys().is_on() && scene.tissue.has_no_surface())
           {
             choice.keys().check_each(dim);
-            const AnyKey *const key = choice.keys().switch_key();
+            const AnyKey *const key = choice.keys().facts().switch_key;
             (key != nullptr ? key : choice.keys().list().front())
               ->refuse("nothing, as " + scene.tissue.points_surface.path() +
                          " = none",
@@ -316,7 +330,7 @@ namespace Morula
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);
-      scene.cell_types.check_with(scene.rest_of_scene());
+      check_with(scene, scene.cell_types);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
                        scene.growth_law,

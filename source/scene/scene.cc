@@ -88,17 +88,14 @@ namespace Morula
 
 
   Scene::Scene(const Catalogue &catalogue)
-    : method("Method",
+    : SceneKeys(catalogue)
+    , method("Method",
              "consistent",
              "Defaults of the keys that say 'With Method'; those that "
              "the scene sets keep their values. consistent: held points "
              "whose energy has a lower bound, much more exact beside the "
              "edge of a fixed surface. paper: the paper's.",
              {"paper|consistent"})
-    , dimension("Dimension",
-                3,
-                "3, or 2 for plane strain per um of thickness.",
-                {2, 3})
     , output_directory(
         "Output directory",
         "",
@@ -106,12 +103,6 @@ namespace Morula
         "NAME.prm. A new run replaces a finished one of the same "
         "scene file, and others with --replace only.")
     , random_seed("Random seed", 1, "Equal seeds give equal runs.")
-    , material(catalogue.materials)
-    , growth_law("Growth/Law",
-                 "none",
-                 "How cells grow without dividing.",
-                 {"none"})
-    , catalogue(catalogue)
   {
     // The words that name effects are those of the catalogue, which a program
     // may have extended. So they are added here, and not where the keys are
@@ -137,12 +128,13 @@ namespace Morula
       const auto found = names.find(key.path());
       return found == names.end() ? "" : found->second;
     };
-    const auto declare_named = [&names_in](auto &choices) {
-      for (auto &choice : choices)
-        if (const AnyKey *key = choice.keys().names_key())
-          choice.keys().declare_sections(names_in(*key));
+    const auto declare = [&](EffectKeys &keys) {
+      const AnyKey *const key = keys.facts().names_key;
+      keys.declare_sections(key == nullptr ? "" : names_in(*key),
+                            cell_types.name_list());
     };
-    declare_named(catalogue.equations);
+    for (auto &choice : catalogue.equations)
+      declare(choice.keys());
     const std::vector<std::string> fields = field_names();
     for (const std::string &field : fields)
       division.axis.add_word("gradient of " + field);
@@ -155,9 +147,12 @@ namespace Morula
                           growth_laws,
                           boost::join(division.axis.choices(), "|"),
                           fields);
-    if (cell_types.is_on())
-      catalogue.declare_types(cell_types.name_list());
-    declare_named(catalogue.boundary_conditions);
+    std::set<const EffectKeys *> done;
+    for (auto &choice : catalogue.equations)
+      done.insert(&choice.keys());
+    for (EffectKeys *const keys : catalogue.all_keys())
+      if (done.count(keys) == 0)
+        declare(*keys);
   }
 
 
@@ -165,21 +160,15 @@ namespace Morula
   Scene::apply_types()
   {
     // Expressions learn the names of fields in any case. With types, values
-    // that a type overrides go into the keys of all cells.
+    // that a type overrides go into the keys of all cells. Effects see the keys
+    // last, as they may change what types have.
     const std::vector<std::string> fields = field_names();
     for (ExpressionKey *key : keys_of_cells(list()))
       key->set_fields(fields);
-    catalogue.see_expressions(keys_of_cells(list()),
-                              cell_types.name_list(),
-                              fields);
-    if (!cell_types.is_on())
-      return;
-    cell_types.apply(keys_of_cells(list_without_types()));
-    std::vector<const Key<std::string> *> laws;
-    for (const CellTypeKeys &type : cell_types.types)
-      laws.push_back(&type.proliferation_law);
-    for (auto &choice : catalogue.fates)
-      choice.keys().take_laws_of_types(laws);
+    if (cell_types.is_on())
+      cell_types.apply(keys_of_cells(list_without_types()));
+    for (EffectKeys *const keys : catalogue.all_keys())
+      keys->see(*this, keys_of_cells(list()));
   }
 
 
@@ -210,7 +199,7 @@ namespace Morula
     // A fate by which cells grow, too, comes before the keys about division.
     const auto append_fates = [&](const bool that_grow) {
       for (auto &choice : catalogue.fates)
-        if (choice.keys().grows_cells() == that_grow)
+        if (choice.keys().facts().grows_cells == that_grow)
           append(list, choice.keys().list());
     };
     append_fates(true);

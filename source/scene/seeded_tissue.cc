@@ -29,7 +29,7 @@ namespace Morula
       return true;
     const std::vector<const EffectKeys *> keys = scene.keys_in_use();
     if (std::any_of(keys.begin(), keys.end(), [](const EffectKeys *const one) {
-          return one->needs_surface();
+          return one->facts().needs_surface;
         }))
       return true;
     if (scene.tissue.points_surface != "automatic")
@@ -139,7 +139,7 @@ namespace Morula
       {
         tissue.measures =
           measures_of_bodies(tissue.founders, tissue.surface, comm);
-        interaction->check_bodies(tissue.measures, scene.rest_of_scene());
+        interaction->check_bodies(tissue.measures, scene);
       }
     if (scene.tissue.has_cuts())
       tissue.cuts =

@@ -90,8 +90,6 @@ namespace Morula
 
     Preview<dim> at = preview<dim>(
       model, founders.positions, surface.positions, surface.normals, comm);
-    const RestOfScene rest = scene.rest_of_scene();
-    at.scene               = &rest;
     at.is_loaded = has_loads(conditions, counts) || !model.forces.empty();
     at.volumes   = founders.volumes;
     at.types     = types_of<dim>(model, founders.positions, founders.types);
@@ -108,7 +106,7 @@ namespace Morula
       effect->review(at, review);
     review_rates(model, founders, surface, comm, review);
     for (const EffectKeys *const keys : scene.keys_in_use())
-      keys->review(rest, review);
+      keys->check(scene, review);
     for (const auto &[name, equation] : model.equations)
       equation->review(at, review);
     review_idle_effects(scene, review);

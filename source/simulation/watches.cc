@@ -49,7 +49,7 @@ namespace Morula
           return named.condition->acts_on(X, N);
         });
     for (const EffectKeys *const keys : model.scene.keys_in_use())
-      for (const ExpressionKey *const where : keys->places())
+      for (const ExpressionKey *const where : keys->facts().places)
         add(where->path(), [&](const Point<dim> &X, const Tensor<1, dim> &) {
           return where->expression(dim).value(X, 0.) > 0.;
         });

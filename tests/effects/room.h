@@ -39,7 +39,7 @@
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/traction.h>
 #include <morula/particles/detached_points.h>
-#include <morula/scene/scene.h>
+#include <morula/scene/tissue_model.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -32,10 +32,10 @@ namespace Own
       return !where.empty();
     }
 
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &where;
+      return {&where};
     }
   };
 

@@ -33,10 +33,10 @@ namespace Own
       return stiffness > 0.;
     }
 
-    bool
-    needs_surface() const override
+    EffectFacts
+    facts() const override
     {
-      return true;
+      return {nullptr, /* needs_surface */ true};
     }
   };
 

@@ -163,18 +163,9 @@ namespace Morula
       return keys_of<const Parameters>(*this);
     }
 
-    /** Makes the keys that effects have in the sections of the cells' types. */
-    void
-    declare_types(const std::vector<std::string> &types);
-
-    /** Lets the keys of all effects see_expressions() and see_others(), see
-     *  EffectKeys. @throws InputError */
-    void
-    see_expressions(const std::vector<ExpressionKey *> &keys,
-                    const std::vector<std::string>     &types,
-                    const std::vector<std::string>     &fields);
-
     /** The keys of each effect, kind by kind. */
+    std::vector<EffectKeys *>
+    all_keys();
     std::vector<const EffectKeys *>
     all_keys() const;
 
@@ -190,13 +181,6 @@ namespace Morula
     /** The fields of all effects, in the order of their numbers. */
     std::vector<NamedField>
     named_fields() const;
-
-    /** How it is found out which cells touch, and what expressions ask of them.
-     */
-    NeighbourSearch
-    neighbour_search() const;
-    const std::vector<NeighbourVariable> &
-    neighbour_variables() const;
 
     /** A copy whose keys have their defaults. */
     Catalogue

@@ -28,7 +28,7 @@ namespace Morula
 
   class Catalogue;
   class ExpressionKey;
-  struct RestOfScene;
+  struct SceneKeys;
 
   /** A field whose value at a cell expressions may read. */
   struct NamedField
@@ -38,155 +38,80 @@ namespace Morula
     bool exchanged;
   };
 
+  /** What a scene has to know of the keys of an effect. */
+  struct EffectFacts
+  {
+    /** The key that switches the effect on, or null if a name does. */
+    const AnyKey *switch_key = nullptr;
+    /** Whether the effect, if it is on, acts on the surface: tissue that needs
+     *  none gets one. */
+    bool needs_surface = false;
+    /** Whether cells divide by the effect, so that the scene's division axes
+     *  are its own. */
+    bool divides_cells = false;
+    /** Whether cells grow by the effect, besides the law of growth. */
+    bool grows_cells = false;
+    /** The key whose value names sections of the effect, or null. */
+    const AnyKey *names_key = nullptr;
+    /** The condition that chooses founders on which the effect acts, or null:
+     *  it acts on all. */
+    const ExpressionKey *founders_key = nullptr;
+    /** What it is called in --explain; empty: the effect's name. */
+    std::string topic = {};
+    /** The fields that the effect gives to cells, in the order of their
+     *  numbers. One effect of a scene may have some. */
+    std::vector<NamedField> fields = {};
+    /** Keys that choose boundary points on which the effect acts, besides those
+     *  of conditions: the run warns when their last point is gone. */
+    std::vector<const ExpressionKey *> places = {};
+  };
+
   /**
    * The keys of an effect. Unless a scene chooses the effect by its name, they
-   * say whether it is on.
+   * say whether it is on. These are all questions that a scene asks of them.
    */
   struct EffectKeys : public Keys
   {
     /** Whether the scene has the effect. */
     virtual bool
-    is_on() const;
-
-    /** The key that switches the effect on, or null if a name does. */
-    virtual const AnyKey *
-    switch_key() const
+    is_on() const
     {
-      return nullptr;
+      return true;
     }
 
-    /** The key whose value names sections of the effect, or null. */
-    virtual const AnyKey *
-    names_key() const
-    {
-      return nullptr;
-    }
-
-    /** Makes the sections with the names in @p text, before any key has its
-     *  value. @throws InputError */
-    virtual void
-    declare_sections(const std::string &)
-    {}
-
-    /** The fields that the effect gives to cells, in the order of their
-     *  numbers. One effect of a scene may have some. */
-    virtual std::vector<NamedField>
-    named_fields() const
+    virtual EffectFacts
+    facts() const
     {
       return {};
     }
 
-    /** Whether the effect, if it is on, acts on the surface: tissue that needs
-     *  none gets one. */
-    virtual bool
-    needs_surface() const
-    {
-      return false;
-    }
-
-    /** Makes the keys that stand in the sections of the cells' types, before
-     * any key has its value: their names, in the order of their numbers
-     */
+    /** Makes the keys in sections that others name, before any key has its
+     *  value. @param names the value of the names_key
+     *  @param types names of the cells' types, in the order of their numbers;
+     *         not known yet to equations. @throws InputError */
     virtual void
-    declare_types(const std::vector<std::string> & /*types*/)
+    declare_sections(const std::string & /*names*/,
+                     const std::vector<std::string> & /*types*/)
     {}
 
-    /** Looks at the keys of cells, when all have their values, for what their
-     *  expressions say of the effect. Types and fields are names.
+    /** Takes from others' keys what concerns the effect, when all have their
+     *  values. @param of_cells those whose expressions speak of cells
      *  @throws InputError */
     virtual void
-    see_expressions(const std::vector<ExpressionKey *> & /*keys*/,
-                    const std::vector<std::string> & /*types*/,
-                    const std::vector<std::string> & /*fields*/)
+    see(const SceneKeys & /*scene*/,
+        const std::vector<ExpressionKey *> & /*of_cells*/)
     {}
 
-    /** Takes from other effects' keys, when all have their values, what two
-     *  effects have in common. */
+    /** Refuses what the keys contradict in the scene, also while the effect is
+     *  off, and warns of what they alone tell to be unwise.
+     *  Effect::review() sees the founders as well. @throws InputError */
     virtual void
-    see_others(const Catalogue &)
+    check(const SceneKeys &, Review &) const
     {}
-
-    /** Adds the tensions that the keys give to types of cells.
-     *  @throws InputError if keys contradict each other */
-    virtual void
-    add_tensions(TypeTensions &) const
-    {}
-
-    /** How a scene gets the effect, a sentence without its end, for values that
-     *  do nothing without it. */
-    std::string
-    how_to_switch_on() const
-    {
-      return switch_key() == nullptr ? "" : "Set " + switch_key()->path();
-    }
-
-    /** Keys that choose boundary points on which the effect acts, besides those
-     *  of conditions: the run warns when their last point is gone. */
-    virtual std::vector<const ExpressionKey *>
-    places() const
-    {
-      return {};
-    }
-
-    /** Whether cells divide by the effect, so that the scene's division axes
-     *  are its own. */
-    virtual bool
-    divides_cells() const
-    {
-      return false;
-    }
-
-    /** Whether cells grow by the effect, besides the law of growth. */
-    virtual bool
-    grows_cells() const
-    {
-      return false;
-    }
-
-    /** The condition that chooses founders on which the effect acts, or null:
-     *  it acts on all. */
-    virtual const ExpressionKey *
-    founders_key() const
-    {
-      return nullptr;
-    }
-
-    /** Takes the laws of `Proliferation/Law` that types of cells have, by their
-     *  numbers, when all keys have their values; empty: that of all cells. */
-    virtual void
-    take_laws_of_types(const std::vector<const Key<std::string> *> & /*laws*/)
-    {}
-
-    /** Refuses what the keys contradict in the rest of the scene. Also called
-     *  while the effect is off. @throws InputError */
-    virtual void
-    check_with(const RestOfScene &) const
-    {}
-
-    /** Warns of what the keys alone tell to be unwise in the scene, if the
-     *  effect is on. Effect::review() sees the founders as well. */
-    virtual void
-    review(const RestOfScene &, Review &) const
-    {}
-
-    /** What it is called in --explain; empty: the effect's name. */
-    virtual std::string
-    topic() const
-    {
-      return "";
-    }
 
     /** What --explain says of its values: ", Key = value" for each. */
     virtual std::string
     details() const;
-
-    /** Lines of --explain that follow from the keys and the rest of the scene,
-     *  each with its end, if the effect is on. */
-    virtual std::string
-    further_lines(const RestOfScene &) const
-    {
-      return "";
-    }
   };
 
   template <int dim>
@@ -227,6 +152,7 @@ namespace Morula
   template <int dim>
   struct Preview
   {
+    const SceneKeys &keys;
     /** Initial positions, µm. */
     const std::vector<Point<dim>> &founders;
     /** Number of founders on all ranks. */
@@ -236,13 +162,7 @@ namespace Morula
     /** Initial outward unit normals. */
     const std::vector<Tensor<1, dim>> &normals;
     /** Whether some boundary points are fixed. */
-    bool is_clamped;
-    /** End of the run, day. */
-    double end_time;
-    /** Length of a step, day. */
-    double step;
-    /** h, µm. */
-    double   grid_spacing;
+    bool     is_clamped;
     MPI_Comm comm;
     /** Whether forces act on cells or on the surface. */
     bool is_loaded = false;
@@ -252,8 +172,6 @@ namespace Morula
     std::vector<double> volumes = {};
     /** Their types by number; empty without types. */
     std::vector<unsigned int> types = {};
-    /** What the scene says; only for reviews. */
-    const RestOfScene *scene = nullptr;
   };
 
   /** What all effects have in common. An effect keeps nothing between calls: a

@@ -108,7 +108,7 @@ namespace Morula
     /** Refuses bodies that it cannot hold apart, in the order of their numbers.
      *  @throws InputError */
     virtual void
-    check_bodies(const std::vector<BodyMeasures> &, const RestOfScene &) const
+    check_bodies(const std::vector<BodyMeasures> &, const SceneKeys &) const
     {}
 
     /** Adds warnings about these bodies. */

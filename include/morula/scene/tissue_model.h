@@ -13,12 +13,69 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Morula
 {
+  /** An effect of a scene, and what it is called. @tparam Kind Force<3>, ... */
+  template <typename Kind>
+  struct NamedEffect
+  {
+    std::string                 name;
+    std::unique_ptr<const Kind> effect;
+  };
+
+  /** Effects of a kind, in the order of the catalogue. */
+  template <typename Kind>
+  using NamedEffects = std::vector<NamedEffect<Kind>>;
+
+  /** All effects of a scene. */
+  template <int dim>
+  struct SceneEffects
+  {
+    /** All of them but the conditions and equations. */
+    std::vector<const Effect<dim> *>
+    all() const;
+
+    /** What they add to the tables of a run. Refers to them. */
+    Tables<dim>
+    tables() const;
+
+    /** The columns that the effects need in a cell. */
+    CellColumns<dim> columns;
+    /** Which variables their expressions use. */
+    StateColumns<dim> state;
+
+    DevelopmentEffects<dim>                              development;
+    NamedEffects<Equation<dim>>                          equations;
+    std::vector<std::unique_ptr<const Trait<dim>>>       traits;
+    NamedEffects<StepEffect<dim>>                        step_effects;
+    NamedEffects<Force<dim>>                             forces;
+    std::optional<NamedEffect<Interaction<dim>>>         interaction;
+    std::vector<typename BoundaryConditions<dim>::Named> conditions;
+  };
+
+  /** An empty set of variables that cells have in a scene's expressions. */
+  template <int dim>
+  StateColumns<dim>
+  state_columns_of(const Scene &scene);
+
+  /** What a scene offers to its effects, which add to the columns.
+   *  @throws InputError */
+  template <int dim>
+  EffectSetting<dim>
+  effect_setting(const Scene       &scene,
+                 CellColumns<dim>  &columns,
+                 StateColumns<dim> &state);
+
+  /** Makes all effects of a scene, for TissueModel. @throws InputError */
+  template <int dim>
+  SceneEffects<dim>
+  effects_of(const Scene &scene);
+
   /** The material and all effects of a scene, which are made once, before the
    *  tissue is seeded. Nothing in it changes. */
   template <int dim>

@@ -2,12 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/step_failed.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/contact/contact.h>
 #include <morula/effects/contact/contact_in_step.h>
 #include <morula/effects/contact/fusion.h>
 #include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <algorithm>
 #include <limits>
@@ -17,48 +16,49 @@
 namespace Morula
 {
   void
-  ContactParameters::check_with(const RestOfScene &scene) const
+  ContactParameters::check(const SceneKeys &scene, Review &) const
   {
     // Bodies need a surface that could touch, whose patches stay short enough
     // to be seen from the other side, and cells that stay in their body.
     // Without contact the faces of a cut would go on sharing splines.
-    if (!scene.cuts.value().empty() && !is_of_all())
-      scene.cuts.refuse("nothing, as " + between.path() + " = " +
-                          between.text(),
-                        "The faces of a cut are apart only with Between = all: "
-                        "set that, or remove the cuts.");
+    if (scene.tissue.has_cuts() && !is_of_all())
+      scene.tissue.cuts.refuse(
+        "nothing, as " + between.path() + " = " + between.text(),
+        "The faces of a cut are apart only with Between = all: "
+        "set that, or remove the cuts.");
     if (!is_on())
       return;
-    if (scene.has_no_surface)
-      between.refuse("none, as " + scene.points_surface.path() + " = none",
+    if (scene.tissue.has_no_surface())
+      between.refuse("none, as " + scene.tissue.points_surface.path() +
+                       " = none",
                      "Bodies touch with their boundary points: set Points "
                      "surface = automatic.");
-    if (bodies == "cell type" && scene.types.empty())
+    if (bodies == "cell type" && !scene.cell_types.is_on())
       bodies.refuse("apart, as Cell types/Names is empty",
                     "Name the types of the cells, or choose apart.");
-    if (scene.is_active && !scene.refine_surface)
-      scene.refine_surface.refuse(
+    if (scene.has_active_tissue() && !scene.tissue.refine_surface)
+      scene.tissue.refine_surface.refuse(
         "true, as " + between.path() + " = " + between.text() +
           " and the tissue grows or flows",
         "Patches that grow longer than half a grid spacing let bodies pass "
         "through each other.");
-    if (const auto &exchange = scene.catalogue.keys<RearrangementParameters>();
+    if (const auto &exchange = scene.keys<RearrangementParameters>();
         exchange.is_on())
       between.refuse("none, as " + exchange.diffusion.path() + " = " +
                        exchange.diffusion.text(),
                      "Cells that exchange places would change their body. Do "
                      "without one of the two.");
-    if (fusion_time > 0. && !scene.refine_surface)
-      scene.refine_surface.refuse("true, as " + fusion_time.path() + " = " +
-                                    fusion_time.text(),
-                                  "Bodies that fuse get a new surface.");
+    if (fusion_time > 0. && !scene.tissue.refine_surface)
+      scene.tissue.refine_surface.refuse("true, as " + fusion_time.path() +
+                                           " = " + fusion_time.text(),
+                                         "Bodies that fuse get a new surface.");
   }
 
 
   template <int dim>
   void
   Contact<dim>::check_bodies(const std::vector<BodyMeasures> &bodies,
-                             const RestOfScene               &scene) const
+                             const SceneKeys                 &scene) const
   {
     // Two sheets on each other that together are thinner than the deepest
     // overlap of a pair would press with their outer faces.
@@ -68,13 +68,13 @@ namespace Morula
         keys.between.refuse("none, as body " + std::to_string(b) +
                               " has no boundary points",
                             "Give it a surface of its own in " +
-                              scene.points_surface.path() + ".");
+                              scene.tissue.points_surface.path() + ".");
       else if (bodies[b].opening > 0.05 * bodies[b].area)
         keys.between.refuse(
           "none, as the surface of body " + std::to_string(b) + " is open",
           "Boundary points have to go all around a body, also where it touches "
           "another one: give each its own surface, or set " +
-            scene.points_surface.path() + " = automatic.");
+            scene.tissue.points_surface.path() + " = automatic.");
       else if (bodies[b].cells > 0. && bodies[b].thickness() < least)
         keys.between.refuse(
           "none, as body " + std::to_string(b) + " is about " +

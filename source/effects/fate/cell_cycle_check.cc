@@ -74,10 +74,10 @@ namespace Morula
     shortest = Utilities::MPI::min(shortest, scene.comm);
     // Without any proliferating founder the minimum is huge and nothing is
     // said.
-    if (scene.step > (0.25 + 1e-9) * shortest)
+    if (scene.keys.time.step > (0.25 + 1e-9) * shortest)
       review.warn(TimeParameters::step_path,
-                  as_text(scene.step) + " day",
-                  "that is " + as_text(scene.step / shortest) +
+                  as_text(scene.keys.time.step) + " day",
+                  "that is " + as_text(scene.keys.time.step / shortest) +
                     " of the shortest cell cycle, " + as_text(shortest) +
                     " day; measured are steps of up to a quarter "
                     "(doc/accuracy-and-cost.md, advice; doc/hard-cases.md, "

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <algorithm>
 
@@ -28,21 +27,23 @@ namespace Morula
 
 
   void
-  CellCycleParameters::take_laws_of_types(
-    const std::vector<const Key<std::string> *> &laws)
+  CellCycleParameters::see(const SceneKeys &scene,
+                           const std::vector<ExpressionKey *> &)
   {
     // Cells of a type that does not proliferate stay in G0: their rate of
     // leaving it is set to 0, so that one cell cycle serves all types.
+    const auto &types = scene.cell_types.types;
     is_law_of_types =
-      std::any_of(laws.begin(), laws.end(), [](const Key<std::string> *own) {
-        return !own->value().empty() && *own != "none";
+      std::any_of(types.begin(), types.end(), [](const CellTypeKeys &type) {
+        return !type.proliferation_law->empty() &&
+               type.proliferation_law != "none";
       });
     if (!is_on())
       return;
-    for (unsigned int i = 0; i < laws.size(); ++i)
+    for (unsigned int i = 0; i < types.size(); ++i)
       {
-        const Key<std::string> &of_type =
-          laws[i]->value().empty() ? law : *laws[i];
+        const Key<std::string> &own     = types[i].proliferation_law;
+        const Key<std::string> &of_type = own->empty() ? law : own;
         if (of_type == "none")
           exit_rate.set_for_type(i, of_type.path(), "0");
       }

@@ -3,7 +3,7 @@
 
 #include <morula/base/name_list.h>
 #include <morula/effects/fate/cell_type_parameters.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <algorithm>
 
@@ -227,7 +227,7 @@ namespace Morula
 
 
   void
-  CellTypesParameters::check_with(const RestOfScene &scene) const
+  CellTypesParameters::check(const SceneKeys &scene, Review &) const
   {
     if (!is_on() && !scene.material.on_transition.is_default())
       scene.material.on_transition.refuse(
@@ -236,11 +236,11 @@ namespace Morula
     for (unsigned int i = 0; i < types.size(); ++i)
       {
         const CellTypeKeys &type = types[i];
-        type.check_each(scene.dim);
+        type.check_each(scene.dimension);
         daughters(i);
         if (!type.growth_law->empty() && type.growth_law != "none" &&
-            type.growth_law != scene.growth_law)
-          type.growth_law.refuse("none or " + scene.growth_law,
+            type.growth_law != scene.law_of_growth())
+          type.growth_law.refuse("none or " + scene.law_of_growth(),
                                  "A scene has one law of growth: give its keys "
                                  "other values for this type.");
       }

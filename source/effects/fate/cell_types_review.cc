@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/fate/cell_type_parameters.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -95,7 +95,7 @@ namespace Morula
     for (const unsigned int type : scene.types)
       ++n_founders[type];
     Utilities::MPI::sum(n_founders, scene.comm, n_founders);
-    const bool cells_divide = scene.scene->cells_divide;
+    const bool cells_divide = scene.keys.cells_divide();
     const auto reached = types_reached(parameters, n_founders, cells_divide);
     for (unsigned int i = 0; i < types.size(); ++i)
       {

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/death.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 namespace Morula
 {
@@ -15,15 +15,8 @@ namespace Morula
   }
 
 
-  const AnyKey *
-  DeathParameters::switch_key() const
-  {
-    return &rate;
-  }
-
-
   void
-  DeathParameters::check_with(const RestOfScene &scene) const
+  DeathParameters::check(const SceneKeys &scene, Review &) const
   {
     // Cells that go at once are never part of the balance of momentum as dead
     // ones, so they may have any weight. A cell that shrinks needs a weight

@@ -4,7 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <boost/math/special_functions/erf.hpp>
@@ -42,9 +42,9 @@ namespace Morula
 
 
   void
-  DivisionBySizeParameters::check_with(const RestOfScene &scene) const
+  DivisionBySizeParameters::check(const SceneKeys &scene, Review &) const
   {
-    if (is_on() && scene.growth_law == "none")
+    if (is_on() && !scene.has_growth())
       volume.refuse("its default, as no cell grows",
                     "Set Growth/Law, or remove this key.");
   }

@@ -42,7 +42,7 @@ namespace Morula
   Proliferation<dim>::check(const Preview<dim> &scene) const
   {
     DividingFate<dim>::check(scene);
-    cycle_.check(scene.founders, scene.step);
+    cycle_.check(scene.founders, scene.keys.time.step);
   }
 
 

@@ -4,7 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
 #include <morula/effects/fields/field_parameters.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <algorithm>
 #include <cctype>
@@ -95,65 +95,52 @@ namespace Morula
     return text;
   }
 
-  bool
-  FieldsParameters::needs_surface() const
+  EffectFacts
+  FieldsParameters::facts() const
   {
-    return std::any_of(fields.begin(),
-                       fields.end(),
-                       [](const FieldKeys &field) {
-                         return field.has_surface();
-                       });
+    EffectFacts facts;
+    facts.names_key = &names;
+    for (const FieldKeys &field : fields)
+      {
+        facts.needs_surface = facts.needs_surface || field.has_surface();
+        facts.fields.push_back({field.name, field.exchanged});
+        for (const ExpressionKey *where :
+             {&field.fixed_where, &field.flux_where})
+          if (!where->empty())
+            facts.places.push_back(where);
+      }
+    return facts;
   }
 
 
   void
-  FieldsParameters::check_with(const RestOfScene &scene) const
+  FieldsParameters::check(const SceneKeys &scene, Review &) const
   {
     for (const FieldKeys &field : fields)
-      field.check(scene.dim);
-    if (needs_surface() && scene.has_no_surface)
+      field.check(scene.dimension);
+    if (facts().needs_surface && scene.tissue.has_no_surface())
       names.refuse("fields that nothing is done to at the surface, as " +
-                     scene.points_surface.path() + " = none",
+                     scene.tissue.points_surface.path() + " = none",
                    "Remove their Fixed where, Transfer and Flux where, or set "
                    "Points surface = automatic.");
   }
 
 
-  std::vector<const ExpressionKey *>
-  FieldsParameters::places() const
-  {
-    std::vector<const ExpressionKey *> keys;
-    for (const FieldKeys &field : fields)
-      for (const ExpressionKey *where : {&field.fixed_where, &field.flux_where})
-        if (!where->empty())
-          keys.push_back(where);
-    return keys;
-  }
-
-
   std::string
-  FieldsParameters::further_lines(const RestOfScene &) const
+  FieldsParameters::details() const
   {
-    std::ostringstream out; // a line a field
+    std::ostringstream out;
+    out << names.value();
     for (const FieldKeys &field : fields)
-      out << "    " << std::left << std::setw(22) << field.name
-          << field.details() << '\n';
+      out << "\n    " << std::left << std::setw(22) << field.name
+          << field.details();
     return out.str();
   }
 
 
-  std::vector<NamedField>
-  FieldsParameters::named_fields() const
-  {
-    std::vector<NamedField> list;
-    for (const FieldKeys &field : fields)
-      list.push_back({field.name, field.exchanged});
-    return list;
-  }
-
-
   void
-  FieldsParameters::declare_sections(const std::string &text)
+  FieldsParameters::declare_sections(const std::string &text,
+                                     const std::vector<std::string> &)
   {
     // Names become variables of expressions and columns of tables, so they must
     // be free for both.

@@ -161,7 +161,7 @@ namespace Morula
       if ((points.fixed == 0. && field.transfer.empty()) || !reach)
         return;
       const double      cell = std::pow(scene.mean_volume, 1. / dim);
-      const double      h    = scene.grid_spacing;
+      const double      h    = scene.keys.grid.spacing;
       const std::string what =
         "the field reaches only " + as_text(*reach) +
         " um into the tissue, the root of Diffusion over Consumption";

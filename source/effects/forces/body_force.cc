@@ -64,7 +64,7 @@ namespace Morula
     for (const Point<dim> &X : scene.founders)
       // An expression of place and time has a value at both ends of the run, or
       // throws here.
-      for (const double t : {0., scene.end_time})
+      for (const double t : {0., scene.keys.time.end_time.value()})
         density.vector(X, t);
   }
 
@@ -94,7 +94,7 @@ namespace Morula
                   density.text(),
                   "a force takes the state of its cell, but its place, from "
                   "the beginning of each step: it is late by Time/Step = " +
-                    as_text(scene.step) +
+                    as_text(scene.keys.time.step) +
                     " day, and may swing where it changes that state much in "
                     "a step.",
                   "Repeat the run with half the step, and compare.");

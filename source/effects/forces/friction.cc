@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/forces/friction.h>
-#include <morula/effects/rest_of_scene.h>
 #include <morula/mechanics/point_term.h>
+#include <morula/effects/scene_keys.h>
 
 #include <utility>
 #include <vector>
@@ -69,7 +69,7 @@ namespace Morula
     // The end time is one sample: a coefficient that falls with time is
     // smallest there.
     for (const Point<dim> &X : scene.founders)
-      coefficient.value(X, scene.end_time);
+      coefficient.value(X, scene.keys.time.end_time);
   }
 
 

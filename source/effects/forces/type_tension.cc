@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_fractions.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/particles/point_exchange.h>
 
@@ -37,7 +36,8 @@ namespace Morula
 
 
   void
-  TypeTensionParameters::declare_types(const std::vector<std::string> &names)
+  TypeTensionParameters::declare_sections(const std::string &,
+                                          const std::vector<std::string> &names)
   {
     types = names;
     for (const std::string &name : names)
@@ -109,11 +109,11 @@ namespace Morula
     {
       // The founders of a rank may stand anywhere, so the sums of all ranks'
       // splines are joined; there are far fewer splines than cells.
-      const std::vector<double> &offset = scene.scene->grid.offset.value();
+      const std::vector<double> &offset = scene.keys.grid.offset.value();
       Point<dim>                 lines;
       for (unsigned int d = 0; d < dim; ++d)
         lines[d] = offset[d];
-      const GridBox<dim> box({}, {}, scene.grid_spacing, lines);
+      const GridBox<dim> box({}, {}, scene.keys.grid.spacing, lines);
       TypeFractions<dim> mine(box, n_types), all(box, n_types);
       for (std::size_t i = 0; i < scene.founders.size(); ++i)
         mine.add(scene.founders[i], scene.volumes[i], scene.types[i]);
@@ -283,7 +283,7 @@ namespace Morula
   {
     // Exchanges of places make domains of a mixture, so that the founders tell
     // nothing there. A type without founders may come later.
-    if (scene.scene->catalogue.template keys<RearrangementParameters>().is_on())
+    if (scene.keys.template keys<RearrangementParameters>().is_on())
       return;
     const auto largest = largest_fractions(scene, tensions.size());
     for (unsigned int a = 0; a < tensions.size(); ++a)
@@ -300,7 +300,7 @@ namespace Morula
             review.warn("Cell types/" + types[a] + "/Tension/With " + types[b],
                         value.str(),
                         why.str(),
-                        "Take a smaller " + scene.scene->grid.spacing.path() +
+                        "Take a smaller " + scene.keys.grid.spacing.path() +
                           ", at least 2.5 cells, or let cells change places "
                           "(Rearrangement/Diffusion).");
             break;

@@ -106,9 +106,9 @@ namespace Morula
 
     // A stretch that depends on the state is known only in the run.
     constexpr double most_evaluations = 2e5;
-    const double     n_steps =
-      std::ceil(scene.end_time / scene.step * (1. - time_slack));
-    double largest = 0.;
+    const double     n_steps          = std::ceil(scene.keys.time.end_time /
+                                     scene.keys.time.step * (1. - time_slack));
+    double           largest          = 0.;
     if (!stretch.depends_on_state() && n_steps <= most_evaluations)
       {
         const std::size_t every = std::max<std::size_t>(
@@ -120,7 +120,8 @@ namespace Morula
               {
                 const double now =
                   stretch.value(scene.founders[i],
-                                std::min(n * scene.step, scene.end_time));
+                                std::min(n * scene.keys.time.step,
+                                         scene.keys.time.end_time.value()));
                 largest = std::max(largest, std::abs(now - before));
                 before  = now;
               }
@@ -140,7 +141,7 @@ namespace Morula
     // enough beside a clamp. The slack admits rounding in the differences.
     if (largest > 0.1 + 1e-9)
       review.warn(TimeParameters::step_path,
-                  as_text(scene.step) + " day",
+                  as_text(scene.keys.time.step) + " day",
                   "in one step " + stretch.key() + " changes by up to " +
                     as_text(largest) +
                     "; such steps are as large as growth by a factor of 1.1 "

@@ -39,8 +39,8 @@ namespace Morula
       // growth. A law that depends on the past needs all steps in turn, so
       // cells are left out instead of steps.
       constexpr double most_evaluations = 2e5;
-      const double     n_steps =
-        std::ceil(scene.end_time / scene.step * (1. - time_slack));
+      const double     n_steps          = std::ceil(
+        scene.keys.time.end_time / scene.keys.time.step * (1. - time_slack));
       // Not even one cell could be taken through all steps: then nothing is
       // said.
       if (n_steps > most_evaluations)
@@ -57,7 +57,8 @@ namespace Morula
           double         t      = 0.;
           for (double n = 1.; n <= n_steps; ++n)
             {
-              const double next = std::min(n * scene.step, scene.end_time);
+              const double         next = std::min(n * scene.keys.time.step,
+                                           scene.keys.time.end_time.value());
               const Tensor<2, dim> now =
                 law.growth({X, before, identity}, t, next);
               largest = std::max({largest,
@@ -94,13 +95,14 @@ namespace Morula
     // The law is evaluated for all founders of this rank, in the first step and
     // at the end, for the errors that it throws. The values are not used.
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-    const double         first_step = std::min(scene.step, scene.end_time);
+    const double         first_step =
+      std::min(scene.keys.time.step.value(), scene.keys.time.end_time.value());
     for (const Point<dim> &X : scene.founders)
       {
         growth({X, identity, identity}, 0., first_step);
         growth({X, identity, identity},
-               scene.end_time - first_step,
-               scene.end_time);
+               scene.keys.time.end_time - first_step,
+               scene.keys.time.end_time);
       }
   }
 
@@ -127,7 +129,7 @@ namespace Morula
     // rounding.
     if (ratio > (scene.is_clamped ? 1.2 : 1.4) + 1e-9)
       review.warn(TimeParameters::step_path,
-                  as_text(scene.step) + " day",
+                  as_text(scene.keys.time.step) + " day",
                   "in one step cells grow (or wither) by a factor of up to " +
                     as_text(ratio) +
                     "; measured are steps of up to 1.2 beside a clamp, where "

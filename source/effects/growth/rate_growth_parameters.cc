@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/growth/rate_growth.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 
 namespace Morula
 {

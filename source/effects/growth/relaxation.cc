@@ -195,14 +195,14 @@ namespace Morula
     };
     if (!time.depends_on_state())
       for (const Point<dim> &X : scene.founders)
-        consider(time.value(X, 0.5 * scene.step));
+        consider(time.value(X, 0.5 * scene.keys.time.step));
     for (const auto &[type, own] : time.types())
       consider(own.number().value_or(0.));
     shortest = Utilities::MPI::min(shortest, scene.comm);
-    if (shortest < none && scene.step > shortest * (1. + 1e-9))
+    if (shortest < none && scene.keys.time.step > shortest * (1. + 1e-9))
       review.warn(TimeParameters::step_path,
-                  as_text(scene.step) + " day",
-                  "that is " + as_text(scene.step / shortest) +
+                  as_text(scene.keys.time.step) + " day",
+                  "that is " + as_text(scene.keys.time.step / shortest) +
                     " of the shortest " + time.key() + ", " +
                     as_text(shortest) +
                     " day: what a step knows of the tissue's motion is that of "

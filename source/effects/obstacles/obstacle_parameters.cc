@@ -25,7 +25,8 @@ namespace Morula
 
 
   void
-  ObstaclesParameters::declare_sections(const std::string &text)
+  ObstaclesParameters::declare_sections(const std::string &text,
+                                        const std::vector<std::string> &)
   {
     for (const std::string &name :
          declared_names(names, text, reason_against_section))

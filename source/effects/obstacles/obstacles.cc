@@ -215,7 +215,7 @@ namespace Morula
       {
         // The integral up to the end finds a velocity that has no value at some
         // time, before any work is done.
-        obstacle.way(scene.end_time);
+        obstacle.way(scene.keys.time.end_time);
         const auto [depth, place] = deepest<dim>(
           {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
           scene.boundary_points,
@@ -223,7 +223,7 @@ namespace Morula
         // The surface may begin a little inside, and the contact pushes it out
         // in the first step. Half a spacing leaves room below the whole one
         // that term() refuses.
-        if (depth <= 0.5 * scene.grid_spacing)
+        if (depth <= 0.5 * scene.keys.grid.spacing)
           continue;
         std::ostringstream text;
         text << "It is " << depth << " um deep in the obstacle at (" << place

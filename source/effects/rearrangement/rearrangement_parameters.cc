@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
 #include <algorithm>
@@ -15,31 +14,23 @@ namespace Morula
 {
   namespace
   {
-    /** The critical T of two types that avoid each other, over γ a^(d-1):
-     *  squares in 2-D, cubes in 3-D (doc/theory.md, section 12.3). */
-    double
-    critical_ratio(const unsigned int dim)
-    {
-      return dim == 2 ? 1.1346 : 2.256;
-    }
-
     bool
-    relaxes(const RestOfScene &scene)
+    relaxes(const SceneKeys &scene)
     {
-      return scene.catalogue.keys<RelaxationParameters>().is_on();
+      return scene.keys<RelaxationParameters>().is_on();
     }
   } // namespace
 
 
   void
-  RearrangementParameters::check_with(const RestOfScene &scene) const
+  RearrangementParameters::check(const SceneKeys &scene, Review &review) const
   {
     if (!is_on())
       return;
     if (energy == 0. && !drive.is_default())
       energy.refuse("a value > 0, as " + drive.path() + " is set",
                     "A drive is followed at the rate D f/T.");
-    if (scene.volumes_differ &&
+    if (scene.volumes_differ() &&
         scene.material.volumetric_form() != VolumetricStrain::pooled)
       scene.material.volumetric_strain.refuse(
         "pooled, as " + diffusion.path() +
@@ -52,37 +43,23 @@ namespace Morula
       scene.grid.points_per_cell.refuse(
         "1, as " + diffusion.path() + " is set",
         "Exchanges of places are not made for cells of several points.");
-    if (const auto &found_by =
-          scene.catalogue.keys<NeighbourParameters>().found_by;
+    if (const auto &found_by = scene.keys<NeighbourParameters>().found_by;
         found_by != "facets")
       found_by.refuse("facets, as " + diffusion.path() + " is set",
                       "The rates of exchange follow from the facets.");
-  }
-
-
-  std::optional<double>
-  RearrangementParameters::rate_of_exchange(const RestOfScene &scene) const
-  {
-    const auto D = diffusion.largest_number(scene.dim);
-    if (!D || *D <= 0.)
-      return {};
-    const double a = scene.cell_spacing;
-    return 2. * scene.dim * *D / (a * a);
-  }
-
-
-  void
-  RearrangementParameters::review(const RestOfScene &scene,
-                                  Review            &review) const
-  {
-    if (const auto k = rate_of_exchange(scene))
-      if (const double attempts = *k * scene.step; attempts > 1.)
+    // A cell takes part in k = 2 d D/a² exchanges per day, among equal cells
+    // with the largest D that is a plain number.
+    if (const auto D = diffusion.largest_number(scene.dimension); D && *D > 0.)
+      if (const double a = scene.tissue.cell_spacing,
+          k              = 2. * scene.dimension * *D / (a * a),
+          attempts       = k * scene.time.step;
+          attempts > 1.)
         {
           std::ostringstream why, remedy;
           why << "each cell tries to change its place " << attempts
-              << " times in a step of " << scene.step
+              << " times in a step of " << scene.time.step
               << " day. The places themselves move between steps only.";
-          remedy << "Let Time/Step be at most " << 1. / *k << " day.";
+          remedy << "Let Time/Step be at most " << 1. / k << " day.";
           review.warn(diffusion.path(),
                       diffusion.text() + " um^2/day",
                       why.str(),
@@ -99,34 +76,5 @@ namespace Morula
                   "the shear relaxes twice, by exchanges and by "
                   "Material/Relaxation time.",
                   "Use one of the two.");
-  }
-
-
-  std::string
-  RearrangementParameters::further_lines(const RestOfScene &scene) const
-  {
-    const auto k = rate_of_exchange(scene);
-    if (!k)
-      return "";
-    std::ostringstream out;
-    out << "    about " << *k * scene.step
-        << " attempts a cell and step, by the cell spacing\n";
-    double largest = 0.;
-    for (const auto &row : scene.catalogue.tensions().between)
-      for (const double gamma : row)
-        largest = std::max(largest, gamma);
-    if (largest > 0.)
-      out << "    fluctuation energy "
-          << energy / (critical_ratio(scene.dim) * largest *
-                       std::pow(scene.cell_spacing, scene.dim - 1.))
-          << " of the one at which types mix; 0.4 to 0.7 sorts fastest\n";
-    if (shear_released > 0.)
-      out << "    shear relaxes by exchanges in " << 1. / (shear_released * *k)
-          << " day\n";
-    if (relaxes(scene))
-      out << "    shear relaxes by Material/Relaxation time in "
-          << scene.catalogue.keys<RelaxationParameters>().time.text()
-          << " day\n";
-    return out.str();
   }
 } // namespace Morula

@@ -88,13 +88,14 @@ namespace Morula
 
 
   void
-  NeighbourParameters::see_expressions(const std::vector<ExpressionKey *> &keys,
-                                       const std::vector<std::string> &types,
-                                       const std::vector<std::string> &fields)
+  NeighbourParameters::see(const SceneKeys                    &scene,
+                           const std::vector<ExpressionKey *> &keys)
   {
     // The names are sorted, so that the numbers of variables, and with them the
     // columns, do not depend on the order of keys. They follow the fields, as
     // keys know variables of a scene's own by their numbers alone.
+    const std::vector<std::string> types  = scene.type_names(),
+                                   fields = scene.field_names();
     variables.clear();
     std::map<std::string, NeighbourVariable> found;
     for (const ExpressionKey *key : keys)

@@ -10,10 +10,8 @@
 namespace Morula
 {
   void
-  PresentDepthParameters::see_expressions(
-    const std::vector<ExpressionKey *> &keys,
-    const std::vector<std::string> &,
-    const std::vector<std::string> &)
+  PresentDepthParameters::see(const SceneKeys &,
+                              const std::vector<ExpressionKey *> &keys)
   {
     // Whether the variable is really read is known when the expressions are
     // parsed: then the column is there. The word may stand in a key of an

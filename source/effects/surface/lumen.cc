@@ -235,7 +235,7 @@ namespace Morula
   Lumen<dim>::check(const Preview<dim> &scene) const
   {
     // Both ends of the run are tried, so that most mistakes show before it.
-    for (const double t : {0., scene.end_time})
+    for (const double t : {0., scene.keys.time.end_time.value()})
       if (keeps_volume())
         volume(t, 1.);
       else
@@ -262,7 +262,7 @@ namespace Morula
                          Utilities::MPI::max(upper, scene.comm) -
                            Utilities::MPI::min(lower, scene.comm));
       }
-    const double h = scene.grid_spacing;
+    const double h = scene.keys.grid.spacing;
     if (width < narrowest * h)
       review.warn(where.path(),
                   where.text(),

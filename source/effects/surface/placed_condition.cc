@@ -20,7 +20,7 @@ namespace Morula
     // Each point on which the condition acts is tried at both ends of the run.
     for (const Point<dim> &X : scene.boundary_points)
       if (holds(X))
-        for (const double t : {0., scene.end_time})
+        for (const double t : {0., scene.keys.time.end_time.value()})
           check_at(X, t);
   }
 

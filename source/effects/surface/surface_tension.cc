@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
-#include <morula/effects/rest_of_scene.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/surface_tension.h>
 
@@ -18,7 +17,7 @@ namespace Morula
 
 
   void
-  SurfaceTensionParameters::check_with(const RestOfScene &scene) const
+  SurfaceTensionParameters::check(const SceneKeys &scene, Review &) const
   {
     if (scene.catalogue.tensions().any_with_surface() && !tension.is_default())
       tension.refuse("its default, as types of cells have tensions with the "

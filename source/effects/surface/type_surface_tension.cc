@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_tension.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/surface_energy.h>
 #include <morula/effects/surface/type_surface_tension.h>
 #include <morula/particles/nearest.h>
@@ -13,8 +13,8 @@
 namespace Morula
 {
   void
-  TypeSurfaceTensionParameters::declare_types(
-    const std::vector<std::string> &names)
+  TypeSurfaceTensionParameters::declare_sections(
+    const std::string &, const std::vector<std::string> &names)
   {
     types = names;
     // A type may be called "surface"; the tension with it has this path then.
@@ -29,9 +29,10 @@ namespace Morula
 
 
   void
-  TypeSurfaceTensionParameters::see_others(const Catalogue &catalogue)
+  TypeSurfaceTensionParameters::see(const SceneKeys &scene,
+                                    const std::vector<ExpressionKey *> &)
   {
-    pulls = catalogue.keys<TypeTensionParameters>().force;
+    pulls = scene.keys<TypeTensionParameters>().force;
   }
 
 

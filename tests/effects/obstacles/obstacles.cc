@@ -12,7 +12,7 @@ namespace
   one_obstacle(const Values &values)
   {
     ObstaclesParameters parameters;
-    parameters.declare_sections("wall");
+    parameters.declare_sections("wall", {});
     for (AnyKey *key : parameters.obstacles.front().list())
       if (values.count(key->short_name()) > 0)
         key->assign(values.at(key->short_name()));

@@ -41,7 +41,7 @@ namespace Morula
 
     void
     check_bodies(const std::vector<BodyMeasures> &bodies,
-                 const RestOfScene               &scene) const override;
+                 const SceneKeys                 &scene) const override;
 
     void
     review_bodies(const std::vector<BodyMeasures> &bodies,

@@ -93,14 +93,16 @@ namespace Morula
     }
 
     /** Bodies touch by their surfaces. */
-    bool
-    needs_surface() const override
+    EffectFacts
+    facts() const override
     {
-      return true;
+      EffectFacts facts;
+      facts.needs_surface = true;
+      return facts;
     }
 
     void
-    check_with(const RestOfScene &scene) const override;
+    check(const SceneKeys &scene, Review &review) const override;
   };
 } // namespace Morula
 

@@ -71,40 +71,21 @@ namespace Morula
     bool
     is_on() const override;
 
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &law;
-    }
-
-
-    bool
-    divides_cells() const override
-    {
-      return true;
-    }
-
-    bool
-    grows_cells() const override
-    {
-      return true;
-    }
-
-    const ExpressionKey *
-    founders_key() const override
-    {
-      return &where;
+      EffectFacts facts;
+      facts.switch_key    = &law;
+      facts.divides_cells = true;
+      facts.grows_cells   = true;
+      facts.founders_key  = &where;
+      facts.topic         = "proliferation";
+      return facts;
     }
 
     void
-    take_laws_of_types(
-      const std::vector<const Key<std::string> *> &laws) override;
-
-    std::string
-    topic() const override
-    {
-      return "proliferation";
-    }
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &of_cells) override;
 
     std::string
     details() const override;

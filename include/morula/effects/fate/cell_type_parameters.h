@@ -86,7 +86,7 @@ namespace Morula
     /** Refuses laws that differ from type to type, and daughters of types that
      *  there are not. */
     void
-    check_with(const RestOfScene &scene) const override;
+    check(const SceneKeys &scene, Review &review) const override;
 
     /** The names in the order of the types' numbers. */
     std::vector<std::string>

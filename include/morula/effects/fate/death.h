@@ -61,14 +61,16 @@ namespace Morula
     bool
     is_on() const override;
 
-    const AnyKey *
-    switch_key() const override;
+    EffectFacts
+    facts() const override
+    {
+      return {&rate};
+    }
 
 
     /** Refuses dead cells that shrink with the stiffness of whole ones. */
     void
-    check_with(const RestOfScene &scene) const override;
-
+    check(const SceneKeys &scene, Review &review) const override;
 
     std::string
     details() const override;

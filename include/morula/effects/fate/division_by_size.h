@@ -45,20 +45,17 @@ namespace Morula
       return !volume.expression(3).is_always(0.);
     }
 
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &volume;
-    }
-
-    bool
-    divides_cells() const override
-    {
-      return true;
+      EffectFacts facts;
+      facts.switch_key    = &volume;
+      facts.divides_cells = true;
+      return facts;
     }
 
     void
-    check_with(const RestOfScene &scene) const override;
+    check(const SceneKeys &scene, Review &review) const override;
 
     std::string
     details() const override

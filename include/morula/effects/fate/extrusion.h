@@ -29,10 +29,10 @@ namespace Morula
       return !rate.expression(3).is_always(0.);
     }
 
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &rate;
+      return {&rate};
     }
 
     std::string

@@ -167,30 +167,16 @@ namespace Morula
       return !fields.empty();
     }
     void
-    check_with(const RestOfScene &scene) const override;
-    bool
-    needs_surface() const override;
-    std::vector<const ExpressionKey *>
-    places() const override;
+    check(const SceneKeys &scene, Review &review) const override;
+    EffectFacts
+    facts() const override;
     std::string
-    details() const override
-    {
-      return names;
-    }
-    std::string
-    further_lines(const RestOfScene &) const override;
-    std::vector<NamedField>
-    named_fields() const override;
-
-    const AnyKey *
-    names_key() const override
-    {
-      return &names;
-    }
+    details() const override;
     /** Refuses names that expressions or tables cannot have, or that are given
      *  twice, as well. */
     void
-    declare_sections(const std::string &names) override;
+    declare_sections(const std::string              &names,
+                     const std::vector<std::string> &types) override;
 
     using Keys::list;
     KeyList

@@ -42,24 +42,22 @@ namespace Morula
       return force && any();
     }
     void
-    check_with(const RestOfScene &) const override
+    check(const SceneKeys &, Review &) const override
     {
       matrix();
     }
-    void
-    add_tensions(TypeTensions &tensions) const override
+    EffectFacts
+    facts() const override
     {
-      tensions.between = matrix();
-    }
-    std::string
-    topic() const override
-    {
-      return "tension between types";
+      EffectFacts facts;
+      facts.topic = "tension between types";
+      return facts;
     }
     std::string
     details() const override;
     void
-    declare_types(const std::vector<std::string> &types) override;
+    declare_sections(const std::string              &names,
+                     const std::vector<std::string> &types) override;
     using Keys::list;
     KeyList
     list() override;

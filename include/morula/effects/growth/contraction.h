@@ -47,10 +47,10 @@ namespace Morula
     bool
     is_on() const override;
 
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &stretch;
+      return {&stretch};
     }
 
     std::string

@@ -97,13 +97,16 @@ namespace Morula
     }
     std::string
     details() const override;
-    const AnyKey *
-    names_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &names;
+      EffectFacts facts;
+      facts.names_key = &names;
+      return facts;
     }
     void
-    declare_sections(const std::string &text) override;
+    declare_sections(const std::string              &text,
+                     const std::vector<std::string> &types) override;
     using Keys::list;
     KeyList
     list() override;

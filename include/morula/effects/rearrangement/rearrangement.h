@@ -62,23 +62,13 @@ namespace Morula
     {
       return !diffusion.is_default() || diffusion.differs_by_type();
     }
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &diffusion;
+      return {&diffusion};
     }
     void
-    check_with(const RestOfScene &scene) const override;
-    void
-    review(const RestOfScene &scene, Review &review) const override;
-    std::string
-    further_lines(const RestOfScene &scene) const override;
-
-  private:
-    /** How often a cell takes part in an exchange per day, k = 2 d D/a², among
-     *  equal cells with the largest D that is a plain number. */
-    std::optional<double>
-    rate_of_exchange(const RestOfScene &scene) const;
+    check(const SceneKeys &scene, Review &review) const override;
   };
 
   /** Cells exchange their places with neighbours: doc/theory.md, section 12.3.

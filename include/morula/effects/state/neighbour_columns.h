@@ -55,9 +55,8 @@ namespace Morula
      *         which the stress depends
      */
     void
-    see_expressions(const std::vector<ExpressionKey *> &keys,
-                    const std::vector<std::string>     &types,
-                    const std::vector<std::string>     &fields) override;
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &keys) override;
   };
 
   /** Tells cells of their neighbours: writes the columns of the variables, at

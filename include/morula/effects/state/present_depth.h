@@ -23,9 +23,8 @@ namespace Morula
     }
 
     void
-    see_expressions(const std::vector<ExpressionKey *> &keys,
-                    const std::vector<std::string>     &types,
-                    const std::vector<std::string>     &fields) override;
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &keys) override;
 
     using Keys::list;
     KeyList

@@ -31,10 +31,10 @@ namespace Morula
     {
       return !where.empty();
     }
-    const AnyKey *
-    switch_key() const override
+    EffectFacts
+    facts() const override
     {
-      return &where;
+      return {&where};
     }
     std::string
     details() const override

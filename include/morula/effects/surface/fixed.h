@@ -24,10 +24,12 @@ namespace Morula
                                "X, Y, Z, t separated by ';'. Units: um.",
                                Evaluated::place,
                                3};
-    std::string
-    topic() const override
+    EffectFacts
+    facts() const override
     {
-      return "fixed points (Nitsche)";
+      EffectFacts facts = ConditionKeys::facts();
+      facts.topic       = "fixed points (Nitsche)";
+      return facts;
     }
     std::string
     details() const override;

@@ -27,10 +27,12 @@ namespace Morula
                         "Direction, e.g. 0, 0, 1: only points whose initial "
                         "normal N is along it, |N.normal| > 0.9, slip; empty: "
                         "all, each along its own normal."};
-    std::string
-    topic() const override
+    EffectFacts
+    facts() const override
     {
-      return "slip (Nitsche)";
+      EffectFacts facts = ConditionKeys::facts();
+      facts.topic       = "slip (Nitsche)";
+      return facts;
     }
   };
 

@@ -33,7 +33,7 @@ namespace Morula
     bool
     is_on() const override;
     void
-    check_with(const RestOfScene &scene) const override;
+    check(const SceneKeys &scene, Review &review) const override;
     std::string
     details() const override;
   };

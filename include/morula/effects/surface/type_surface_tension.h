@@ -23,22 +23,21 @@ namespace Morula
 
     bool
     is_on() const override;
-    std::string
-    topic() const override
+    EffectFacts
+    facts() const override
     {
-      return "surfaces of types";
+      EffectFacts facts;
+      facts.topic = "surfaces of types";
+      return facts;
     }
     std::string
     details() const override;
     void
-    declare_types(const std::vector<std::string> &types) override;
+    declare_sections(const std::string              &names,
+                     const std::vector<std::string> &types) override;
     void
-    see_others(const Catalogue &catalogue) override;
-    void
-    add_tensions(TypeTensions &all) const override
-    {
-      all.with_surface.assign(tensions.begin(), tensions.end());
-    }
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &of_cells) override;
     using Keys::list;
     KeyList
     list() override;

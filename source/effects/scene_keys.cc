@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/scene/scene.h>
+#include <morula/effects/scene_keys.h>
 
 #include <algorithm>
 
@@ -13,20 +13,34 @@ namespace Morula
   {
     /** Whether a fate is on that does something. */
     bool
-    has_fate_that(const Catalogue &catalogue, bool (EffectKeys::*does)() const)
+    has_fate_that(const Catalogue &catalogue, bool EffectFacts::*does)
     {
       return std::any_of(catalogue.fates.begin(),
                          catalogue.fates.end(),
                          [does](const auto &choice) {
                            return choice.keys().is_on() &&
-                                  (choice.keys().*does)();
+                                  choice.keys().facts().*does;
                          });
     }
   } // namespace
 
 
+  SceneKeys::SceneKeys(const Catalogue &catalogue)
+    : dimension("Dimension",
+                3,
+                "3, or 2 for plane strain per um of thickness.",
+                {2, 3})
+    , material(catalogue.materials)
+    , growth_law("Growth/Law",
+                 "none",
+                 "How cells grow without dividing.",
+                 {"none"})
+    , catalogue(catalogue)
+  {}
+
+
   std::string
-  Scene::law_of_growth() const
+  SceneKeys::law_of_growth() const
   {
     // A scene has one law. If it is not set for all cells, the first type that
     // has one tells.
@@ -40,7 +54,7 @@ namespace Morula
 
 
   const std::string &
-  Scene::division_axis() const
+  SceneKeys::division_axis() const
   {
     // A cell that does not grow by the fate that divides it may have grown
     // along any axis, so it is the long one that is to be cut, unless the scene
@@ -53,7 +67,7 @@ namespace Morula
 
 
   const std::string &
-  Scene::division_axis(const unsigned int type) const
+  SceneKeys::division_axis(const unsigned int type) const
   {
     const bool has_own =
       cell_types.is_on() && !cell_types.types[type].division_axis->empty();
@@ -63,7 +77,7 @@ namespace Morula
 
 
   std::set<std::string>
-  Scene::division_axes() const
+  SceneKeys::division_axes() const
   {
     std::set<std::string> axes;
     for (unsigned int type = 0;
@@ -75,7 +89,7 @@ namespace Morula
 
 
   bool
-  Scene::grows(const unsigned int type) const
+  SceneKeys::grows(const unsigned int type) const
   {
     if (!cell_types.is_on() || cell_types.types[type].growth_law->empty())
       return growth_law != "none";
@@ -83,34 +97,17 @@ namespace Morula
   }
 
 
-  RestOfScene
-  Scene::rest_of_scene() const
+  bool
+  SceneKeys::volumes_differ() const
   {
     // Volumes differ where cells have grown, or were born, to different ones.
-    const bool volumes_differ =
-      has_active_tissue() || has_any(catalogue.fates) || tissue.is_points() ||
-      tissue.surface_cells == "trimmed";
-    return {dimension,
-            catalogue,
-            material,
-            grid,
-            time.step,
-            tissue.cell_spacing,
-            cell_types.name_list(),
-            law_of_growth(),
-            division_axes(),
-            cells_divide(),
-            has_active_tissue(),
-            volumes_differ,
-            tissue.points_surface,
-            tissue.has_no_surface(),
-            tissue.refine_surface,
-            tissue.cuts};
+    return has_active_tissue() || has_any(catalogue.fates) ||
+           tissue.is_points() || tissue.surface_cells == "trimmed";
   }
 
 
   std::vector<std::string>
-  Scene::field_names() const
+  SceneKeys::field_names() const
   {
     std::vector<std::string> names;
     for (const NamedField &field : catalogue.named_fields())
@@ -120,7 +117,7 @@ namespace Morula
 
 
   std::vector<const EffectKeys *>
-  Scene::effect_keys() const
+  SceneKeys::effect_keys() const
   {
     std::vector<const EffectKeys *> list{&division, &cell_types};
     for (const EffectKeys *const keys : catalogue.all_keys())
@@ -130,7 +127,7 @@ namespace Morula
 
 
   std::vector<const EffectKeys *>
-  Scene::keys_in_use() const
+  SceneKeys::keys_in_use() const
   {
     // Keys say whether their effect is on, but for those that others switch:
     // laws and rules by their names, and how cells divide.
@@ -155,32 +152,32 @@ namespace Morula
 
 
   bool
-  Scene::cells_divide() const
+  SceneKeys::cells_divide() const
   {
-    return has_fate_that(catalogue, &EffectKeys::divides_cells);
+    return has_fate_that(catalogue, &EffectFacts::divides_cells);
   }
 
 
   bool
-  Scene::grows_by_fate() const
+  SceneKeys::grows_by_fate() const
   {
-    return has_fate_that(catalogue, &EffectKeys::grows_cells);
+    return has_fate_that(catalogue, &EffectFacts::grows_cells);
   }
 
 
   const EffectKeys *
-  Scene::first_way_to_divide() const
+  SceneKeys::first_way_to_divide() const
   {
     for (const auto &choice : catalogue.fates)
-      if (choice.keys().divides_cells() &&
-          choice.keys().switch_key() != nullptr)
+      if (const EffectFacts facts = choice.keys().facts();
+          facts.divides_cells && facts.switch_key != nullptr)
         return &choice.keys();
     return nullptr;
   }
 
 
   std::vector<std::string>
-  Scene::type_names() const
+  SceneKeys::type_names() const
   {
     return cell_types.name_list();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/open_mpi.h>
+#include <morula/program/ranks.h>
 
 #include <deal.II/base/mpi.h>
 

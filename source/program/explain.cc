@@ -3,21 +3,238 @@
 
 #include <morula/base/json.h>
 #include <morula/particles/cell_state.h>
-#include <morula/program/explain.h>
-#include <morula/program/explain_parts.h>
+#include <morula/program/program.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <iomanip>
 #include <ostream>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace Morula
 {
   namespace
   {
+    /** An effect of a scene: its name, what it is, and further lines. */
+    struct EffectRow
+    {
+      std::string name;
+      std::string description;
+      std::string further = {};
+    };
+
+    using EffectRows = std::vector<EffectRow>;
+
+    /** Prints one line, a name and what it is, and the further lines. */
+    void
+    print(std::ostream &out, const EffectRow &row)
+    {
+      out << "  " << std::left << std::setw(24) << row.name << row.description
+          << '\n'
+          << row.further;
+    }
+
+    /** What a condition does at t = 0, a line for each of its parts. */
+    std::string
+    applied_lines(const Scene                         &scene,
+                  const std::vector<AppliedCondition> &applied,
+                  const std::string                   &name)
+    {
+      std::string lines;
+      for (const AppliedCondition &one : applied)
+        if (one.name == name)
+          lines += "    " + text_of(scene, one) + '\n';
+      return lines;
+    }
+
+    /** On which founders an effect acts, if it says so. */
+    std::string
+    of_founders(const types::particle_index n,
+                const types::particle_index n_founders,
+                const EffectKeys           &keys)
+    {
+      const ExpressionKey *const where = keys.facts().founders_key;
+      if (where == nullptr)
+        return "";
+      return n == n_founders ?
+               ", all " + std::to_string(n) + " founders" :
+               ", " + std::to_string(n) + " of " + std::to_string(n_founders) +
+                 " founders, where " + where->text();
+    }
+
+    /** What the chosen effect's keys say, if it is one of the catalogue. */
+    template <template <int> class Interface>
+    std::string
+    details_of(const Choices<Interface> &choices, const std::string &chosen)
+    {
+      const auto *choice = find_choice(choices, chosen);
+      return choice == nullptr ? "" : choice->keys().details();
+    }
+
+    /** What a condition or force is called. */
+    template <template <int> class Interface>
+    std::string
+    topic_of(const Choice<Interface> &choice)
+    {
+      const std::string topic = choice.keys().facts().topic;
+      return topic.empty() ? choice.name() : topic;
+    }
+
+    /** The row of an effect, if its keys switch it on.
+     *  @param more behind its details */
+    template <template <int> class Interface>
+    void
+    add_choice(EffectRows              &rows,
+               const Choice<Interface> &choice,
+               const std::string       &more = "")
+    {
+      // What has no keys is a part of others.
+      const EffectKeys &keys = choice.keys();
+      if (!keys.list().empty() && keys.is_on())
+        rows.push_back({topic_of(choice), keys.details() + more});
+    }
+
+    /** Rows for all effects of a kind. */
+    template <template <int> class Interface>
+    void
+    add_effects(EffectRows &rows, const Choices<Interface> &choices)
+    {
+      for (const auto &choice : choices)
+        add_choice(rows, choice);
+    }
+
+    /** The effects of a scene.
+     *  @param counts  of boundary points
+     *  @param applied what the conditions apply
+     *  @param n_founders, n_proliferating on all ranks */
+    EffectRows
+    effect_rows(const Scene                         &scene,
+                const ConditionCounts               &counts,
+                const std::vector<AppliedCondition> &applied,
+                const types::particle_index          n_founders,
+                const types::particle_index          n_proliferating)
+    {
+      const Catalogue          &catalogue = scene.catalogue;
+      const DivisionParameters &division  = scene.division;
+
+      // The rows come in a fixed order: first what the library does to cells,
+      // then the effects of the catalogue in its order, then properties of the
+      // material and of the surface. An effect that is off has no row.
+      EffectRows out;
+      if (scene.has_growth())
+        out.push_back(
+          {"growth",
+           scene.law_of_growth() +
+             details_of(catalogue.growth_laws, scene.law_of_growth())});
+      const auto add_fates = [&](const bool that_grow) {
+        for (const auto &choice : catalogue.fates)
+          if (choice.keys().facts().grows_cells == that_grow)
+            add_choice(out,
+                       choice,
+                       of_founders(n_proliferating, n_founders, choice.keys()));
+      };
+      add_fates(true);
+      if (scene.cells_divide())
+        out.push_back(
+          {"division (Voronoi)",
+           "axis = " + scene.division_axis() +
+             details_of(catalogue.division_rules, scene.division_axis()) +
+             (division.axis_follows_rotation ? ", follows rotation" : "") +
+             (division.stay_inside ? ", inside the surface" : "")});
+      add_effects(out, catalogue.growth_factors);
+      add_fates(false);
+      add_effects(out, catalogue.equations);
+      add_effects(out, catalogue.traits);
+      add_effects(out, catalogue.step_effects);
+      for (const auto &choice : catalogue.boundary_conditions)
+        // A condition is on if it acts somewhere: its expression may be true at
+        // no boundary point.
+        if (const types::particle_index n = counts.acting.at(choice.name()))
+          {
+            const AnyKey *const where = choice.keys().facts().switch_key;
+            out.push_back(
+              {topic_of(choice),
+               "at " + std::to_string(n) + " boundary points" +
+                 (where == nullptr ? "" : ", where " + where->text()) +
+                 choice.keys().details(),
+               applied_lines(scene, applied, choice.name())});
+          }
+      add_effects(out, catalogue.forces);
+      out.push_back({"material", material_text(scene)});
+      add_effects(out, catalogue.flows);
+      if (scene.tissue.refine_surface)
+        out.push_back({"surface refinement",
+                       "patches longer than " +
+                         as_text(0.5 * scene.grid.spacing) + " um are split"});
+      if (scene.material.volumetric_form() != VolumetricStrain::pointwise)
+        out.push_back(
+          {"volumetric strain",
+           scene.material.volumetric_strain.text() + " in a grid cell"});
+      return out;
+    }
+
+    /** The variables of an expression that only a present cell has. */
+    std::string
+    variables_of_cells(const Expression &expression)
+    {
+      std::string names;
+      // The variables of place and time, up to t, come first in the list; all
+      // behind them belong to cells.
+      for (const Variable variable : expression.used())
+        if (variable > Variable::t)
+          names += (names.empty() ? "" : ", ") +
+                   expression.vocabulary().name_of(variable);
+      return names;
+    }
+
+    /** Prints the types of cells, and for each type the keys that it sets
+     *  differently. Prints nothing without types. @param n_founders by type, on
+     *  all ranks */
+    void
+    print_types(std::ostream                             &out,
+                const Scene                              &scene,
+                const std::vector<types::particle_index> &n_founders)
+    {
+      const std::vector<std::string> names = scene.type_names();
+      if (!names.empty())
+        out << "Cell types\n";
+      for (unsigned int i = 0; i < names.size(); ++i)
+        out << "  " << std::left << std::setw(24) << names[i] << n_founders[i]
+            << (n_founders[i] == 1 ? " founder" : " founders") << '\n'
+            << scene.cell_types.details_of(i);
+    }
+
+    /** Prints which expressions use variables of the present cell, which
+     *  variables these are, and when they are evaluated. Prints nothing if
+     * there are none. */
+    void
+    print_cell_expressions(std::ostream &out, const Scene &scene)
+    {
+      bool first = true;
+      for (const AnyKey *key : scene.list())
+        {
+          const auto *expression = dynamic_cast<const ExpressionKey *>(key);
+          if (expression == nullptr || expression->empty() ||
+              !expression->is_of_cells())
+            continue;
+          const std::string variables =
+            variables_of_cells(expression->expression(scene.dimension));
+          if (variables.empty())
+            continue;
+          if (first)
+            out << "Expressions of the present cell\n";
+          first = false;
+          out << "  " << key->path() << ", evaluated "
+              << description_of(expression->evaluated()) << ": " << variables
+              << '\n';
+        }
+    }
+
     /** So many bodies are described one by one. */
     constexpr std::size_t most_bodies_listed = 8;
 
@@ -74,10 +291,9 @@ namespace Morula
         text << "; body " << b << ": " << bodies[b].cells << " cells, "
              << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
              << ", surface " << bodies[b].area << (dim == 3 ? " um^2" : " um");
-      add_effect(rows, "bodies", text.str());
-      add_effect(rows,
-                 interaction.name,
-                 interaction.effect->details_of_bodies(bodies, h));
+      rows.push_back({"bodies", text.str()});
+      rows.push_back(
+        {interaction.name, interaction.effect->details_of_bodies(bodies, h)});
     }
 
     /** How many bodies the tissue is, and which surfaces its mesh has. */
@@ -95,14 +311,14 @@ namespace Morula
                         scene.grid.spacing,
                         tissue.measures);
       else
-        add_effect(rows,
-                   "bodies",
-                   tissue.bodies.empty() ? bodies_text(scene, tissue, comm) :
-                                           tissue.bodies);
+        rows.push_back({"bodies",
+                        tissue.bodies.empty() ?
+                          bodies_text(scene, tissue, comm) :
+                          tissue.bodies});
       if (!tissue.mesh.empty())
-        add_effect(rows, "surface mesh", tissue.mesh);
+        rows.push_back({"surface mesh", tissue.mesh});
       if (!tissue.cuts.empty())
-        add_effect(rows, "cuts", tissue.cuts);
+        rows.push_back({"cuts", tissue.cuts});
     }
 
     template <int dim>
@@ -135,10 +351,8 @@ namespace Morula
       std::string pieces;
       for (const std::string &text : texts_of(scene, tissue.pieces))
         pieces += "    " + text + '\n';
-      add_effect(result.effects,
-                 "pieces",
-                 std::to_string(tissue.pieces.size()),
-                 pieces);
+      result.effects.push_back(
+        {"pieces", std::to_string(tissue.pieces.size()), pieces});
       return result;
     }
 

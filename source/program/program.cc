@@ -5,21 +5,26 @@
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
 #include <morula/program/command_line.h>
-#include <morula/program/explain.h>
-#include <morula/program/failure.h>
-#include <morula/program/open_mpi.h>
 #include <morula/program/program.h>
-#include <morula/program/serve.h>
+#include <morula/program/ranks.h>
 #include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -91,6 +96,117 @@ namespace Morula
       std::cout.rdbuf(out);
       std::error_code error;
       std::filesystem::remove_all(place, error);
+    }
+
+    using Words = std::vector<std::string>;
+
+    /** What a request has before the command line. */
+    enum Place : unsigned int
+    {
+      directory,
+      output,
+      errors,
+      cost,
+      n_places
+    };
+
+    /** The next request from standard input; nothing at the end. */
+    Words
+    next_request()
+    {
+      // First stands the number of words, since words may be empty. A request
+      // that ends too early is taken for the end of the input.
+      std::string number;
+      if (!std::getline(std::cin, number, '\0'))
+        return {};
+      Words words(std::strtoul(number.c_str(), nullptr, 10));
+      for (std::string &word : words)
+        std::getline(std::cin, word, '\0');
+      return std::cin && words.size() >= n_places ? words : Words();
+    }
+
+    /** Lets a descriptor of this process mean a file. */
+    void
+    redirect(const std::string &path, const int flags, const int descriptor)
+    {
+      const int file = open(path.c_str(), flags, 0644);
+      if (file < 0 || dup2(file, descriptor) < 0)
+        _exit(127);
+      close(file);
+    }
+
+    /** What the fork does: it never returns. */
+    [[noreturn]] void
+    do_run(const Words                                    &request,
+           const std::function<int(const Words &command)> &run)
+    {
+      // The session lets whoever asked end the run with all that it starts.
+      // What the process has open is replaced before the run says its first
+      // word. 127 is what a shell returns for a command that it cannot start.
+      // The fork ends by _exit(): finalizing MPI or destroying static objects
+      // would end what belongs to the parent.
+      setsid();
+      if (chdir(request[directory].c_str()) != 0)
+        _exit(127);
+      constexpr int flags = O_WRONLY | O_CREAT | O_APPEND;
+      redirect("/dev/null", O_RDONLY, STDIN_FILENO);
+      redirect(request[output], flags, STDOUT_FILENO);
+      redirect(request[errors], flags, STDERR_FILENO);
+      const int code = run({request.begin() + n_places, request.end()});
+      std::cout.flush();
+      std::fflush(nullptr);
+      _exit(code);
+    }
+
+    /**
+     * Does runs as standard input asks for them, one after the other, each in a
+     * fork of this process. A fork has the libraries linked and MPI initialized
+     * already, which is nearly all of the time that the program takes to start;
+     * MPI on one rank needs no other process. It ends without finalizing MPI
+     * and without the destructors of the libraries.
+     *
+     * A run is asked for by the number of words that follow, its working
+     * directory, the files that get its standard output and standard error, the
+     * file for what it cost (or nothing), and its command line, each ended by a
+     * null byte. Printed are the run's process id at once, and at its end the
+     * exit code, or minus the number of the signal that ended it, and its peak
+     * memory in kB. The run leads a session of its own. The end of the input
+     * ends this.
+     * @param prepare is called in this process before each fork
+     * @param run runs the program with a command line and returns the exit code
+     */
+    void
+    serve(const std::function<void()>                                &prepare,
+          const std::function<int(const std::vector<std::string> &)> &run)
+    {
+      for (Words request = next_request(); !request.empty();
+           request       = next_request())
+        {
+          // The number of the process is printed and flushed at once, so that
+          // the run can be ended while it works. Its end is waited for here:
+          // runs come one after the other, and wait4() tells the peak memory of
+          // this one alone. Exit code and memory are printed last, which says
+          // that all files are complete.
+          const auto begin = std::chrono::steady_clock::now();
+          prepare();
+          const pid_t child = fork();
+          if (child == 0)
+            do_run(request, run);
+          std::cout << child << std::endl;
+          int    status = 0;
+          rusage usage{};
+          wait4(child, &status, 0, &usage);
+          const int code =
+            WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+          const std::chrono::duration<double> seconds =
+            std::chrono::steady_clock::now() - begin;
+          if (!request[cost].empty())
+            std::ofstream(request[cost])
+              << "{\"exit\": " << code
+              << ", \"process_seconds\": " << seconds.count()
+              << ", \"peak_bytes\": " << 1024 * usage.ru_maxrss << "}\n";
+          std::cout << code << ' ' << usage.ru_maxrss << std::endl;
+        }
     }
 
     /** Prints help, version or keys if the command line asks for them.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/explain.h>
+#include <morula/program/program.h>
 #include <morula/scene/size.h>
 
 #include <deal.II/base/timer.h>

@@ -7,8 +7,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/program/command_line.h>
-#include <morula/program/failure.h>
-#include <morula/program/open_mpi.h>
+#include <morula/program/ranks.h>
 
 #include <cstdlib>
 

@@ -7,7 +7,10 @@
 #include <morula/effects/catalogue.h>
 #include <morula/scene/scene.h>
 
+#include <mpi.h>
+
 #include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,21 @@ namespace Morula
   /** Runs the scene as `morula` does, from its snapshot if @p resume. */
   void
   simulate(const Scene &scene, const bool resume);
+
+  /**
+   * Seeds the tissue, makes all checks, and prints on rank 0 what the scene
+   * will simulate: numbers of cells and boundary points, effects that are on
+   * and off, the columns of a cell, the expected cells and memory, estimates of
+   * unknowns and time, and the warnings. Simulates nothing and writes no file.
+   * Collective.
+   * @param json print it as a JSON object, with all keys as used
+   * @throws InputError
+   */
+  void
+  explain(const Scene   &scene,
+          std::ostream  &out,
+          const MPI_Comm comm,
+          const bool     json = false);
 
   /**
    * The main() of Morula, and of programs that do other work with a scene. It

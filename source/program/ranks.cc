@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/program/failure.h>
+#include <morula/program/ranks.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdlib>
+#include <initializer_list>
 #include <iostream>
 #include <set>
 #include <thread>
@@ -12,6 +15,23 @@ namespace Morula
 {
   namespace
   {
+    /** Whether mpiexec or a batch system has started this process. */
+    bool
+    is_launched()
+    {
+      const std::initializer_list<const char *> variables = {
+        "OMPI_COMM_WORLD_SIZE",
+        "PMIX_RANK",
+        "PMI_RANK",
+        "PMI_FD",
+        "SLURM_PROCID"};
+      return std::any_of(variables.begin(),
+                         variables.end(),
+                         [](const char *variable) {
+                           return std::getenv(variable) != nullptr;
+                         });
+    }
+
     /** How long failed ranks wait for the others. */
     constexpr std::chrono::seconds waiting_time(5);
 
@@ -53,6 +73,26 @@ namespace Morula
       std::cerr << "morula: " + message + "\n" << std::flush;
     }
   } // namespace
+
+
+  void
+  set_up_open_mpi()
+  {
+    // The number of a component is that of the ROMIO which the version of Open
+    // MPI contains; a name that it does not know is ignored. The last argument
+    // 0 leaves what the user has set.
+    for (const char *variable :
+         {"OMPI_MCA_io_romio321_priority", "OMPI_MCA_io_romio341_priority"})
+      setenv(variable, "100", 0);
+    setenv("HWLOC_COMPONENTS", "-gl", 0);
+    // What follows is for one rank that starts itself. Ranks of a launcher need
+    // the daemon and the directories to find each other.
+    if (is_launched())
+      return;
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
+    setenv("OMPI_MCA_pml", "ob1", 0);
+  }
 
 
   int

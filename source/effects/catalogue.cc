@@ -20,7 +20,6 @@
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/effects/state/present_depth.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/pressure.h>
@@ -35,6 +34,10 @@
 
 namespace Morula
 {
+  // Effects that only their own files know.
+  void
+  add_present_depth(Choices<StepEffect> &effects);
+
   namespace
   {
     Catalogue::Settings
@@ -127,10 +130,7 @@ namespace Morula
                           "neighbours",
                           {"Growth/Law=rate",
                            "Growth/Rate/Rate=0.1*neighbours"});
-    add<PresentDepth>(step_effects,
-                      "present depth",
-                      {"Growth/Law=rate",
-                       "Growth/Rate/Rate=0.2*present_depth"});
+    add_present_depth(step_effects);
     add<CellShapeAxis>(division_rules, "cell shape", dividing("cell shape"));
     add<BodyForce>(forces,
                    "body force",

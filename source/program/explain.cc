@@ -4,8 +4,8 @@
 #include <morula/base/json.h>
 #include <morula/particles/cell_state.h>
 #include <morula/program/program.h>
+#include <morula/scene/checks.h>
 #include <morula/scene/seeded_tissue.h>
-#include <morula/scene/size.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>

@@ -7,7 +7,7 @@
 #include <morula/program/command_line.h>
 #include <morula/program/program.h>
 #include <morula/program/ranks.h>
-#include <morula/scene/size.h>
+#include <morula/scene/checks.h>
 #include <morula/simulation/simulation.h>
 
 #include <deal.II/base/exceptions.h>

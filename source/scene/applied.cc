@@ -4,8 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/review.h>
-#include <morula/scene/applied.h>
-#include <morula/scene/loads_at_start.h>
+#include <morula/scene/seeded_tissue.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,8 +13,72 @@
 #include <limits>
 #include <sstream>
 
+// What a scene applies to its surface at t = 0, and warnings of what is unwise
+// in it.
+
 namespace Morula
 {
+  template <int dim>
+  LoadsAtStart<dim>::LoadsAtStart(const Scene                   &scene,
+                                  const BoundaryConditions<dim> &conditions,
+                                  const SurfacePatches<dim>     &surface)
+  {
+    // There is no grid yet, so all points are put into one grid cell: its
+    // splines add up to 1 at any place, and so the force on each point is
+    // right. Nothing has moved, so that the present position and area are the
+    // initial ones.
+    for (std::size_t i = 0; i < surface.positions.size(); ++i)
+      {
+        const Point<dim>     &X = surface.positions[i];
+        const Tensor<1, dim> &N = surface.normals[i];
+        if (conditions.condition(X, N) != SurfaceCondition::loaded)
+          continue;
+        const double a = surface.areas[i];
+        loaded.points.push_back({X, X, N, X, a, a * N});
+        numbers.push_back(i);
+      }
+    const unsigned int n = loaded.points.size();
+    loaded.offsets       = {0, n};
+    Point<dim> middle;
+    for (unsigned int d = 0; d < dim; ++d)
+      middle[d] = 0.5;
+    loaded.xi.assign(n, middle);
+    loaded.h = scene.grid.spacing;
+  }
+
+
+  template <int dim>
+  const LoadedPoints<dim> &
+  LoadsAtStart<dim>::points() const
+  {
+    return loaded;
+  }
+
+
+  template <int dim>
+  std::optional<std::vector<Tensor<1, dim>>>
+  LoadsAtStart<dim>::forces(const BoundaryCondition<dim> &condition,
+                            const double                  t) const
+  {
+    std::optional<std::vector<Tensor<1, dim>>> result;
+    if (condition.only_pushes() || condition.kind() != SurfaceCondition::loaded)
+      return result;
+    for (const auto &part : condition.parts(loaded, t))
+      {
+        if (!result)
+          result.emplace(loaded.points.size());
+        const auto list = part.term->forces(0, LocalField<dim>{});
+        for (std::size_t l = 0; l < list.size(); ++l)
+          (*result)[l] += list[l];
+      }
+    return result;
+  }
+
+
+  template class LoadsAtStart<2>;
+  template class LoadsAtStart<3>;
+
+
   namespace
   {
     /** A row to which points are added, on this rank. */
@@ -226,4 +289,99 @@ namespace Morula
 
 
   MORULA_INSTANTIATE(applied_conditions);
+
+
+  namespace
+  {
+    /** With fewer patches a condition's area is not known to a tenth. */
+    constexpr std::uint64_t fewest_points = 10;
+
+    /** The other keys of a condition than that of its place. */
+    std::string
+    other_keys(const Scene            &scene,
+               const AppliedCondition &one,
+               const AnyKey           &where)
+    {
+      std::string paths;
+      for (const AnyKey *key :
+           find_choice(scene.catalogue.boundary_conditions, one.name)
+             ->keys()
+             .list())
+        if (key != &where)
+          paths += (paths.empty() ? "" : " or ") + key->path();
+      return paths;
+    }
+
+    /** Loads that are none. */
+    void
+    review_load(const Scene            &scene,
+                const AppliedCondition &one,
+                const AnyKey           &where,
+                Review                 &review)
+    {
+      const std::string keys = other_keys(scene, one, where);
+      if (one.points == 0 && one.chosen > 0)
+        review.warn(where.path(),
+                    where.text(),
+                    "it acts nowhere: at all " + std::to_string(one.chosen) +
+                      " boundary points that it chooses another condition wins "
+                      "(fixed over slip, slip over loads).",
+                    "Choose places that differ.");
+      else if (one.is_idle && !keys.empty() && !one.is_tension)
+        review.warn(where.path(),
+                    where.text(),
+                    "its load is zero at the end of every step.",
+                    "Set " + keys + ", or remove the condition.");
+    }
+
+    void
+    review_points(const Scene            &scene,
+                  const AppliedCondition &one,
+                  const AnyKey           &where,
+                  Review                 &review)
+    {
+      if (one.points > 0 && one.points < fewest_points)
+        review.warn(where.path(),
+                    where.text(),
+                    "it acts on " + std::to_string(one.points) +
+                      " boundary points, whose area is " + as_text(one.area) +
+                      (scene.dimension == 3 ? " um^2" : " um") +
+                      ": with so few, what it covers jumps by a whole patch, "
+                      "and so does its force.",
+                    "Choose a larger place, or a smaller Tissue/Cell spacing.");
+    }
+
+    /** Calls @p action for each condition and the key that says where it acts,
+     *  which warnings name; conditions without one are passed over. */
+    template <typename Action>
+    void
+    for_placed(const Scene                         &scene,
+               const std::vector<AppliedCondition> &applied,
+               const Action                        &action)
+    {
+      for (const AppliedCondition &one : applied)
+        if (const auto *const choice =
+              find_choice(scene.catalogue.boundary_conditions, one.name))
+          if (const AnyKey *const where = choice->keys().facts().switch_key)
+            action(one, *where);
+    }
+  } // namespace
+
+
+  void
+  review_applied(const Scene                         &scene,
+                 const std::vector<AppliedCondition> &applied,
+                 std::vector<std::string>            &warnings)
+  {
+    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
+      review_points(scene, one, where, review);
+    });
+    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
+      review_load(scene, one, where, review);
+    });
+    warnings.insert(warnings.end(),
+                    review.warnings.begin(),
+                    review.warnings.end());
+  }
 } // namespace Morula

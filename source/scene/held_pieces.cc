@@ -6,10 +6,7 @@
 #include <morula/base/review.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/rigid_modes.h>
-#include <morula/scene/applied.h>
-#include <morula/scene/first_cells.h>
-#include <morula/scene/held_pieces.h>
-#include <morula/scene/loads_at_start.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/pieces_at_start.h>
 
 #include <deal.II/base/mpi.h>

@@ -4,19 +4,135 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/scene/mesh_surfaces.h>
+#include <morula/scene/checks.h>
 #include <morula/scene/seeded_tissue.h>
-#include <morula/scene/size.h>
-#include <morula/scene/warnings.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/cuts.h>
 #include <morula/seeding/pieces_at_start.h>
 #include <morula/seeding/points_surface.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <algorithm>
+#include <sstream>
 
 namespace Morula
 {
+  namespace
+  {
+    /** What the file says of founder number @p i of this rank. Lists that the
+     *  file does not have are empty. */
+    template <int dim>
+    GivenState
+    given_state(const Founders<dim> &founders, const std::size_t i)
+    {
+      GivenState given;
+      if (!founders.phases.empty())
+        given.phase = founders.phases[i];
+      if (!founders.types.empty())
+        given.type = founders.types[i];
+      return given;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<NearSurface<dim>>
+  near_surface_of(const StateColumns<dim>   &state,
+                  const Founders<dim>       &founders,
+                  const SurfacePatches<dim> &patches,
+                  const MPI_Comm             comm)
+  {
+    // The search is collective, and whether it is needed is the same on all
+    // ranks.
+    if (!state.needs_surface())
+      return {};
+    return near_surface(founders.positions,
+                        patches.positions,
+                        patches.normals,
+                        comm);
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  founder_row(const CellDevelopment<dim>          &development,
+              const NamedEffects<Equation<dim>>   &equations,
+              const Founders<dim>                 &founders,
+              const std::vector<NearSurface<dim>> &surface,
+              const std::size_t                    i,
+              const double                         step)
+  {
+    // The row begins with the defaults of all columns. What the surface and the
+    // file tell is set first, then fields and what else equations give, since
+    // expressions of effects may read all of these; the development comes last.
+    // The file's ids are global: the first of this rank plus i.
+    const CellColumns<dim>  &columns = development.columns();
+    const StateColumns<dim> &state   = development.state();
+    std::vector<double>      row =
+      columns.founder(founders.positions[i], founders.volumes[i]);
+    const CellView<dim, double> cell(make_array_view(row), columns);
+    if (state.depth.exists())
+      cell.set(state.depth, surface[i].depth);
+    if (state.present_depth.exists())
+      cell.set(state.present_depth, surface[i].depth);
+    if (state.surface_normal.exists())
+      cell.set(state.surface_normal, surface[i].normal);
+    if (columns.generation.exists() && !founders.generations.empty())
+      cell.set(columns.generation, founders.generations[i]);
+    if (columns.body.exists() && !founders.bodies.empty())
+      cell.set(columns.body, founders.bodies[i]);
+    for (const auto &[name, equation] : equations)
+      equation->begin(cell);
+    development.initialize(founders.first_id + i,
+                           cell,
+                           step,
+                           given_state(founders, i));
+    return row;
+  }
+
+
+  template <int dim>
+  FirstCells<dim>::FirstCells(const TissueModel<dim>    &model,
+                              const Founders<dim>       &founders,
+                              const SurfacePatches<dim> &patches,
+                              const MPI_Comm             comm)
+    : model(model)
+    , founders(founders)
+    , surface(
+        near_surface_of(model.development.state(), founders, patches, comm))
+    , reader(model.development.reader(0.))
+  {}
+
+
+  template <int dim>
+  std::vector<double>
+  FirstCells<dim>::row(const std::size_t i) const
+  {
+    // The step is 0, so that nothing is checked: that is done elsewhere.
+    return founder_row(
+      model.development, model.equations, founders, surface, i, 0.);
+  }
+
+
+  template <int dim>
+  PresentCell<dim>
+  FirstCells<dim>::cell(std::vector<double> &row, const std::size_t i) const
+  {
+    return PresentCell<dim>(CellView<dim, double>(make_array_view(row),
+                                                  model.development.columns()),
+                            founders.first_id + i,
+                            founders.positions[i],
+                            reader);
+  }
+
+
+  MORULA_INSTANTIATE(near_surface_of);
+  MORULA_INSTANTIATE(founder_row);
+  template class FirstCells<2>;
+  template class FirstCells<3>;
+
+
   template <int dim>
   bool
   has_surface(const TissueModel<dim> &model)
@@ -41,6 +157,82 @@ namespace Morula
 
   namespace
   {
+    /** Six times the volume of the tetrahedron of a triangle and @p apex. */
+    double
+    tetrahedron(const SurfaceTriangle &triangle, const Point<3> &apex)
+    {
+      return (triangle.vertices[0] - apex) *
+             cross_product_3d(triangle.vertices[1] - apex,
+                              triangle.vertices[2] - apex);
+    }
+
+    /**
+     * The volumes within the closed surfaces that a mesh consists of, µm^3, in
+     * the order of their first triangles; negative: the surface is the wall of
+     * a cavity, as it stands inside another one.
+     */
+    std::vector<double>
+    volumes_of_surfaces(const std::vector<SurfaceTriangle> &triangles)
+    {
+      // Each round takes a triangle that was not seen and walks over its
+      // neighbours until the closed surface is complete. The volume is a sum of
+      // tetrahedra with one apex; it is negative where the normals point
+      // inwards, as those of a cavity do.
+      std::vector<double> volumes;
+      std::vector<bool>   seen(triangles.size(), false);
+      for (std::size_t first = 0; first < triangles.size(); ++first)
+        {
+          if (seen[first])
+            continue;
+          // The apex lies on the surface itself: far from the origin that loses
+          // fewer digits.
+          const Point<3>           apex = triangles[first].vertices[0];
+          std::vector<std::size_t> open = {first};
+          seen[first]                   = true;
+          double sum                    = 0.;
+          while (!open.empty())
+            {
+              const SurfaceTriangle &triangle = triangles[open.back()];
+              open.pop_back();
+              sum += tetrahedron(triangle, apex);
+              for (const std::size_t neighbor : triangle.neighbors)
+                if (!seen[neighbor])
+                  {
+                    seen[neighbor] = true;
+                    open.push_back(neighbor);
+                  }
+            }
+          volumes.push_back(sum / 6.);
+        }
+      return volumes;
+    }
+
+    /** E.g. "2 closed surfaces, 1 of them the wall of a cavity of 4188 um^3".
+     */
+    std::string
+    surfaces_text(const std::vector<double> &volumes)
+    {
+      unsigned int n_cavities = 0;
+      double       cavities   = 0.;
+      for (const double volume : volumes)
+        if (volume < 0.)
+          {
+            ++n_cavities;
+            cavities -= volume;
+          }
+      std::ostringstream text;
+      text.precision(4);
+      text << volumes.size()
+           << (volumes.size() == 1 ? " closed surface" : " closed surfaces");
+      if (n_cavities == 1)
+        text << ", 1 of them the wall of a cavity of " << cavities << " um^3";
+      if (n_cavities > 1)
+        text << ", " << n_cavities
+             << " of them the walls of cavities, together " << cavities
+             << " um^3";
+      return text.str();
+    }
+
     /** The bodies of founders. Collective. @throws InputError */
     template <int dim>
     std::vector<unsigned int>

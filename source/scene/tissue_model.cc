@@ -5,7 +5,7 @@
 #include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/division_axes.h>
 #include <morula/effects/fate/types_around.h>
-#include <morula/effects/growth/forgetting.h>
+#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>
 #include <morula/effects/surface/carriers.h>

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/division/divide.h>
-#include <morula/effects/elastic_volumes.h>
 #include <morula/effects/fate/removal.h>
+#include <morula/effects/step_points.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/particles/surface_refinement.h>

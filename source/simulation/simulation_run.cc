@@ -6,7 +6,7 @@
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/output/rows.h>
-#include <morula/scene/first_cells.h>
+#include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 #include <morula/simulation/step_checks.h>

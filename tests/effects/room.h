@@ -10,12 +10,10 @@
 #include <morula/effects/division/directions.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/division/numbering.h>
-#include <morula/effects/elastic_volumes.h>
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/division_by_size.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/fields/field_equation.h>
-#include <morula/effects/fields/keep_positive.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/placed_force.h>
 #include <morula/effects/forces/type_fractions.h>

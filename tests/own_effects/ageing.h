@@ -6,7 +6,7 @@
 #ifndef own_effects_ageing_h
 #define own_effects_ageing_h
 
-#include <morula/effects/state/trait.h>
+#include <morula/effects/step_effect.h>
 
 namespace Own
 {

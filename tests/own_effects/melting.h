@@ -7,7 +7,7 @@
 #define own_effects_melting_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/growth/flow.h>
+#include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <cmath>

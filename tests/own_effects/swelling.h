@@ -7,7 +7,7 @@
 #define own_effects_swelling_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/growth/growth_factor.h>
+#include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
 
 namespace Own

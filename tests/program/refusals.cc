@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/program/program.h>
-#include <morula/scene/size.h>
+#include <morula/scene/checks.h>
 
 #include <deal.II/base/timer.h>
 

@@ -18,8 +18,6 @@
 #include <morula/scene/checks.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
-#include <morula/scene/size.h>
-#include <morula/scene/warnings.h>
 
 #include <boost/algorithm/string.hpp>
 

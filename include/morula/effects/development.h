@@ -7,8 +7,6 @@
 #include <morula/effects/fate/cell_types.h>
 #include <morula/effects/fate/life.h>
 #include <morula/effects/fate/proliferation.h>
-#include <morula/effects/growth/flow.h>
-#include <morula/effects/growth/growth_factor.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/material.h>

@@ -4,10 +4,10 @@
 #ifndef morula_effects_effect_h
 #define morula_effects_effect_h
 
+#include <morula/base/expression.h>
 #include <morula/base/key.h>
 #include <morula/base/review.h>
 #include <morula/effects/state/state_columns.h>
-#include <morula/effects/type_tensions.h>
 #include <morula/particles/cell_state.h>
 #include <morula/particles/neighbours.h>
 
@@ -18,6 +18,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -118,6 +119,25 @@ namespace Morula
   class PresentCell;
   template <int dim>
   class Tables;
+
+  /** Tensions of the interfaces between types of cells, and of the free surface
+   *  of each type, kPa µm; by the types' numbers. Empty: there are none. */
+  struct TypeTensions
+  {
+    /** Symmetric; 0 on the diagonal. */
+    std::vector<std::vector<double>> between;
+    std::vector<double>              with_surface;
+
+    /** Whether the free surface of some type has one. */
+    bool
+    any_with_surface() const
+    {
+      for (const double gamma : with_surface)
+        if (gamma != 0.)
+          return true;
+      return false;
+    }
+  };
 
   /** What a scene offers to the constructor of every effect. */
   template <int dim>
@@ -228,6 +248,45 @@ namespace Morula
     review(const Preview<dim> &, Review &) const
     {}
   };
+
+  /** The moments of a run at which a value is asked for. */
+  enum class AskedAt
+  {
+    /** The ends of steps and the moments in their middle. */
+    all_moments,
+    ends_of_steps
+  };
+
+  /**
+   * Whether a value never acts: that of no type at any founder at any time.
+   * False where the state of cells decides, where asking would take long, and
+   * where a value cannot be had, which is refused elsewhere. Collective.
+   * @param acts what a value must be to act
+   */
+  template <int dim>
+  bool
+  never_acts(const Expression                        &value,
+             const std::function<bool(const double)> &acts,
+             const AskedAt                            moments,
+             const Preview<dim>                      &scene);
+
+  /** Warns of a rate that is 0 at all founders in all steps, though its text is
+   *  not 0. Collective. @param so what follows from that, a sentence */
+  template <int dim>
+  void
+  review_rate(const Expression   &rate,
+              const std::string  &so,
+              const Preview<dim> &scene,
+              Review             &review);
+
+  /** Warns of a law of which all values are @p neutral at all founders in all
+   *  steps, so that no cell grows by it. Collective. */
+  template <int dim>
+  void
+  review_growth(const std::vector<const Expression *> &values,
+                const double                           neutral,
+                const Preview<dim>                    &scene,
+                Review                                &review);
 } // namespace Morula
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef morula_effects_step_effect_h
 #define morula_effects_step_effect_h
 
+#include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 
 namespace Morula
@@ -84,6 +85,22 @@ namespace Morula
   template <int dim>
   class StepEffect : public Effect<dim>, public Moments<dim>
   {};
+
+  /**
+   * What a cell has besides its growth and its fates: a state in columns of its
+   * own, which other effects may read by the columns' names. The columns
+   * declare what a daughter inherits.
+   */
+  template <int dim>
+  class Trait : public Effect<dim>
+  {
+  public:
+    void
+    advance(const PresentCell<dim>      &before,
+            const CellView<dim, double> &after,
+            const double                 t0,
+            const double                 t1) const override = 0;
+  };
 } // namespace Morula
 
 #endif

@@ -4,6 +4,7 @@
 #ifndef morula_scene_checks_h
 #define morula_scene_checks_h
 
+#include <morula/base/review.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
@@ -15,6 +16,39 @@
 
 namespace Morula
 {
+  /** The size of a scene at t = 0. */
+  struct SceneSize
+  {
+    double cells  = 0.;
+    double volume = 0.; // µm^dim
+    // of the box around the tissue; 0: not known (few for compact tissue)
+    double grid_cells = 0.;
+  };
+
+  /**
+   * Size at t = 0 from the shape and the cell spacing, before anything is
+   * seeded; 0 for shapes from files, whose size is not known yet.
+   */
+  SceneSize
+  initial_size(const Scene &scene);
+
+  /** Physical memory of all machines that run ranks, bytes. Collective. */
+  double
+  physical_memory(const MPI_Comm comm);
+
+  /**
+   * Refuses a scene that does not fit into memory. Collective.
+   * @throws InputError
+   */
+  void
+  check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm);
+
+  /** The limits of the scene's tissue, if it comes from a file, and the names
+   * of its cells' types. */
+  template <int dim>
+  SeedingLimits<dim>
+  seeding_limits(const Scene &scene, const MPI_Comm comm);
+
   /** What effects may inspect before the run: founders and boundary points of
    *  this rank, which must outlive the result. Collective. */
   template <int dim>
@@ -81,6 +115,29 @@ namespace Morula
   check_at_surface(const TissueModel<dim>    &model,
                    const SurfacePatches<dim> &surface,
                    const MPI_Comm             comm);
+
+  /** Warns of values that the scene sets and nothing reads, as the keys alone
+   *  tell: of effects that it switches off, and of keys that only some scenes
+   *  read. Values of an effect whose switch it does not set are refused. */
+  void
+  review_idle_effects(const Scene &scene, Review &review);
+
+  /**
+   * Warnings of what is legal in a scene but unwise. Each is a line with key,
+   * value, what was measured and where, and what to do. A warning needs a
+   * measurement in doc/, or must follow from what the keys say. Empty if there
+   * is nothing to warn of. Collective: the scene has passed all checks, every
+   * rank gives its own founders and boundary points, and all get the same
+   * warnings.
+   * @param counts what check_at_surface() has returned
+   */
+  template <int dim>
+  std::vector<std::string>
+  scene_warnings(const TissueModel<dim>    &model,
+                 const Founders<dim>       &founders,
+                 const SurfacePatches<dim> &surface,
+                 const ConditionCounts     &counts,
+                 const MPI_Comm             comm);
 } // namespace Morula
 
 #endif

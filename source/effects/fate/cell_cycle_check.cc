@@ -4,8 +4,9 @@
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/idle_rate.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/mpi.h>

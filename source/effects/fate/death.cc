@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/effect.h>
 #include <morula/effects/fate/death.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/idle_rate.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 

@@ -3,6 +3,7 @@
 
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/scene_keys.h>
 
 #include <limits>
 #include <utility>

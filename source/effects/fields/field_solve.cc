@@ -4,8 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/step_failed.h>
-#include <morula/effects/fields/field_solve.h>
-#include <morula/effects/fields/keep_positive.h>
+#include <morula/effects/fields/field_equation.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/mechanics/spline_moments.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>

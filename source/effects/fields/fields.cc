@@ -3,7 +3,6 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/fields/step_fields.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,6 +3,7 @@
 
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/placed_force.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/dead_load.h>
 
 #include <deal.II/base/mpi.h>

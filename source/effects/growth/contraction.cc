@@ -3,8 +3,9 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/growth/contraction.h>
-#include <morula/effects/idle_rate.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/mpi.h>

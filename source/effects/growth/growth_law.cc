@@ -3,6 +3,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/growth_law.h>
+#include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>

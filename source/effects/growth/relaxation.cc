@@ -3,6 +3,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/relaxation.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/relaxation.h>
 

@@ -4,6 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/obstacles.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/mechanics/equilibrium.h>
 
 #include <deal.II/base/mpi.h>

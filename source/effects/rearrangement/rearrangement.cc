@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/send_records.h>
-#include <morula/effects/idle_rate.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/rearrangement/places_of_tissue.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/particles/even_spread.h>

@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/types_around.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
 #include <algorithm>
@@ -52,6 +53,67 @@ namespace Morula
         text += (text.empty() ? "" : ", ") + name;
       return text.empty() ? "none" : text;
     }
+
+
+    /** A cell of this rank and what touches it. */
+    template <int dim>
+    class Around
+    {
+    public:
+      /** @param free area of its free surface, µm^(dim-1) */
+      Around(const NeighbourGraph<dim> &graph,
+             const unsigned int         p,
+             const double               free)
+        : graph(graph)
+        , p(p)
+        , free(free)
+      {
+        graph.for_neighbours(p, [&](const auto &e) {
+          touching += e.area;
+          beside.push_back(
+            {static_cast<unsigned int>(graph.points.row(e.other)[0]), e.area});
+        });
+      }
+
+      /** @param place in the rows of the graph of that of which a mean is
+       *  asked */
+      double
+      value(const NeighbourVariable &told, const unsigned int place) const
+      {
+        const auto   own     = graph.points.row(p);
+        const double surface = touching + free;
+        switch (told.kind)
+          {
+            case NeighbourVariable::count:
+              return graph.offsets[p + 1] - graph.offsets[p];
+            case NeighbourVariable::free:
+              return surface > 0. ? free / surface : 0.;
+            case NeighbourVariable::around:
+              {
+                // A cell without neighbours has its own value around it.
+                if (!(touching > 0.))
+                  return own[place];
+                double total = 0.;
+                graph.for_neighbours(p, [&](const auto &e) {
+                  total += e.area * graph.points.row(e.other)[place];
+                });
+                return total / touching;
+              }
+            default:
+              return *of_types(told,
+                               static_cast<unsigned int>(own[0]),
+                               beside,
+                               surface);
+          }
+      }
+
+    private:
+      const NeighbourGraph<dim> &graph;
+      const unsigned int         p;
+      const double               free;
+      double                     touching = 0.;
+      std::vector<CellBeside>    beside;
+    };
   } // namespace
 
 
@@ -153,125 +215,58 @@ namespace Morula
   }
 
 
-  namespace
-  {
-    /** What each cell tells the others: its type, and the values that some mean
-     *  over neighbours asks for. Collective. */
-    template <int dim>
-    PointList<dim>
-    told_by_cells(const std::vector<NeighbourVariable> &variables,
-                  const Tissue<dim>                    &tissue,
-                  const MomentOfRun<dim>               &moment)
-    {
-      const Cells<dim>                      &cells = tissue.cells();
-      std::vector<const NeighbourVariable *> means;
-      for (const NeighbourVariable &told : variables)
-        if (told.kind == NeighbourVariable::around)
-          means.push_back(&told);
-      PointList<dim> list(1 + means.size());
-      everywhere(tissue.communicator(), [&]() {
-        for (unsigned int p = 0; p < cells.size(); ++p)
-          {
-            const PresentCell<dim> cell =
-              present_cell(tissue, p, moment.reader);
-            std::vector<double> row = {double(cell.type())};
-            for (const NeighbourVariable *const mean : means)
-              row.push_back(cell.value(mean->variable, moment.t));
-            list.add(cells.id(p), cells.position(p), make_array_view(row));
-          }
-      });
-      return list;
-    }
-
-
-    /** The free surfaces of the cells. A share of the surface is one of all of
-     *  it, so that the free part is needed for each of them; else 0. */
-    template <int dim>
-    std::vector<double>
-    free_parts(const std::vector<NeighbourVariable> &variables,
-               const Tissue<dim>                    &tissue)
-    {
-      const bool shares =
-        std::any_of(variables.begin(), variables.end(), [](const auto &told) {
-          return told.kind == NeighbourVariable::free ||
-                 told.kind == NeighbourVariable::unlike ||
-                 told.kind == NeighbourVariable::share_of_type;
-        });
-      return shares ? free_surfaces(tissue) :
-                      std::vector<double>(tissue.cells().size(), 0.);
-    }
-
-
-    /** The mean of number @p k over the neighbours of cell @p p, by what they
-     *  touch of it. A cell without neighbours has its own value around it. */
-    template <int dim>
-    double
-    mean_around(const NeighbourGraph<dim> &graph,
-                const unsigned int         p,
-                const unsigned int         k,
-                const double               touching)
-    {
-      if (!(touching > 0.))
-        return graph.points.row(p)[k];
-      double total = 0.;
-      graph.for_neighbours(p, [&](const auto &e) {
-        total += e.area * graph.points.row(e.other)[k];
-      });
-      return total / touching;
-    }
-  } // namespace
-
-
   template <int dim>
   void
   NeighbourColumns<dim>::after(Tissue<dim>            &tissue,
                                const MomentOfRun<dim> &moment) const
   {
-    // All values of cells are read before any column is written, as a mean may
-    // be one of a variable that is written here. Then the sums over the
-    // neighbours are made in the order of their ids.
-    const NeighbourGraph<dim> graph =
-      neighbours(tissue, told_by_cells(variables, tissue, moment), search);
-    const std::vector<double> free = free_parts(variables, tissue);
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+    // Each cell tells the others its type, and the values that some mean over
+    // neighbours asks for. These are read before any column is written, as a
+    // mean may be one of a variable that is written here. Then the sums over
+    // the neighbours are made in the order of their ids.
+    const StateColumns<dim>               &columns = moment.reader.columns;
+    const Cells<dim>                      &cells   = tissue.cells();
+    std::vector<const NeighbourVariable *> means;
+    for (const NeighbourVariable &told : variables)
+      if (told.kind == NeighbourVariable::around)
+        means.push_back(&told);
+    PointList<dim> told_by_cells(1 + means.size());
+    everywhere(tissue.communicator(), [&]() {
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          const PresentCell<dim> cell = present_cell(tissue, p, moment.reader);
+          std::vector<double>    row  = {double(cell.type())};
+          for (const NeighbourVariable *const mean : means)
+            row.push_back(cell.value(mean->variable, moment.t));
+          told_by_cells.add(cells.id(p),
+                            cells.position(p),
+                            make_array_view(row));
+        }
+    });
+    const NeighbourGraph<dim> graph = neighbours(tissue, told_by_cells, search);
+    // A share of the surface is one of all of it, so that the free part is
+    // needed for each of them.
+    const bool                shares = std::any_of(variables.begin(),
+                                    variables.end(),
+                                    [](const NeighbourVariable &told) {
+                                      using V = NeighbourVariable;
+                                      return told.kind == V::free ||
+                                             told.kind == V::unlike ||
+                                             told.kind == V::share_of_type;
+                                    });
+    const std::vector<double> free =
+      shares ? free_surfaces(tissue) : std::vector<double>(cells.size(), 0.);
+
+    for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        double                  touching = 0.;
-        std::vector<CellBeside> beside;
-        graph.for_neighbours(p, [&](const auto &e) {
-          touching += e.area;
-          beside.push_back(
-            {static_cast<unsigned int>(graph.points.row(e.other)[0]), e.area});
-        });
-        const double surface = touching + free[p];
-        unsigned int n_means = 0;
+        const Around<dim> around(graph, p, free[p]);
+        unsigned int      n_means = 0;
         for (std::size_t k = 0; k < variables.size(); ++k)
           {
-            const NeighbourVariable &told  = variables[k];
-            double                   value = 0.;
-            switch (told.kind)
-              {
-                case NeighbourVariable::count:
-                  value = graph.offsets[p + 1] - graph.offsets[p];
-                  break;
-                case NeighbourVariable::count_of_type:
-                case NeighbourVariable::share_of_type:
-                case NeighbourVariable::unlike:
-                  value =
-                    *of_types(told,
-                              static_cast<unsigned int>(graph.points.row(p)[0]),
-                              beside,
-                              surface);
-                  break;
-                case NeighbourVariable::free:
-                  value = surface > 0. ? free[p] / surface : 0.;
-                  break;
-                case NeighbourVariable::around:
-                  value = mean_around(graph, p, ++n_means, touching);
-                  break;
-                case NeighbourVariable::slope:
-                  continue;
-              }
-            tissue.cell(p).set(moment.reader.columns.neighbours[k], value);
+            n_means += variables[k].kind == NeighbourVariable::around;
+            if (variables[k].kind != NeighbourVariable::slope)
+              tissue.cell(p).set(columns.neighbours[k],
+                                 around.value(variables[k], n_means));
           }
       }
   }

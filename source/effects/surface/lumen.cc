@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/lumen.h>
 #include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/tables.h>

@@ -4,17 +4,198 @@
 #ifndef morula_effects_fields_field_h
 #define morula_effects_fields_field_h
 
+#include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
 #include <morula/effects/fields/field_equation.h>
-#include <morula/effects/fields/field_parameters.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/boundary_state.h>
 
+#include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
+  /** Section "Fields/NAME". */
+  struct FieldKeys : public Keys
+  {
+    /** @param name of the field */
+    explicit FieldKeys(const std::string &name);
+
+    std::string      name;
+    Key<std::string> time{
+      {this, "Time"},
+      "steady",
+      "steady: in each configuration the field has its steady state. "
+      "transient: it changes with time.",
+      {"steady|transient"}};
+
+    ExpressionKey diffusion{
+      {this, "Diffusion"},
+      "",
+      "Diffusion coefficient D, an expression of the cells' state; > "
+      "0. Units: um^2/day.",
+      Evaluated::step,
+      positive("um^2/day", "Oxygen has about 1.7e8.")};
+
+    ExpressionKey production{
+      {this, "Production"},
+      "0",
+      "What a cell makes of it per time and volume, an expression of "
+      "the cell's state; not negative. In the field's unit per day.",
+      Evaluated::step,
+      not_negative("a day", "What a cell uses up is Consumption.")};
+
+    ExpressionKey consumption{
+      {this, "Consumption"},
+      "0",
+      "Rate k at which a cell uses it up, k times the field, an "
+      "expression of the cell's state, which may read the field "
+      "itself: 4e6/(0.5 + NAME) saturates; not negative. Units: "
+      "1/day.",
+      Evaluated::step,
+      not_negative("1/day", "What a cell makes is Production.")};
+
+    ExpressionKey initial{
+      {this, "Initial"},
+      "0",
+      "The field at t = 0, at which a steady field is sought first; not "
+      "negative. An expression of X, Y, Z (um).",
+      Evaluated::founder,
+      not_negative("(a concentration)", "0 is none at all.")};
+
+    ExpressionKey fixed_where{
+      {this, "Fixed where"},
+      "",
+      "At boundary points at which this is > 0 the field has Value; "
+      "empty: nowhere. An expression of X, Y, Z (um).",
+      Evaluated::founder};
+
+    ExpressionKey value{
+      {this, "Value"},
+      "0",
+      "The field at the fixed boundary points, and outside of the others "
+      "if there is a Transfer; not negative. An expression of X, Y, Z "
+      "(um), t (day).",
+      Evaluated::place,
+      not_negative("(a concentration)", "0 is none at all.")};
+
+    ExpressionKey transfer{
+      {this, "Transfer"},
+      "",
+      "At boundary points that are not fixed -D dc/dn = Transfer (c - "
+      "Value); not negative; empty: nothing passes there. An "
+      "expression of X, Y, Z (um), t (day). Units: um/day.",
+      Evaluated::place,
+      not_negative("um/day", "0 lets nothing pass.")};
+
+    ExpressionKey flux{
+      {this, "Flux"},
+      "",
+      "What comes in through the surface per time and area, D dc/dn, where "
+      "Flux where holds; not negative. An expression of X, Y, Z (um), t "
+      "(day). In the field's unit times um/day.",
+      Evaluated::place,
+      not_negative("um/day (times a concentration)",
+                   "What leaves the tissue does so by a Transfer.")};
+
+    ExpressionKey flux_where{
+      {this, "Flux where"},
+      "",
+      "At boundary points at which this is > 0 and that are not fixed "
+      "the Flux comes in, besides what a Transfer lets pass; empty: "
+      "nowhere. An expression of X, Y, Z (um).",
+      Evaluated::founder};
+
+    Key<bool> dilution{
+      {this, "Dilution"},
+      true,
+      "Whether a transient field becomes less where cells grow, so "
+      "that its amount stays. The steady state knows no dilution."};
+
+    Key<bool> exchanged{
+      {this, "Exchanged"},
+      false,
+      "Whether a cell takes its amount of a transient field along "
+      "when it exchanges its place (Rearrangement), as what is "
+      "inside of cells; false: the amount stays at the place."};
+
+    /** Whether the field has its steady state in every configuration. */
+    bool
+    is_steady() const
+    {
+      return time == "steady";
+    }
+
+    /** Whether there is a value that it has at the surface, or outside. */
+    bool
+    has_value() const
+    {
+      return !fixed_where.empty() || !transfer.empty();
+    }
+
+    /** Whether something is done to it at the surface. */
+    bool
+    has_surface() const
+    {
+      return has_value() || !flux_where.empty();
+    }
+
+    /** What --explain says of it. */
+    std::string
+    details() const;
+
+    /**
+     * Refuses what contradicts itself.
+     * @throws InputError
+     */
+    void
+    check(const unsigned int dim) const;
+  };
+
+  /** Section "Fields": names first, then a section for each of them. */
+  struct FieldsParameters : public EffectKeys
+  {
+    Key<std::string> names{
+      {this, "Fields/Names"},
+      "",
+      "Fields that diffuse through the tissue, separated by commas. Each "
+      "has a section of this name, and expressions of cells may have its "
+      "value at the cell as a variable. Empty: there are none."};
+    std::deque<FieldKeys> fields;
+
+    bool
+    is_on() const override
+    {
+      return !fields.empty();
+    }
+    void
+    check(const SceneKeys &scene, Review &review) const override;
+    EffectFacts
+    facts() const override;
+    std::string
+    details() const override;
+    /** Refuses names that expressions or tables cannot have, or that are given
+     *  twice, as well. */
+    void
+    declare_sections(const std::string              &names,
+                     const std::vector<std::string> &types) override;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Warns of fields that stay zero, of conditions that others leave nothing to
+   *  or that act on few points, and of fields that hardly reach into the
+   *  tissue. Collective. */
+  template <int dim>
+  void
+  review_fields(const FieldsParameters &parameters,
+                const Preview<dim>     &scene,
+                Review                 &review);
+
   /** How a field depends on time. */
   enum class FieldKind
   {

@@ -4,11 +4,15 @@
 #ifndef morula_effects_fields_field_equation_h
 #define morula_effects_fields_field_equation_h
 
+#include <morula/grid/spline_space.h>
 #include <morula/mechanics/local_system.h>
 #include <morula/mechanics/material_points.h>
 
 #include <deal.II/base/tensor.h>
 
+#include <mpi.h>
+
+#include <cstdint>
 #include <vector>
 
 namespace Morula
@@ -113,6 +117,25 @@ namespace Morula
   template <int dim>
   void
   find_steepness(FieldEquation<dim> &equation);
+
+  /**
+   * Sets negative values of cells to zero, and makes others smaller so that the
+   * sum of weights times values stays: those of the same grid cell, and where
+   * they do not suffice, those of grid cells with the same splines, and last
+   * all. Only a sum that is negative becomes zero. doc/theory.md, section 11.3.
+   * Collective.
+   * @param values  by cell
+   * @param weights by cell, >= 0; where they are 0 nothing is made smaller
+   * @param places  of the cells in the grid cells of @p space
+   * @return negative values on all ranks
+   */
+  template <int dim>
+  std::uint64_t
+  keep_positive(std::vector<double>       &values,
+                const std::vector<double> &weights,
+                const GroupedPoints<dim>  &places,
+                const SplineSpace<dim>    &space,
+                const MPI_Comm             comm);
 } // namespace Morula
 
 #endif

@@ -4,10 +4,13 @@
 #ifndef morula_effects_growth_growth_law_h
 #define morula_effects_growth_growth_law_h
 
+#include <morula/base/past_step.h>
 #include <morula/effects/effect.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
+
+#include <optional>
 
 namespace Morula
 {
@@ -104,6 +107,95 @@ namespace Morula
     /** Warns of steps in which cells grow too much. */
     void
     review(const Preview<dim> &scene, Review &review) const override;
+  };
+
+  /**
+   * A factor of F_g, the deformation that a cell would have free of stress:
+   * doc/theory.md (8.7). Factors stand left of the growth law and the cell
+   * cycle, in the order of the catalogue from the right. A factor is a function
+   * of the cell's state at the beginning of a step; what it must remember is in
+   * columns of its own.
+   */
+  template <int dim>
+  class GrowthFactor : public Effect<dim>
+  {
+  public:
+    /**
+     * The factor at @p t1, day.
+     * @param before the cell at @p t0
+     * @param after  its row at t1, with all events of the step
+     * @throws InputError where the factor has no value
+     */
+    virtual Tensor<2, dim>
+    factor(const PresentCell<dim>      &before,
+           const CellView<dim, double> &after,
+           const double                 t0,
+           const double                 t1) const = 0;
+  };
+
+  /** What a flow does to a cell in a step. */
+  template <int dim>
+  struct FlowOfStep
+  {
+    /** D of (8.4) in F_g <- D F_g; nothing if nothing flows. */
+    std::optional<Tensor<2, dim>> D = {};
+    /** An error in the shear of the forecast times this is an error of D. */
+    double share = 0.;
+    /** Whether the cell begins the step without stress, for the next flows. */
+    bool begins_anew = false;
+  };
+
+  /**
+   * Flow of a cell, which takes stress from its elastic part: relaxation,
+   * plasticity. F_g of all other effects at the end of the step is multiplied
+   * by D from the left, flow by flow in the order of the catalogue:
+   * doc/theory.md (8.4). What has flowed is kept with the cell.
+   */
+  template <int dim>
+  class Flow : public Effect<dim>
+  {
+  public:
+    /**
+     * The flow in (t0, t1], day.
+     * @param cell   in its state at @p t0
+     * @param after  its row at t1, with all events of the step
+     * @param before F_g at @p t0
+     * @param F_g    of the other effects at @p t1
+     * @throws InputError where it has no value
+     */
+    virtual FlowOfStep<dim>
+    flow(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &after,
+         const Tensor<2, dim>        &before,
+         const Tensor<2, dim>        &F_g,
+         const double                 t0,
+         const double                 t1) const = 0;
+
+    /** Keeps what the next step must know of this one. @param f of the step */
+    virtual void
+    remember_motion(const CellView<dim, double> & /*cell*/,
+                    const Tensor<2, dim> & /*f*/) const
+    {}
+
+    /** Whether the flow of a step is found from a forecast of its motion, so
+     *  that the step's error is known. */
+    virtual bool
+    has_forecast() const
+    {
+      return false;
+    }
+
+    /** |dev(U − U*)| of a step of length @p dt (day) with the deformation @p f,
+     *  of which U* was the forecast from the step @p past; 0 for a flow that
+     *  needs none. */
+    virtual double
+    error_of_forecast(const CellView<dim, const double> &,
+                      const Tensor<2, dim> &,
+                      const PastStep &,
+                      const double) const
+    {
+      return 0.;
+    }
   };
 } // namespace Morula
 

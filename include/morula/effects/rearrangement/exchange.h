@@ -4,7 +4,7 @@
 #ifndef morula_effects_rearrangement_exchange_h
 #define morula_effects_rearrangement_exchange_h
 
-#include <morula/effects/type_tensions.h>
+#include <morula/effects/effect.h>
 
 #include <array>
 #include <cstdint>

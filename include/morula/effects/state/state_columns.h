@@ -5,15 +5,51 @@
 #define morula_effects_state_state_columns_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/state/neighbour_variable.h>
+#include <morula/base/expression.h>
 #include <morula/particles/cell_state.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace Morula
 {
-  using namespace dealii;
+  /** A variable of expressions that tells of a cell's neighbours:
+   *  doc/theory.md, section 12.1. */
+  struct NeighbourVariable
+  {
+    /** What it tells. */
+    enum Kind
+    {
+      count,         // neighbours
+      count_of_type, // neighbours_NAME
+      share_of_type, // touching_NAME
+      unlike,        // share of the surface that touches other types
+      free,          // share that is free surface
+      around,        // around_VAR, a mean over the neighbours
+      slope          // slope_NAME, length of a field's gradient
+    };
+
+    /** Its name in scenes. */
+    std::string name;
+    Kind        kind;
+    /** Number of the type, or of the field. */
+    unsigned int number = 0;
+    /** Of which it is the mean. */
+    Variable variable = Variable::t;
+  };
+
+  /** The variable of this name, if it is one. @param types names of the cells'
+   *  types @param fields names of the fields */
+  std::optional<NeighbourVariable>
+  neighbour_variable(const std::string              &name,
+                     const std::vector<std::string> &types,
+                     const std::vector<std::string> &fields);
+
+  /** Whether a name begins as that of such a variable does, so that it must be
+   *  meant to be one. */
+  bool
+  tells_of_neighbours(const std::string &name);
 
   /**
    * The columns behind the variables of expressions. A column takes storage

@@ -11,6 +11,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <iomanip>
+#include <map>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -37,19 +38,6 @@ namespace Morula
       out << "  " << std::left << std::setw(24) << row.name << row.description
           << '\n'
           << row.further;
-    }
-
-    /** What a condition does at t = 0, a line for each of its parts. */
-    std::string
-    applied_lines(const Scene                         &scene,
-                  const std::vector<AppliedCondition> &applied,
-                  const std::string                   &name)
-    {
-      std::string lines;
-      for (const AppliedCondition &one : applied)
-        if (one.name == name)
-          lines += "    " + text_of(scene, one) + '\n';
-      return lines;
     }
 
     /** On which founders an effect acts, if it says so. */
@@ -110,14 +98,14 @@ namespace Morula
 
     /** The effects of a scene.
      *  @param counts  of boundary points
-     *  @param applied what the conditions apply
+     *  @param applied what the conditions act on: names and texts
      *  @param n_founders, n_proliferating on all ranks */
     EffectRows
-    effect_rows(const Scene                         &scene,
-                const ConditionCounts               &counts,
-                const std::vector<AppliedCondition> &applied,
-                const types::particle_index          n_founders,
-                const types::particle_index          n_proliferating)
+    effect_rows(const Scene                              &scene,
+                const ConditionCounts                    &counts,
+                const std::map<std::string, std::string> &applied,
+                const types::particle_index               n_founders,
+                const types::particle_index               n_proliferating)
     {
       const Catalogue          &catalogue = scene.catalogue;
       const DivisionParameters &division  = scene.division;
@@ -162,7 +150,9 @@ namespace Morula
                "at " + std::to_string(n) + " boundary points" +
                  (where == nullptr ? "" : ", where " + where->text()) +
                  choice.keys().details(),
-               applied_lines(scene, applied, choice.name())});
+               applied.count(choice.name()) == 0 ?
+                 "" :
+                 "    " + applied.at(choice.name()) + '\n'});
           }
       add_effects(out, catalogue.forces);
       out.push_back({"material", material_text(scene)});
@@ -342,17 +332,18 @@ namespace Morula
                                             tissue.founders.positions,
                                             comm,
                                             tissue.founders.types);
-      result.effects    = effect_rows(scene,
-                                   tissue.counts,
-                                   tissue.applied,
-                                   tissue.founders.n_global,
-                                   tissue.n_proliferating);
+      result.effects =
+        effect_rows(scene,
+                    tissue.counts,
+                    {tissue.applied.begin(), tissue.applied.end()},
+                    tissue.founders.n_global,
+                    tissue.n_proliferating);
       add_bodies(result.effects, model, tissue, comm);
       std::string pieces;
-      for (const std::string &text : texts_of(scene, tissue.pieces))
+      for (const std::string &text : tissue.pieces)
         pieces += "    " + text + '\n';
       result.effects.push_back(
-        {"pieces", std::to_string(tissue.pieces.size()), pieces});
+        {"pieces", std::to_string(tissue.n_pieces), pieces});
       return result;
     }
 

@@ -19,23 +19,27 @@
 namespace Morula
 {
   template <int dim>
-  LoadsAtStart<dim>::LoadsAtStart(const Scene                   &scene,
-                                  const BoundaryConditions<dim> &conditions,
-                                  const SurfacePatches<dim>     &surface)
+  LoadedPoints<dim>
+  loaded_at_start(const TissueModel<dim>    &model,
+                  const SurfacePatches<dim> &surface,
+                  std::vector<std::size_t>  *patches)
   {
     // There is no grid yet, so all points are put into one grid cell: its
     // splines add up to 1 at any place, and so the force on each point is
     // right. Nothing has moved, so that the present position and area are the
     // initial ones.
+    LoadedPoints<dim> loaded;
     for (std::size_t i = 0; i < surface.positions.size(); ++i)
       {
         const Point<dim>     &X = surface.positions[i];
         const Tensor<1, dim> &N = surface.normals[i];
-        if (conditions.condition(X, N) != SurfaceCondition::loaded)
+        if (model.boundary_conditions.condition(X, N) !=
+            SurfaceCondition::loaded)
           continue;
         const double a = surface.areas[i];
         loaded.points.push_back({X, X, N, X, a, a * N});
-        numbers.push_back(i);
+        if (patches != nullptr)
+          patches->push_back(i);
       }
     const unsigned int n = loaded.points.size();
     loaded.offsets       = {0, n};
@@ -43,22 +47,16 @@ namespace Morula
     for (unsigned int d = 0; d < dim; ++d)
       middle[d] = 0.5;
     loaded.xi.assign(n, middle);
-    loaded.h = scene.grid.spacing;
-  }
-
-
-  template <int dim>
-  const LoadedPoints<dim> &
-  LoadsAtStart<dim>::points() const
-  {
+    loaded.h = model.scene.grid.spacing;
     return loaded;
   }
 
 
   template <int dim>
   std::optional<std::vector<Tensor<1, dim>>>
-  LoadsAtStart<dim>::forces(const BoundaryCondition<dim> &condition,
-                            const double                  t) const
+  forces_at_start(const BoundaryCondition<dim> &condition,
+                  const LoadedPoints<dim>      &loaded,
+                  const double                  t)
   {
     std::optional<std::vector<Tensor<1, dim>>> result;
     if (condition.only_pushes() || condition.kind() != SurfaceCondition::loaded)
@@ -75,12 +73,33 @@ namespace Morula
   }
 
 
-  template class LoadsAtStart<2>;
-  template class LoadsAtStart<3>;
-
-
   namespace
   {
+    /** What a condition acts on at t = 0, over all ranks. */
+    struct AppliedCondition
+    {
+      /** Name of the condition in the catalogue. */
+      std::string name;
+      /** Boundary points on which it acts, those excepted on which another one
+       *  wins, and their area, µm^(dim-1). */
+      std::uint64_t points = 0;
+      double        area   = 0.;
+      /** Those that its expression chooses, also where another one wins. */
+      std::uint64_t chosen = 0;
+      /** Corners of the box around these points, µm. */
+      Point<3> lower, upper;
+      /** Whether it is a load whose size is known before the run. */
+      bool has_force = false;
+      /** Sum of its forces at the end of the run on the surface of t = 0, and
+       * of their magnitudes, kPa µm^(dim-1). */
+      Tensor<1, 3> force;
+      double       magnitude = 0.;
+      /** Whether it is a load that is zero at the end of every step. */
+      bool is_idle = false;
+      /** See BoundaryCondition. */
+      bool is_tension = false;
+    };
+
     /** A row to which points are added, on this rank. */
     class Sums
     {
@@ -149,7 +168,7 @@ namespace Morula
     template <int dim>
     bool
     is_idle(const Scene                  &scene,
-            const LoadsAtStart<dim>      &loads,
+            const LoadedPoints<dim>      &loaded,
             const BoundaryCondition<dim> &condition,
             const MPI_Comm                comm)
     {
@@ -160,66 +179,13 @@ namespace Morula
       for (double i = 1.; i <= n; i += std::max(1., std::floor(n / most_times)))
         everywhere(comm, [&]() {
           if (const auto forces =
-                loads.forces(condition, std::min(i * step, end)))
+                forces_at_start(condition, loaded, std::min(i * step, end)))
             for (const Tensor<1, dim> &force : *forces)
               sum += force.norm();
         });
       return Utilities::MPI::sum(sum, comm) == 0.;
     }
   } // namespace
-
-
-  template <int dim>
-  std::vector<AppliedCondition>
-  applied_conditions(const TissueModel<dim>    &model,
-                     const SurfacePatches<dim> &surface,
-                     const MPI_Comm             comm)
-  {
-    // Held points and loaded ones are looked at apart: of conditions that hold,
-    // one wins at a point; those that load act there together. The forces of a
-    // load are those that its own term has in a step in which nothing moves, at
-    // the end of the run. Each condition is summed over the points of this
-    // rank, then over all ranks, which is collective: all ranks go through the
-    // same list.
-    const Scene                   &scene      = model.scene;
-    const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    const LoadsAtStart<dim>        loads(scene, conditions, surface);
-    const auto                    &loaded = loads.points().points;
-    std::vector<AppliedCondition>  list;
-    for (unsigned int k = 0; k < conditions.list().size(); ++k)
-      {
-        const auto &[name, condition] = conditions.list()[k];
-        if (condition->only_pushes())
-          continue; // Obstacles act where they touch, which is not known yet.
-        Sums       sums(name);
-        const bool is_load = condition->kind() == SurfaceCondition::loaded;
-        // An expression may have no value at a point of one rank; then all
-        // ranks must throw.
-        everywhere(comm, [&, &condition = condition]() {
-          for (std::size_t i = 0; i < surface.positions.size(); ++i)
-            sums.row.chosen +=
-              condition->acts_on(surface.positions[i], surface.normals[i]);
-          for (std::size_t i = 0; !is_load && i < surface.positions.size(); ++i)
-            if (conditions.winner(surface.positions[i], surface.normals[i]) ==
-                k)
-              sums.add(surface.positions[i], surface.areas[i]);
-          for (std::size_t l = 0; is_load && l < loaded.size(); ++l)
-            if (condition->acts_on(loaded[l].X, loaded[l].N))
-              sums.add(loaded[l].X, loaded[l].initial_area);
-          if (const auto forces = loads.forces(*condition, scene.time.end_time))
-            {
-              sums.row.has_force = true;
-              for (const Tensor<1, dim> &force : *forces)
-                sums.add_force(force);
-            }
-        });
-        list.push_back(sums.over_all_ranks(comm));
-        list.back().is_tension = condition->is_tension();
-        if (sums.row.has_force && list.back().magnitude == 0.)
-          list.back().is_idle = is_idle(scene, loads, *condition, comm);
-      }
-    return list;
-  }
 
 
   std::string
@@ -237,34 +203,6 @@ namespace Morula
 
 
   std::string
-  text_of(const Scene &scene, const AppliedCondition &applied)
-  {
-    // A component of the force counts as zero if it is small beside the sum of
-    // magnitudes.
-    const bool         space = scene.dimension == 3;
-    std::ostringstream text;
-    text.precision(4);
-    text << applied.points
-         << (applied.points == 1 ? " boundary point, " : " boundary points, ")
-         << applied.area << (space ? " um^2" : " um");
-    if (applied.points > 0)
-      text << ", from " << vector_text(scene, applied.lower, 0.) << " to "
-           << vector_text(scene, applied.upper, 0.) << " um";
-    if (applied.chosen > applied.points)
-      text << " (" << applied.chosen - applied.points
-           << " more belong to a condition that wins there)";
-    if (applied.has_force)
-      text << "; force "
-           << vector_text(scene, applied.force, 1e-9 * applied.magnitude)
-           << (space ? " kPa um^2" : " kPa um") << " in sum, "
-           << applied.magnitude
-           << " in magnitudes, at t = " << scene.time.end_time
-           << " day on the surface of t = 0";
-    return text.str();
-  }
-
-
-  std::string
   material_text(const Scene &scene)
   {
     const MaterialParameters &material = scene.material;
@@ -276,23 +214,92 @@ namespace Morula
   }
 
 
-  std::vector<std::string>
-  applied_texts(const Scene                         &scene,
-                const std::vector<AppliedCondition> &applied)
-  {
-    std::vector<std::string> texts = {"Material: " + material_text(scene)};
-    for (const AppliedCondition &one : applied)
-      if (one.points > 0)
-        texts.push_back("Applied: " + one.name + " at " + text_of(scene, one));
-    return texts;
-  }
-
-
-  MORULA_INSTANTIATE(applied_conditions);
-
-
   namespace
   {
+    /** What the conditions on the surface act on. Collective. */
+    template <int dim>
+    std::vector<AppliedCondition>
+    applied_conditions(const TissueModel<dim>    &model,
+                       const SurfacePatches<dim> &surface,
+                       const MPI_Comm             comm)
+    {
+      // Held points and loaded ones are looked at apart: of conditions that
+      // hold, one wins at a point; those that load act there together. The
+      // forces of a load are those that its own term has in a step in which
+      // nothing moves, at the end of the run. Each condition is summed over the
+      // points of this rank, then over all ranks, which is collective: all
+      // ranks go through the same list.
+      const Scene                   &scene      = model.scene;
+      const BoundaryConditions<dim> &conditions = model.boundary_conditions;
+      const LoadedPoints<dim>        loads  = loaded_at_start(model, surface);
+      const auto                    &loaded = loads.points;
+      std::vector<AppliedCondition>  list;
+      for (unsigned int k = 0; k < conditions.list().size(); ++k)
+        {
+          const auto &[name, condition] = conditions.list()[k];
+          if (condition->only_pushes())
+            continue; // Obstacles act where they touch, which is not known yet.
+          Sums       sums(name);
+          const bool is_load = condition->kind() == SurfaceCondition::loaded;
+          // An expression may have no value at a point of one rank; then all
+          // ranks must throw.
+          everywhere(comm, [&, &condition = condition]() {
+            for (std::size_t i = 0; i < surface.positions.size(); ++i)
+              sums.row.chosen +=
+                condition->acts_on(surface.positions[i], surface.normals[i]);
+            for (std::size_t i = 0; !is_load && i < surface.positions.size();
+                 ++i)
+              if (conditions.winner(surface.positions[i], surface.normals[i]) ==
+                  k)
+                sums.add(surface.positions[i], surface.areas[i]);
+            for (std::size_t l = 0; is_load && l < loaded.size(); ++l)
+              if (condition->acts_on(loaded[l].X, loaded[l].N))
+                sums.add(loaded[l].X, loaded[l].initial_area);
+            if (const auto forces =
+                  forces_at_start(*condition, loads, scene.time.end_time))
+              {
+                sums.row.has_force = true;
+                for (const Tensor<1, dim> &force : *forces)
+                  sums.add_force(force);
+              }
+          });
+          list.push_back(sums.over_all_ranks(comm));
+          list.back().is_tension = condition->is_tension();
+          if (sums.row.has_force && list.back().magnitude == 0.)
+            list.back().is_idle = is_idle(scene, loads, *condition, comm);
+        }
+      return list;
+    }
+
+    /** E.g. "20 boundary points, 100 um, from (50 -48) to (50 48) um; force (2
+     *  0) kPa um at t = 1 day". */
+    std::string
+    text_of(const Scene &scene, const AppliedCondition &applied)
+    {
+      // A component of the force counts as zero if it is small beside the sum
+      // of magnitudes.
+      const bool         space = scene.dimension == 3;
+      std::ostringstream text;
+      text.precision(4);
+      text << applied.points
+           << (applied.points == 1 ? " boundary point, " : " boundary points, ")
+           << applied.area << (space ? " um^2" : " um");
+      if (applied.points > 0)
+        text << ", from " << vector_text(scene, applied.lower, 0.) << " to "
+             << vector_text(scene, applied.upper, 0.) << " um";
+      if (applied.chosen > applied.points)
+        text << " (" << applied.chosen - applied.points
+             << " more belong to a condition that wins there)";
+      if (applied.has_force)
+        text << "; force "
+             << vector_text(scene, applied.force, 1e-9 * applied.magnitude)
+             << (space ? " kPa um^2" : " kPa um") << " in sum, "
+             << applied.magnitude
+             << " in magnitudes, at t = " << scene.time.end_time
+             << " day on the surface of t = 0";
+      return text.str();
+    }
+
     /** With fewer patches a condition's area is not known to a tenth. */
     constexpr std::uint64_t fewest_points = 10;
 
@@ -368,11 +375,17 @@ namespace Morula
   } // namespace
 
 
-  void
-  review_applied(const Scene                         &scene,
-                 const std::vector<AppliedCondition> &applied,
-                 std::vector<std::string>            &warnings)
+  template <int dim>
+  std::vector<std::string>
+  describe_conditions(const TissueModel<dim> &model,
+                      SeededTissue<dim>      &tissue,
+                      const MPI_Comm          comm)
   {
+    const Scene &scene   = model.scene;
+    const auto   applied = applied_conditions(model, tissue.surface, comm);
+    for (const AppliedCondition &one : applied)
+      if (one.points > 0)
+        tissue.applied.emplace_back(one.name, text_of(scene, one));
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
     for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
       review_points(scene, one, where, review);
@@ -380,8 +393,11 @@ namespace Morula
     for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
       review_load(scene, one, where, review);
     });
-    warnings.insert(warnings.end(),
-                    review.warnings.begin(),
-                    review.warnings.end());
+    return review.warnings;
   }
+
+
+  MORULA_INSTANTIATE(loaded_at_start);
+  MORULA_INSTANTIATE(forces_at_start);
+  MORULA_INSTANTIATE(describe_conditions);
 } // namespace Morula

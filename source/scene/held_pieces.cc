@@ -31,6 +31,27 @@ namespace Morula
     /** So many pieces are described one by one. */
     constexpr std::size_t most_listed = 8;
 
+    /** What holds a piece of the tissue at t = 0, and which load is left to its
+     *  unsupported rigid motions, over all ranks. */
+    struct HeldPiece
+    {
+      std::uint64_t cells = 0;
+      /** Centre of its cells' volume, µm. */
+      Point<3> center;
+      /** Fixed or slip boundary points on it. */
+      std::uint64_t held_points = 0;
+      /** Whether friction of cells holds it. */
+      bool has_friction = false;
+      /** Number of rigid motions that nothing holds, doc/theory.md (4.9). */
+      unsigned int free_motions = 0;
+      /** Sum of its loads at the end of the run on the configuration of t = 0,
+       *  kPa µm^(dim-1), and their moment about the centre, kPa µm^dim; in 2-D
+       *  the third component. */
+      Tensor<1, 3> force, moment;
+      /** Whether a part of the loads acts along a free motion. */
+      bool is_unbalanced = false;
+    };
+
     /** A force at a place of a piece. */
     template <int dim>
     struct LoadAt
@@ -243,13 +264,16 @@ namespace Morula
                              surface.areas[i]);
           pieces.count_support(piece[i], false);
         }
-      const LoadsAtStart<dim> loads(model.scene, conditions, surface);
+      std::vector<std::size_t> patches;
+      const LoadedPoints<dim>  loaded =
+        loaded_at_start(model, surface, &patches);
       for (const auto &named : conditions.list())
-        if (const auto forces =
-              loads.forces(*named.condition, model.scene.time.end_time))
+        if (const auto forces = forces_at_start(*named.condition,
+                                                loaded,
+                                                model.scene.time.end_time))
           for (std::size_t l = 0; l < forces->size(); ++l)
             {
-              const std::size_t i = loads.patch(l);
+              const std::size_t i = patches[l];
               pieces.add_load(
                 {piece[i],
                  surface.positions[i],
@@ -258,42 +282,35 @@ namespace Morula
             }
     }
 
-    /** Adds body forces and friction, with the founders' state at t = 0. */
+    /** Adds body forces and friction of a founder in its state at t = 0. */
     template <int dim>
     void
-    add_body(const TissueModel<dim>          &model,
-             const Founders<dim>             &founders,
-             const FirstCells<dim>           &cells,
-             const std::vector<unsigned int> &piece,
-             Pieces<dim>                     &pieces)
+    add_body(const TissueModel<dim> &model,
+             const PresentCell<dim> &cell,
+             const Point<dim>       &X,
+             const double            V,
+             const unsigned int      piece,
+             Pieces<dim>            &pieces)
     {
       // A force that depends on the present place is no support in a step
       // either: its value at t = 0 counts. Friction counts where it does in a
       // step, doc/theory.md, section 4.4.
-      const Scene         &scene = model.scene;
-      const double         h     = scene.grid.spacing;
-      const Tensor<2, dim> all(unit_symmetric_tensor<dim>());
-      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+      const Scene &scene = model.scene;
+      const double h     = scene.grid.spacing;
+      for (const auto &[name, force] : model.forces)
         {
-          std::vector<double>    row  = cells.row(i);
-          const PresentCell<dim> cell = cells.cell(row, i);
-          const double           V    = founders.volumes[i];
-          for (const auto &[name, force] : model.forces)
-            {
-              if (const auto load = force->load_of(cell, scene.time.end_time))
-                pieces.add_load(
-                  {piece[i], founders.positions[i], V * *load, 0.});
-              const double strength =
-                force->friction_of(cell, 0.).value_or(0.) * h * h /
-                (scene.time.step * youngs_modulus(cell.lame()));
-              if (strength < Drag<dim>::least)
-                continue;
-              pieces.add_support(piece[i],
-                                 founders.positions[i],
-                                 all,
-                                 strength * V / h);
-              pieces.count_support(piece[i], true);
-            }
+          if (const auto load = force->load_of(cell, scene.time.end_time))
+            pieces.add_load({piece, X, V * *load, 0.});
+          const double strength =
+            force->friction_of(cell, 0.).value_or(0.) * h * h /
+            (scene.time.step * youngs_modulus(cell.lame()));
+          if (strength < Drag<dim>::least)
+            continue;
+          pieces.add_support(piece,
+                             X,
+                             Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                             strength * V / h);
+          pieces.count_support(piece, true);
         }
     }
 
@@ -322,120 +339,138 @@ namespace Morula
           return "the weak drag (4.8f)";
       return "inertia";
     }
+
+    /** The pieces that hold cells, largest first. Collective. */
+    template <int dim>
+    std::vector<HeldPiece>
+    held_pieces(const TissueModel<dim>    &model,
+                const Founders<dim>       &founders,
+                const SurfacePatches<dim> &surface,
+                const MPI_Comm             comm)
+    {
+      // First the centres of all pieces, as motions are about them; then what
+      // each rank has of supports and loads; then the sums over all ranks. An
+      // expression may have no value on one rank only.
+      const PiecesAtStart at =
+        pieces_at_start(model.scene.grid, founders, surface, comm);
+      Pieces<dim> pieces(at.n, model.scene.grid.spacing, comm);
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        pieces.add_cell(at.of_founders[i],
+                        founders.positions[i],
+                        founders.volumes[i]);
+      pieces.find_centers();
+      everywhere(comm,
+                 [&]() { add_surface(model, surface, at.of_patches, pieces); });
+      if (!model.forces.empty())
+        for_first_cells<dim>(model,
+                             founders,
+                             surface,
+                             comm,
+                             [&](const std::size_t       i,
+                                 const PresentCell<dim> &cell) {
+                               add_body(model,
+                                        cell,
+                                        founders.positions[i],
+                                        founders.volumes[i],
+                                        at.of_founders[i],
+                                        pieces);
+                             });
+      return pieces.result();
+    }
+
+    /** E.g. "100 cells around (0 0) um: held nowhere", one for each of the
+     * first pieces. */
+    std::vector<std::string>
+    texts_of(const Scene &scene, const std::vector<HeldPiece> &pieces)
+    {
+      // The largest pieces have a line each: where it is, what holds it, which
+      // motions nothing holds, and what balances its loads along these. The
+      // rest is counted.
+      std::vector<std::string> texts;
+      const unsigned int       all = scene.dimension == 3 ? 6 : 3;
+      for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
+        {
+          const HeldPiece   &piece = pieces[p];
+          std::ostringstream text;
+          text.precision(4);
+          text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
+               << " around " << vector_text(scene, piece.center, 1e-6)
+               << " um: ";
+          if (piece.free_motions == all)
+            text << "held nowhere";
+          else
+            {
+              text << "held";
+              if (piece.held_points > 0)
+                text << " at " << piece.held_points << " boundary points";
+              if (piece.has_friction)
+                text << (piece.held_points > 0 ? " and" : "") << " by friction";
+              if (piece.free_motions > 0)
+                text << ", but for " << piece.free_motions << " rigid motions";
+            }
+          if (piece.is_unbalanced)
+            text << "; loads add up to " << load_text(scene, piece)
+                 << ", which " << balanced_by(scene) << " balances";
+          texts.push_back(text.str());
+        }
+      if (pieces.size() > most_listed)
+        texts.push_back("and " + std::to_string(pieces.size() - most_listed) +
+                        " more");
+      return texts;
+    }
+
+    std::vector<std::string>
+    review_held(const Scene &scene, const std::vector<HeldPiece> &pieces)
+    {
+      // The first unbalanced piece is told of, with the number of others: all
+      // of them stand in the list of pieces.
+      Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+      const auto is_unbalanced = [](const HeldPiece &piece) {
+        return piece.is_unbalanced;
+      };
+      const auto first =
+        std::find_if(pieces.begin(), pieces.end(), is_unbalanced);
+      if (first == pieces.end())
+        return {};
+      const auto n = std::count_if(pieces.begin(), pieces.end(), is_unbalanced);
+      std::ostringstream piece;
+      piece.precision(4);
+      if (pieces.size() == 1)
+        piece << "the tissue";
+      else
+        piece << "the piece of " << first->cells << " cells around "
+              << vector_text(scene, first->center, 1e-6) << " um"
+              << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
+      const bool drags = balanced_by(scene) != "inertia";
+      review.warn("Boundary conditions",
+                  first->held_points > 0 ? "held in part" : "nothing held",
+                  "the loads add up to " + load_text(scene, *first) +
+                    " at the end, and nothing holds " + piece.str() +
+                    (drags ? " against them unless an obstacle does: the weak "
+                             "drag (4.8f) balances them, and lets it go far in "
+                             "a step (doc/theory.md, section 4.4)." :
+                             " against them: inertia balances them, as in free "
+                             "fall (doc/theory.md, section 4.4)."),
+                  "Hold a part of its surface by Fixed where or Slip where, or "
+                  "balance the loads.");
+      return review.warnings;
+    }
   } // namespace
 
 
   template <int dim>
-  std::vector<HeldPiece>
-  held_pieces(const TissueModel<dim>    &model,
-              const Founders<dim>       &founders,
-              const SurfacePatches<dim> &surface,
-              const MPI_Comm             comm)
-  {
-    // First the centres of all pieces, as motions are about them; then what
-    // each rank has of supports and loads; then the sums over all ranks. An
-    // expression may have no value on one rank only.
-    const PiecesAtStart at =
-      pieces_at_start(model.scene.grid, founders, surface, comm);
-    Pieces<dim> pieces(at.n, model.scene.grid.spacing, comm);
-    for (std::size_t i = 0; i < founders.positions.size(); ++i)
-      pieces.add_cell(at.of_founders[i],
-                      founders.positions[i],
-                      founders.volumes[i]);
-    pieces.find_centers();
-    everywhere(comm,
-               [&]() { add_surface(model, surface, at.of_patches, pieces); });
-    if (!model.forces.empty())
-      {
-        const FirstCells<dim> cells(model, founders, surface, comm);
-        everywhere(comm, [&]() {
-          add_body(model, founders, cells, at.of_founders, pieces);
-        });
-      }
-    return pieces.result();
-  }
-
-
   std::vector<std::string>
-  texts_of(const Scene &scene, const std::vector<HeldPiece> &pieces)
+  describe_pieces(const TissueModel<dim> &model,
+                  SeededTissue<dim>      &tissue,
+                  const MPI_Comm          comm)
   {
-    // The largest pieces have a line each: where it is, what holds it, which
-    // motions nothing holds, and what balances its loads along these. The rest
-    // is counted.
-    std::vector<std::string> texts;
-    const unsigned int       all = scene.dimension == 3 ? 6 : 3;
-    for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
-      {
-        const HeldPiece   &piece = pieces[p];
-        std::ostringstream text;
-        text.precision(4);
-        text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
-             << " around " << vector_text(scene, piece.center, 1e-6) << " um: ";
-        if (piece.free_motions == all)
-          text << "held nowhere";
-        else
-          {
-            text << "held";
-            if (piece.held_points > 0)
-              text << " at " << piece.held_points << " boundary points";
-            if (piece.has_friction)
-              text << (piece.held_points > 0 ? " and" : "") << " by friction";
-            if (piece.free_motions > 0)
-              text << ", but for " << piece.free_motions << " rigid motions";
-          }
-        if (piece.is_unbalanced)
-          text << "; loads add up to " << load_text(scene, piece) << ", which "
-               << balanced_by(scene) << " balances";
-        texts.push_back(text.str());
-      }
-    if (pieces.size() > most_listed)
-      texts.push_back("and " + std::to_string(pieces.size() - most_listed) +
-                      " more");
-    return texts;
+    const std::vector<HeldPiece> pieces =
+      held_pieces(model, tissue.founders, tissue.surface, comm);
+    tissue.n_pieces = pieces.size();
+    tissue.pieces   = texts_of(model.scene, pieces);
+    return review_held(model.scene, pieces);
   }
 
 
-  void
-  review_held(const Scene                  &scene,
-              const std::vector<HeldPiece> &pieces,
-              std::vector<std::string>     &warnings)
-  {
-    // The first unbalanced piece is told of, with the number of others: all of
-    // them stand in the list of pieces.
-    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
-    const auto is_unbalanced = [](const HeldPiece &piece) {
-      return piece.is_unbalanced;
-    };
-    const auto first =
-      std::find_if(pieces.begin(), pieces.end(), is_unbalanced);
-    if (first == pieces.end())
-      return;
-    const auto n = std::count_if(pieces.begin(), pieces.end(), is_unbalanced);
-    std::ostringstream piece;
-    piece.precision(4);
-    if (pieces.size() == 1)
-      piece << "the tissue";
-    else
-      piece << "the piece of " << first->cells << " cells around "
-            << vector_text(scene, first->center, 1e-6) << " um"
-            << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
-    const bool drags = balanced_by(scene) != "inertia";
-    review.warn("Boundary conditions",
-                first->held_points > 0 ? "held in part" : "nothing held",
-                "the loads add up to " + load_text(scene, *first) +
-                  " at the end, and nothing holds " + piece.str() +
-                  (drags ? " against them unless an obstacle does: the weak "
-                           "drag (4.8f) balances them, and lets it go far in "
-                           "a step (doc/theory.md, section 4.4)." :
-                           " against them: inertia balances them, as in free "
-                           "fall (doc/theory.md, section 4.4)."),
-                "Hold a part of its surface by Fixed where or Slip where, or "
-                "balance the loads.");
-    warnings.insert(warnings.end(),
-                    review.warnings.begin(),
-                    review.warnings.end());
-  }
-
-
-  MORULA_INSTANTIATE(held_pieces);
+  MORULA_INSTANTIATE(describe_pieces);
 } // namespace Morula

@@ -93,44 +93,40 @@ namespace Morula
 
 
   template <int dim>
-  FirstCells<dim>::FirstCells(const TissueModel<dim>    &model,
-                              const Founders<dim>       &founders,
-                              const SurfacePatches<dim> &patches,
-                              const MPI_Comm             comm)
-    : model(model)
-    , founders(founders)
-    , surface(
-        near_surface_of(model.development.state(), founders, patches, comm))
-    , reader(model.development.reader(0.))
-  {}
-
-
-  template <int dim>
-  std::vector<double>
-  FirstCells<dim>::row(const std::size_t i) const
+  void
+  for_first_cells(
+    const TissueModel<dim>                                           &model,
+    const Founders<dim>                                              &founders,
+    const SurfacePatches<dim>                                        &patches,
+    const MPI_Comm                                                    comm,
+    const std::function<void(std::size_t, const PresentCell<dim> &)> &action)
   {
-    // The step is 0, so that nothing is checked: that is done elsewhere.
-    return founder_row(
-      model.development, model.equations, founders, surface, i, 0.);
-  }
-
-
-  template <int dim>
-  PresentCell<dim>
-  FirstCells<dim>::cell(std::vector<double> &row, const std::size_t i) const
-  {
-    return PresentCell<dim>(CellView<dim, double>(make_array_view(row),
-                                                  model.development.columns()),
-                            founders.first_id + i,
-                            founders.positions[i],
-                            reader);
+    // The step of the row is 0, so that nothing is checked: that is done
+    // elsewhere. An expression may have no value at some founder; then all
+    // ranks throw.
+    const auto surface =
+      near_surface_of(model.development.state(), founders, patches, comm);
+    const CellReader<dim> reader = model.development.reader(0.);
+    everywhere(comm, [&]() {
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        {
+          std::vector<double> row = founder_row(
+            model.development, model.equations, founders, surface, i, 0.);
+          action(
+            i,
+            PresentCell<dim>(CellView<dim, double>(make_array_view(row),
+                                                   model.development.columns()),
+                             founders.first_id + i,
+                             founders.positions[i],
+                             reader));
+        }
+    });
   }
 
 
   MORULA_INSTANTIATE(near_surface_of);
   MORULA_INSTANTIATE(founder_row);
-  template class FirstCells<2>;
-  template class FirstCells<3>;
+  MORULA_INSTANTIATE(for_first_cells);
 
 
   template <int dim>
@@ -338,19 +334,19 @@ namespace Morula
         add_cuts(scene.tissue.cuts, tissue.founders, comm, tissue.surface);
     tissue.n_proliferating =
       check_at_cells(model, tissue.founders.positions, comm);
-    tissue.counts  = check_at_surface(model, tissue.surface, comm);
-    tissue.applied = applied_conditions(model, tissue.surface, comm);
+    tissue.counts            = check_at_surface(model, tissue.surface, comm);
+    const auto of_conditions = describe_conditions(model, tissue, comm);
     if (scene.tissue.is_from_file() && interaction == nullptr)
       tissue.bodies = bodies_text(scene, tissue, comm);
     if (scene.tissue.is_mesh())
       tissue.mesh = surfaces_text(volumes_of_surfaces(
         SurfaceMesh(scene.tissue.surface_mesh.path(), scene.tissue.surface_mesh)
           .triangles()));
-    tissue.pieces   = held_pieces(model, tissue.founders, tissue.surface, comm);
-    tissue.warnings = scene_warnings(
+    const auto of_pieces = describe_pieces(model, tissue, comm);
+    tissue.warnings      = scene_warnings(
       model, tissue.founders, tissue.surface, tissue.counts, comm);
-    review_applied(scene, tissue.applied, tissue.warnings);
-    review_held(scene, tissue.pieces, tissue.warnings);
+    for (const auto &more : {of_conditions, of_pieces})
+      tissue.warnings.insert(tissue.warnings.end(), more.begin(), more.end());
     if (interaction != nullptr)
       interaction->review_bodies(tissue.measures, tissue.warnings);
     return tissue;

@@ -131,19 +131,17 @@ namespace Morula
       std::vector<CoupledRate> rates = coupled_rates(model);
       if (rates.empty())
         return;
-      const FirstCells<dim> cells(model, founders, surface, comm);
-      // An expression may have no value at some founder; then all ranks throw.
-      everywhere(comm, [&]() {
-        for (std::size_t i = 0; i < founders.positions.size(); ++i)
-          {
-            std::vector<double>    row     = cells.row(i);
-            const PresentCell<dim> founder = cells.cell(row, i);
-            for (CoupledRate &coupled : rates)
-              if (!coupled.type || *coupled.type == founder.type())
-                coupled.largest =
-                  std::max(coupled.largest, founder.value(coupled.rate, 0.));
-          }
-      });
+      for_first_cells<dim>(
+        model,
+        founders,
+        surface,
+        comm,
+        [&](const std::size_t, const PresentCell<dim> &founder) {
+          for (CoupledRate &coupled : rates)
+            if (!coupled.type || *coupled.type == founder.type())
+              coupled.largest =
+                std::max(coupled.largest, founder.value(coupled.rate, 0.));
+        });
       for (const CoupledRate &coupled : rates)
         {
           const double largest = Utilities::MPI::max(coupled.largest, comm);

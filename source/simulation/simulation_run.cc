@@ -183,14 +183,16 @@ namespace Morula
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births   = std::move(points.births);
-    warnings = applied_texts(model.scene, seeded.applied);
+    warnings = {"Material: " + material_text(model.scene)};
+    for (const auto &[name, text] : seeded.applied)
+      warnings.push_back("Applied: " + name + " at " + text);
     if (!seeded.bodies.empty())
       warnings.push_back("Tissue: " + seeded.bodies);
     if (!seeded.mesh.empty())
       warnings.push_back("Surface mesh: " + seeded.mesh);
     if (!seeded.cuts.empty())
       warnings.push_back("Cut: " + seeded.cuts);
-    for (const std::string &text : texts_of(model.scene, seeded.pieces))
+    for (const std::string &text : seeded.pieces)
       warnings.push_back("Piece: " + text);
     warnings.insert(warnings.end(),
                     seeded.warnings.begin(),

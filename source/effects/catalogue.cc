@@ -13,10 +13,8 @@
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/growth/contraction.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
-#include <morula/effects/growth/relaxation.h>
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -36,7 +34,13 @@ namespace Morula
 {
   // Effects that only their own files know.
   void
-  add_present_depth(Choices<StepEffect> &effects);
+  add_contraction(Choices<GrowthFactor> &, const Catalogue::Settings &example);
+  void
+  add_relaxation(Choices<Flow> &, const Catalogue::Settings &example);
+  void
+  add_neighbours(Choices<StepEffect> &, const Catalogue::Settings &example);
+  void
+  add_present_depth(Choices<StepEffect> &, const Catalogue::Settings &example);
 
   namespace
   {
@@ -92,13 +96,10 @@ namespace Morula
     // the end of its kind.
     add<IsotropicGrowth>(growth_laws, "isotropic", uneven);
     add<RateGrowth>(growth_laws, "rate", growing);
-    add<Contraction>(growth_factors,
-                     "contraction",
-                     {"Contraction/Stretch=1 - 0.2*t",
-                      "Contraction/Direction=1; 1; 0"});
-    add<Relaxation>(flows,
-                    "relaxation",
-                    with(uneven, {"Material/Relaxation time=0.2"}));
+    add_contraction(growth_factors,
+                    {"Contraction/Stretch=1 - 0.2*t",
+                     "Contraction/Direction=1; 1; 0"});
+    add_relaxation(flows, with(uneven, {"Material/Relaxation time=0.2"}));
     add<Proliferation>(fates, "cell cycle", cycling);
     add<DivisionBySize>(fates, "division by size", dividing("random"));
     add<Death>(fates,
@@ -126,11 +127,11 @@ namespace Morula
     add<Rearrangement>(step_effects,
                        "rearrangement",
                        {"Rearrangement/Diffusion=1"});
-    add<NeighbourColumns>(step_effects,
-                          "neighbours",
-                          {"Growth/Law=rate",
-                           "Growth/Rate/Rate=0.1*neighbours"});
-    add_present_depth(step_effects);
+    add_neighbours(step_effects,
+                   {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"});
+    add_present_depth(step_effects,
+                      {"Growth/Law=rate",
+                       "Growth/Rate/Rate=0.2*present_depth"});
     add<CellShapeAxis>(division_rules, "cell shape", dividing("cell shape"));
     add<BodyForce>(forces,
                    "body force",

@@ -64,155 +64,178 @@ namespace Morula
   }
 
 
-  template <int dim>
-  Relaxation<dim>::Relaxation(const Parameters         &parameters,
-                              const EffectSetting<dim> &setting)
-    : time(setting.state.use(parameters.time))
-    , yield_stress(setting.state.use(parameters.yield_stress))
-    , keys(parameters)
+  namespace
   {
-    // The motion of the last step is kept for the forecast (8.3b) of
-    // doc/theory.md.
-    setting.columns.need_growth();
-    motion = setting.columns.template add<SymmetricTensor<2, dim>>(
-      {"motion_of_step",
-       "",
-       "f^T f of the last step: its stretch, squared",
-       unit_symmetric_tensor<dim>()});
-  }
+    /**
+     * Tissue that flows under its shear stress, `Material/Relaxation time`:
+     * doc/theory.md, section 8. A step's flow sees where the tissue goes if it
+     * moves as in the step before; so each cell keeps the stretch of that one.
+     */
+    template <int dim>
+    class Relaxation : public Flow<dim>
+    {
+    public:
+      using Parameters = RelaxationParameters;
 
+      Relaxation(const Parameters         &parameters,
+                 const EffectSetting<dim> &setting)
+        : time(setting.state.use(parameters.time))
+        , yield_stress(setting.state.use(parameters.yield_stress))
+        , keys(parameters)
+      {
+        // The motion of the last step is kept for the forecast (8.3b) of
+        // doc/theory.md.
+        setting.columns.need_growth();
+        motion = setting.columns.template add<SymmetricTensor<2, dim>>(
+          {"motion_of_step",
+           "",
+           "f^T f of the last step: its stretch, squared",
+           unit_symmetric_tensor<dim>()});
+      }
 
-  template <int dim>
-  FlowOfStep<dim>
-  Relaxation<dim>::flow(const PresentCell<dim> &cell,
-                        const CellView<dim, double> &,
-                        const Tensor<2, dim> &before,
-                        const Tensor<2, dim> &F_g,
-                        const double          t0,
-                        const double          t1) const
-  {
-    // The flow acts before the equilibrium is sought. So it takes the elastic
-    // part of the step's beginning, and that of its end if the tissue went on
-    // as in the last step, doc/theory.md (8.3b), with the growth of all other
-    // effects. Their weighted mean (8.3a) relaxes, and D of (8.4) comes back. F
-    // in `cell` is that of t0.
-    const double t = 0.5 * (t0 + t1);
-    FlowLaw      flow{cell.value(time, t)};
-    if (flow.relaxation_time == 0.)
-      return {};
-    const CellView<dim, const double> &view     = cell.cell();
-    const TissueMaterial              &material = cell.reader().material;
-    const Tensor<2, dim>               F        = view.F();
-    const Tensor<2, dim>               F_then =
-      Tensor<2, dim>(forecast(view, cell.reader().past, t1 - t0)) * F;
-    const Tensor<2, dim> end = F_then * invert(F_g);
-    flow.passes              = keys.passes;
-    // The law works with Kirchhoff's stress τ = V σ / W, where W is the grown
-    // or the initial volume, so the yield stress is scaled as σ is.
-    flow.yield_stress =
-      cell.value(yield_stress, t) *
-      (material.per_grown_volume() ? determinant(end) : determinant(F_then));
+      /** D for the shear that doc/theory.md (8.3a) gives.
+       *  @throws InputError for a relaxation time or yield stress < 0 */
+      FlowOfStep<dim>
+      flow(const PresentCell<dim> &cell,
+           const CellView<dim, double> &,
+           const Tensor<2, dim> &before,
+           const Tensor<2, dim> &F_g,
+           const double          t0,
+           const double          t1) const override
+      {
+        // The flow acts before the equilibrium is sought. So it takes the
+        // elastic part of the step's beginning, and that of its end if the
+        // tissue went on as in the last step, doc/theory.md (8.3b), with the
+        // growth of all other effects. Their weighted mean (8.3a) relaxes, and
+        // D of (8.4) comes back. F in `cell` is that of t0.
+        const double t = 0.5 * (t0 + t1);
+        FlowLaw      flow{cell.value(time, t)};
+        if (flow.relaxation_time == 0.)
+          return {};
+        const CellView<dim, const double> &view     = cell.cell();
+        const TissueMaterial              &material = cell.reader().material;
+        const Tensor<2, dim>               F        = view.F();
+        const Tensor<2, dim>               F_then =
+          Tensor<2, dim>(forecast(view, cell.reader().past, t1 - t0)) * F;
+        const Tensor<2, dim> end = F_then * invert(F_g);
+        flow.passes              = keys.passes;
+        // The law works with Kirchhoff's stress τ = V σ / W, where W is the
+        // grown or the initial volume, so the yield stress is scaled as σ is.
+        flow.yield_stress = cell.value(yield_stress, t) *
+                            (material.per_grown_volume() ? determinant(end) :
+                                                           determinant(F_then));
 
-    // The weights of doc/theory.md (8.3a) make held shear and steady creep
-    // exact. With a yield stress the end counts alone, so that long steps end
-    // at the yield stress.
-    const double         gamma = (t1 - t0) / flow.relaxation_time;
-    const double         w = flow.yield_stress > 0. ? 1. : weight_of_end(gamma);
-    const Tensor<2, dim> F_e = end + (1. - w) * (F * invert(before) - end);
-    const Tensor<2, dim> D(
-      flow_of_step<dim>(F_e, cell.lame(), material.material(), flow, t1 - t0));
-    // Below the yield stress D is the identity exactly; then F_g need not be
-    // changed.
-    const bool flows = D != Tensor<2, dim>(unit_symmetric_tensor<dim>());
-    return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
-            w * -std::expm1(-gamma)};
-  }
+        // The weights of doc/theory.md (8.3a) make held shear and steady creep
+        // exact. With a yield stress the end counts alone, so that long steps
+        // end at the yield stress.
+        const double gamma = (t1 - t0) / flow.relaxation_time;
+        const double w     = flow.yield_stress > 0. ? 1. : weight_of_end(gamma);
+        const Tensor<2, dim> F_e = end + (1. - w) * (F * invert(before) - end);
+        const Tensor<2, dim> D(flow_of_step<dim>(
+          F_e, cell.lame(), material.material(), flow, t1 - t0));
+        // Below the yield stress D is the identity exactly; then F_g need not
+        // be changed.
+        const bool flows = D != Tensor<2, dim>(unit_symmetric_tensor<dim>());
+        return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
+                w * -std::expm1(-gamma)};
+      }
 
+      void
+      remember_motion(const CellView<dim, double> &cell,
+                      const Tensor<2, dim>        &f) const override
+      {
+        // Only the stretch of the step's motion f counts, as a rotation relaxes
+        // nothing.
+        cell.set(motion, symmetrize(transpose(f) * f));
+      }
 
-  template <int dim>
-  SymmetricTensor<2, dim>
-  Relaxation<dim>::forecast(const CellView<dim, const double> &cell,
-                            const PastStep                    &past,
-                            const double                       dt) const
-  {
-    // This is doc/theory.md (8.3b). The power makes up for steps of other
-    // lengths. In the first step nothing is known, and the tissue is taken as
-    // at rest.
-    return past.exists() ? stretch(cell.get(motion), dt / past.length()) :
-                           unit_symmetric_tensor<dim>();
-  }
+      bool
+      has_forecast() const override
+      {
+        return true;
+      }
 
+      double
+      error_of_forecast(const CellView<dim, const double> &cell,
+                        const Tensor<2, dim>              &f,
+                        const PastStep                    &past,
+                        const double                       dt) const override
+      {
+        // Only the deviator matters, because volume does not relax. This is
+        // called after the equilibrium is found, with the motion that took
+        // place.
+        const auto U = stretch(symmetrize(transpose(f) * f), 1.);
+        return deviator(U - forecast(cell, past, dt)).norm();
+      }
 
-  template <int dim>
-  void
-  Relaxation<dim>::remember_motion(const CellView<dim, double> &cell,
-                                   const Tensor<2, dim>        &f) const
-  {
-    // Only the stretch of the step's motion f counts, as a rotation relaxes
-    // nothing.
-    cell.set(motion, symmetrize(transpose(f) * f));
-  }
+      void
+      check_cell(const PresentCell<dim> &founder,
+                 const double            step) const override
+      {
+        founder.value(time, 0.5 * step);
+        founder.value(yield_stress, 0.5 * step);
+      }
 
+      /** Warns of passes that do nothing, and of steps that are too long for
+       * creep under a load. */
+      void
+      review(const Preview<dim> &scene, Review &review) const override
+      {
+        // The shortest relaxation time of all founders and types is compared
+        // with the step; the minimum over the ranks is collective, and the
+        // return before it depends on what all ranks share.
+        if (!scene.is_loaded)
+          return;
+        // A time that depends on the state is known only in the run.
+        constexpr double none     = std::numeric_limits<double>::max();
+        double           shortest = none;
+        const auto       consider = [&](const double tau) {
+          if (tau > 0.)
+            shortest = std::min(shortest, tau);
+        };
+        if (!time.depends_on_state())
+          for (const Point<dim> &X : scene.founders)
+            consider(time.value(X, 0.5 * scene.keys.time.step));
+        for (const auto &[type, own] : time.types())
+          consider(own.number().value_or(0.));
+        shortest = Utilities::MPI::min(shortest, scene.comm);
+        if (shortest < none && scene.keys.time.step > shortest * (1. + 1e-9))
+          review.warn(
+            TimeParameters::step_path,
+            as_text(scene.keys.time.step) + " day",
+            "that is " + as_text(scene.keys.time.step / shortest) +
+              " of the shortest " + time.key() + ", " + as_text(shortest) +
+              " day: what a step knows of the tissue's motion is that of "
+              "the step before, and under a load that changes it creeps "
+              "too late (doc/theory.md, 8.2).",
+            "Shorten the step to the relaxation time, or less.");
+      }
 
-  template <int dim>
-  double
-  Relaxation<dim>::error_of_forecast(const CellView<dim, const double> &cell,
-                                     const Tensor<2, dim>              &f,
-                                     const PastStep                    &past,
-                                     const double dt) const
-  {
-    // Only the deviator matters, because volume does not relax. This is called
-    // after the equilibrium is found, with the motion that took place.
-    const auto U = stretch(symmetrize(transpose(f) * f), 1.);
-    return deviator(U - forecast(cell, past, dt)).norm();
-  }
+    private:
+      /** U* of doc/theory.md (8.3b): the stretch of a step of length @p dt
+       * (day) if the tissue goes on as in the step @p past. */
+      SymmetricTensor<2, dim>
+      forecast(const CellView<dim, const double> &cell,
+               const PastStep                    &past,
+               const double                       dt) const
+      {
+        // This is doc/theory.md (8.3b). The power makes up for steps of other
+        // lengths. In the first step nothing is known, and the tissue is taken
+        // as at rest.
+        return past.exists() ? stretch(cell.get(motion), dt / past.length()) :
+                               unit_symmetric_tensor<dim>();
+      }
 
-
-  template <int dim>
-  void
-  Relaxation<dim>::check_cell(const PresentCell<dim> &founder,
-                              const double            step) const
-  {
-    founder.value(time, 0.5 * step);
-    founder.value(yield_stress, 0.5 * step);
-  }
-
-
-  template <int dim>
-  void
-  Relaxation<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    // The shortest relaxation time of all founders and types is compared with
-    // the step; the minimum over the ranks is collective, and the return before
-    // it depends on what all ranks share.
-    if (!scene.is_loaded)
-      return;
-    // A time that depends on the state is known only in the run.
-    constexpr double none     = std::numeric_limits<double>::max();
-    double           shortest = none;
-    const auto       consider = [&](const double tau) {
-      if (tau > 0.)
-        shortest = std::min(shortest, tau);
+      Expression                      time, yield_stress;
+      Parameters                      keys;
+      Column<SymmetricTensor<2, dim>> motion; // fᵀf
     };
-    if (!time.depends_on_state())
-      for (const Point<dim> &X : scene.founders)
-        consider(time.value(X, 0.5 * scene.keys.time.step));
-    for (const auto &[type, own] : time.types())
-      consider(own.number().value_or(0.));
-    shortest = Utilities::MPI::min(shortest, scene.comm);
-    if (shortest < none && scene.keys.time.step > shortest * (1. + 1e-9))
-      review.warn(TimeParameters::step_path,
-                  as_text(scene.keys.time.step) + " day",
-                  "that is " + as_text(scene.keys.time.step / shortest) +
-                    " of the shortest " + time.key() + ", " +
-                    as_text(shortest) +
-                    " day: what a step knows of the tissue's motion is that of "
-                    "the step before, and under a load that changes it creeps "
-                    "too late (doc/theory.md, 8.2).",
-                  "Shorten the step to the relaxation time, or less.");
+  } // namespace
+
+
+  void
+  add_relaxation(Choices<Flow> &choices, const Catalogue::Settings &example)
+  {
+    choices.push_back(Choice<Flow>::of<Relaxation>("relaxation", "", example));
   }
-
-
-  template class Relaxation<2>;
-  template class Relaxation<3>;
 } // namespace Morula

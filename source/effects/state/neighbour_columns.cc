@@ -199,79 +199,96 @@ namespace Morula
   }
 
 
-  template <int dim>
-  NeighbourColumns<dim>::NeighbourColumns(const Parameters &parameters)
-    : search(parameters.search())
-    , variables(parameters.variables)
-  {}
-
-
-  template <int dim>
-  void
-  NeighbourColumns<dim>::settle(Tissue<dim>            &tissue,
-                                const MomentOfRun<dim> &moment) const
+  namespace
   {
-    after(tissue, moment);
-  }
+    /** Tells cells of their neighbours: writes the columns of the variables, at
+     *  t = 0 and at the end of each step. doc/theory.md, section 12.1. */
+    template <int dim>
+    class NeighbourColumns : public StepEffect<dim>
+    {
+    public:
+      using Parameters = NeighbourParameters;
 
+      explicit NeighbourColumns(const Parameters &parameters)
+        : search(parameters.search())
+        , variables(parameters.variables)
+      {}
 
-  template <int dim>
-  void
-  NeighbourColumns<dim>::after(Tissue<dim>            &tissue,
-                               const MomentOfRun<dim> &moment) const
-  {
-    // Each cell tells the others its type, and the values that some mean over
-    // neighbours asks for. These are read before any column is written, as a
-    // mean may be one of a variable that is written here. Then the sums over
-    // the neighbours are made in the order of their ids.
-    const StateColumns<dim>               &columns = moment.reader.columns;
-    const Cells<dim>                      &cells   = tissue.cells();
-    std::vector<const NeighbourVariable *> means;
-    for (const NeighbourVariable &told : variables)
-      if (told.kind == NeighbourVariable::around)
-        means.push_back(&told);
-    PointList<dim> told_by_cells(1 + means.size());
-    everywhere(tissue.communicator(), [&]() {
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        {
-          const PresentCell<dim> cell = present_cell(tissue, p, moment.reader);
-          std::vector<double>    row  = {double(cell.type())};
-          for (const NeighbourVariable *const mean : means)
-            row.push_back(cell.value(mean->variable, moment.t));
-          told_by_cells.add(cells.id(p),
-                            cells.position(p),
-                            make_array_view(row));
-        }
-    });
-    const NeighbourGraph<dim> graph = neighbours(tissue, told_by_cells, search);
-    // A share of the surface is one of all of it, so that the free part is
-    // needed for each of them.
-    const bool                shares = std::any_of(variables.begin(),
-                                    variables.end(),
-                                    [](const NeighbourVariable &told) {
-                                      using V = NeighbourVariable;
-                                      return told.kind == V::free ||
-                                             told.kind == V::unlike ||
-                                             told.kind == V::share_of_type;
-                                    });
-    const std::vector<double> free =
-      shares ? free_surfaces(tissue) : std::vector<double>(cells.size(), 0.);
-
-    for (unsigned int p = 0; p < cells.size(); ++p)
+      void
+      settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
       {
-        const Around<dim> around(graph, p, free[p]);
-        unsigned int      n_means = 0;
-        for (std::size_t k = 0; k < variables.size(); ++k)
+        after(tissue, moment);
+      }
+
+      void
+      after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
+      {
+        // Each cell tells the others its type, and the values that some mean
+        // over neighbours asks for. These are read before any column is
+        // written, as a mean may be one of a variable that is written here.
+        // Then the sums over the neighbours are made in the order of their ids.
+        const StateColumns<dim>               &columns = moment.reader.columns;
+        const Cells<dim>                      &cells   = tissue.cells();
+        std::vector<const NeighbourVariable *> means;
+        for (const NeighbourVariable &told : variables)
+          if (told.kind == NeighbourVariable::around)
+            means.push_back(&told);
+        PointList<dim> told_by_cells(1 + means.size());
+        everywhere(tissue.communicator(), [&]() {
+          for (unsigned int p = 0; p < cells.size(); ++p)
+            {
+              const PresentCell<dim> cell =
+                present_cell(tissue, p, moment.reader);
+              std::vector<double> row = {double(cell.type())};
+              for (const NeighbourVariable *const mean : means)
+                row.push_back(cell.value(mean->variable, moment.t));
+              told_by_cells.add(cells.id(p),
+                                cells.position(p),
+                                make_array_view(row));
+            }
+        });
+        const NeighbourGraph<dim> graph =
+          neighbours(tissue, told_by_cells, search);
+        // A share of the surface is one of all of it, so that the free part is
+        // needed for each of them.
+        const bool                shares = std::any_of(variables.begin(),
+                                        variables.end(),
+                                        [](const NeighbourVariable &told) {
+                                          using V = NeighbourVariable;
+                                          return told.kind == V::free ||
+                                                 told.kind == V::unlike ||
+                                                 told.kind == V::share_of_type;
+                                        });
+        const std::vector<double> free =
+          shares ? free_surfaces(tissue) :
+                   std::vector<double>(cells.size(), 0.);
+
+        for (unsigned int p = 0; p < cells.size(); ++p)
           {
-            n_means += variables[k].kind == NeighbourVariable::around;
-            if (variables[k].kind != NeighbourVariable::slope)
-              tissue.cell(p).set(columns.neighbours[k],
-                                 around.value(variables[k], n_means));
+            const Around<dim> around(graph, p, free[p]);
+            unsigned int      n_means = 0;
+            for (std::size_t k = 0; k < variables.size(); ++k)
+              {
+                n_means += variables[k].kind == NeighbourVariable::around;
+                if (variables[k].kind != NeighbourVariable::slope)
+                  tissue.cell(p).set(columns.neighbours[k],
+                                     around.value(variables[k], n_means));
+              }
           }
       }
+
+    private:
+      const NeighbourSearch                search;
+      const std::vector<NeighbourVariable> variables;
+    };
+  } // namespace
+
+
+  void
+  add_neighbours(Choices<StepEffect>       &choices,
+                 const Catalogue::Settings &example)
+  {
+    choices.push_back(
+      Choice<StepEffect>::of<NeighbourColumns>("neighbours", "", example));
   }
-
-
-  template class NeighbourColumns<2>;
-  template class NeighbourColumns<3>;
 } // namespace Morula

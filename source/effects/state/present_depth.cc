@@ -143,11 +143,10 @@ namespace Morula
 
 
   void
-  add_present_depth(Choices<StepEffect> &effects)
+  add_present_depth(Choices<StepEffect>       &choices,
+                    const Catalogue::Settings &example)
   {
-    effects.push_back(Choice<StepEffect>::of<PresentDepth>(
-      "present depth",
-      "",
-      {"Growth/Law=rate", "Growth/Rate/Rate=0.2*present_depth"}));
+    choices.push_back(
+      Choice<StepEffect>::of<PresentDepth>("present depth", "", example));
   }
 } // namespace Morula

@@ -72,45 +72,6 @@ namespace Morula
   active_strain(const Tensor<1, dim> &a,
                 const double          gamma,
                 const bool            keep_volume);
-
-  /** Cells that contract, as a part of F_g: doc/theory.md, section 9. */
-  template <int dim>
-  class Contraction : public GrowthFactor<dim>
-  {
-  public:
-    using Parameters = ContractionParameters;
-
-    /** @throws InputError for an expression that cannot be parsed */
-    Contraction(const Parameters         &parameters,
-                const EffectSetting<dim> &setting);
-
-    /**
-     * F_a at @p t1 (day), with the state at the beginning of the step. Writes
-     * γ into the column `contraction` of @p after.
-     * @throws InputError if γ is not positive
-     */
-    Tensor<2, dim>
-    factor(const PresentCell<dim>      &before,
-           const CellView<dim, double> &after,
-           const double                 t0,
-           const double                 t1) const override;
-
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-
-    /** Warns of steps in which γ changes by more than the steps that were
-     *  measured. */
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
-
-  private:
-    Expression           stretch;
-    DirectionOfCell<dim> direction;
-    bool                 keep_volume;
-    /** γ. */
-    Column<double> column;
-  };
 } // namespace Morula
 
 #endif

@@ -56,68 +56,6 @@ namespace Morula
     }
   };
 
-  /**
-   * Tissue that flows under its shear stress, `Material/Relaxation time`:
-   * doc/theory.md, section 8. A step's flow sees where the tissue goes if it
-   * moves as in the step before; so each cell keeps the stretch of that one.
-   */
-  template <int dim>
-  class Relaxation : public Flow<dim>
-  {
-  public:
-    using Parameters = RelaxationParameters;
-
-    /** @throws InputError for an expression that cannot be parsed */
-    Relaxation(const Parameters &parameters, const EffectSetting<dim> &setting);
-
-    /** D for the shear that doc/theory.md (8.3a) gives.
-     *  @throws InputError for a relaxation time or yield stress < 0 */
-    FlowOfStep<dim>
-    flow(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &after,
-         const Tensor<2, dim>        &before,
-         const Tensor<2, dim>        &F_g,
-         const double                 t0,
-         const double                 t1) const override;
-
-    void
-    remember_motion(const CellView<dim, double> &cell,
-                    const Tensor<2, dim>        &f) const override;
-
-    bool
-    has_forecast() const override
-    {
-      return true;
-    }
-
-    double
-    error_of_forecast(const CellView<dim, const double> &cell,
-                      const Tensor<2, dim>              &f,
-                      const PastStep                    &past,
-                      const double                       dt) const override;
-
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-
-    /** Warns of passes that do nothing, and of steps that are too long for
-     * creep under a load. */
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
-
-  private:
-    /** U* of doc/theory.md (8.3b): the stretch of a step of length @p dt (day)
-     *  if the tissue goes on as in the step @p past. */
-    SymmetricTensor<2, dim>
-    forecast(const CellView<dim, const double> &cell,
-             const PastStep                    &past,
-             const double                       dt) const;
-
-    Expression                      time, yield_stress;
-    Parameters                      keys;
-    Column<SymmetricTensor<2, dim>> motion; // fᵀf
-  };
-
   /** Cells that change their type and are then free of stress as they stand,
    *  `Material/On transition`: doc/theory.md, section 6.8. All that is elastic
    *  in F flows at once. */

@@ -58,26 +58,6 @@ namespace Morula
     see(const SceneKeys                    &scene,
         const std::vector<ExpressionKey *> &keys) override;
   };
-
-  /** Tells cells of their neighbours: writes the columns of the variables, at
-   *  t = 0 and at the end of each step. doc/theory.md, section 12.1. */
-  template <int dim>
-  class NeighbourColumns : public StepEffect<dim>
-  {
-  public:
-    using Parameters = NeighbourParameters;
-
-    explicit NeighbourColumns(const Parameters &parameters);
-
-    void
-    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
-    void
-    after(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
-
-  private:
-    const NeighbourSearch                search;
-    const std::vector<NeighbourVariable> variables;
-  };
 } // namespace Morula
 
 #endif

@@ -82,38 +82,6 @@ namespace Morula
 
   namespace
   {
-    /** Makes each of the rules that types of cells have once. @param make makes
-     *  one of the catalogue's effects */
-    template <int dim, typename Make>
-    DivisionRules<dim>
-    rules_of(const Scene              &scene,
-             const EffectSetting<dim> &setting,
-             const Make               &make)
-    {
-      // Types may share an axis, so each rule is made once, by its name, and
-      // types point to it. The random axis is no rule: it is a null pointer.
-      DivisionRules<dim>                               all;
-      std::map<std::string, const DivisionRule<dim> *> rules;
-      for (const std::string &axis : scene.division_axes())
-        {
-          const std::string field = field_of_gradient(axis);
-          const auto       *choice =
-            find_choice(scene.catalogue.division_rules, axis);
-          rules[axis] = nullptr;
-          if (field.empty() && choice == nullptr)
-            continue;
-          if (field.empty())
-            all.list.push_back(make(*choice));
-          else
-            all.list.push_back(
-              std::make_unique<GradientAxis<dim>>(field, setting));
-          rules[axis] = all.list.back().get();
-        }
-      for (unsigned int type = 0; type < scene.cell_types.types.size(); ++type)
-        all.of_type.push_back(rules.at(scene.division_axis(type)));
-      return all;
-    }
-
     /** Makes the effects of a scene, each in its turn. */
     template <int dim>
     class EffectMaker
@@ -177,13 +145,10 @@ namespace Morula
           development.law =
             make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
         if (scene.cells_divide())
-          axes = std::make_shared<const DivisionAxes<dim>>(
-            scene.division,
-            effects.state,
-            rules_of(scene,
-                     setting,
-                     [this](const auto &choice) { return make(choice); }),
-            scene.random_seed);
+          axes = std::make_shared<const DivisionAxes<dim>>(scene.division,
+                                                           effects.state,
+                                                           make_rules(),
+                                                           scene.random_seed);
         make_all(catalogue.growth_factors, development.factors);
         // A factor left of F_law hides it in the product, so it needs a column.
         if (scene.has_growth() && !development.factors.empty())
@@ -197,7 +162,7 @@ namespace Morula
         if (types && scene.material.forgets_stress())
           {
             effects.columns.need_growth();
-            development.flows.push_back(std::make_unique<Forgetting<dim>>());
+            development.flows.push_back(forgetting<dim>());
           }
         make_all(catalogue.flows, development.flows);
         // Where cells grow by a fate F_r is a factor of the growth before it.
@@ -236,6 +201,34 @@ namespace Morula
       }
 
     private:
+      /** Makes each of the rules that types of cells have once. */
+      DivisionRules<dim>
+      make_rules()
+      {
+        // Types may share an axis, so each rule is made once, by its name, and
+        // types point to it. The random axis is no rule: it is a null pointer.
+        DivisionRules<dim>                               all;
+        std::map<std::string, const DivisionRule<dim> *> rules;
+        for (const std::string &axis : scene.division_axes())
+          {
+            const std::string field = field_of_gradient(axis);
+            const auto *choice = find_choice(catalogue.division_rules, axis);
+            rules[axis]        = nullptr;
+            if (field.empty() && choice == nullptr)
+              continue;
+            if (field.empty())
+              all.list.push_back(make(*choice));
+            else
+              all.list.push_back(
+                std::make_unique<GradientAxis<dim>>(field, setting));
+            rules[axis] = all.list.back().get();
+          }
+        for (unsigned int type = 0; type < scene.cell_types.types.size();
+             ++type)
+          all.of_type.push_back(rules.at(scene.division_axis(type)));
+        return all;
+      }
+
       /** Makes an effect. One that has declared columns is told of every cell's
        *  begin and advance. */
       template <template <int> class Interface>

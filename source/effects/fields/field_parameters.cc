@@ -4,6 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/name_list.h>
+#include <morula/effects/fields/field.h>
 #include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>

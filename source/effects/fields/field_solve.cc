@@ -18,6 +18,13 @@
 
 namespace Morula
 {
+  /** When a solution of linear equations is good enough. */
+  struct LinearAccuracy
+  {
+    double tolerance; // of the residual, relative to the right-hand side
+    double reduction; // or relative to what it was at the start
+  };
+
   namespace
   {
     /** Differences within a grid cell level out at this rate, in units of D/h²:

@@ -59,14 +59,6 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<EquationInRun<dim>>
-  Fields<dim>::in_run(const RunTools<dim> &tools) const
-  {
-    return std::make_unique<StepFields<dim>>(*this, tools);
-  }
-
-
-  template <int dim>
   bool
   Fields<dim>::any(const FieldKind kind) const
   {
@@ -285,11 +277,10 @@ namespace Morula
 
 
   template <int dim>
-  std::vector<FieldTotals>
-  Fields<dim>::totals(const Tissue<dim> &tissue) const
+  void
+  Fields<dim>::describe(const Tissue<dim> &tissue, NamedNumbers &numbers) const
   {
-    const Cells<dim>        &cells = tissue.cells();
-    std::vector<FieldTotals> list;
+    const Cells<dim> &cells = tissue.cells();
     for (unsigned int k = 0; k < fields.size(); ++k)
       {
         // One pass over the cells of this rank for each field; the mean is over
@@ -310,12 +301,11 @@ namespace Morula
         amount              = Utilities::MPI::sum(amount, comm);
         volume              = Utilities::MPI::sum(volume, comm);
         // Without cells all quantities are 0.
-        if (volume > 0.)
-          list.push_back({fields[k].name(), least, amount / volume, most});
-        else
-          list.push_back({fields[k].name(), 0., 0., 0.});
+        const std::string &name = fields[k].name();
+        numbers[name + "_min"]  = volume > 0. ? least : 0.;
+        numbers[name + "_mean"] = volume > 0. ? amount / volume : 0.;
+        numbers[name + "_max"]  = volume > 0. ? most : 0.;
       }
-    return list;
   }
 
 

@@ -230,6 +230,27 @@ namespace Morula
       Parameters                      keys;
       Column<SymmetricTensor<2, dim>> motion; // fᵀf
     };
+
+    /** All that is elastic in F flows at once. */
+    template <int dim>
+    class Forgetting : public Flow<dim>
+    {
+    public:
+      FlowOfStep<dim>
+      flow(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &after,
+           const Tensor<2, dim> &,
+           const Tensor<2, dim> &,
+           const double,
+           const double) const override
+      {
+        if (after.get(cell.reader().columns.type) == cell.type())
+          return {};
+        // All of F_e becomes growth, so that none of it is left with the growth
+        // of t0.
+        return {cell.elastic(), 0., true};
+      }
+    };
   } // namespace
 
 
@@ -238,4 +259,18 @@ namespace Morula
   {
     choices.push_back(Choice<Flow>::of<Relaxation>("relaxation", "", example));
   }
+
+
+  template <int dim>
+  std::unique_ptr<const Flow<dim>>
+  forgetting()
+  {
+    return std::make_unique<Forgetting<dim>>();
+  }
+
+
+  template std::unique_ptr<const Flow<2>>
+  forgetting();
+  template std::unique_ptr<const Flow<3>>
+  forgetting();
 } // namespace Morula

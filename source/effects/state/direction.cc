@@ -14,6 +14,20 @@ namespace Morula
 {
   namespace
   {
+    /** How a direction is given. */
+    enum class DirectionKind
+    {
+      /** The vector of an expression. */
+      expression,
+      /** The direction from Tissue/Center to the founder. */
+      radial,
+      /** The outward normal of the surface near the founder, at t = 0. */
+      surface_normal,
+      /** The direction in which a field rises fastest. */
+      gradient
+    };
+
+
     const std::map<std::string, DirectionKind> words{
       {"radial", DirectionKind::radial},
       {"surface normal", DirectionKind::surface_normal}};
@@ -84,18 +98,11 @@ namespace Morula
   }
 
 
-  DirectionKind
-  CellDirectionKey::kind(const unsigned int type) const
-  {
-    return kind_of(text_of(type));
-  }
-
-
   const std::string &
   CellDirectionKey::text_of(const unsigned int type) const
   {
     const auto own = of_types.find(type);
-    return own == of_types.end() ? written : own->second.text;
+    return own == of_types.end() ? written : own->second.second;
   }
 
 
@@ -104,18 +111,8 @@ namespace Morula
   {
     std::vector<std::string> list{written};
     for (const auto &[type, own] : of_types)
-      list.push_back(own.text);
+      list.push_back(own.second);
     return list;
-  }
-
-
-  bool
-  CellDirectionKey::has(const DirectionKind kind) const
-  {
-    const std::vector<std::string> list = texts();
-    return std::any_of(list.begin(), list.end(), [&](const std::string &text) {
-      return kind_of(text) == kind;
-    });
   }
 
 
@@ -167,7 +164,7 @@ namespace Morula
     // checked at each cell when it is used.
     check_field(path(), written);
     for (const auto &[type, own] : of_types)
-      check_field(own.path, own.text);
+      check_field(own.first, own.second);
     ExpressionKey::check(dim);
     if (empty())
       return;
@@ -197,10 +194,11 @@ namespace Morula
     // The state is told what directions will read, for all types of cells. Then
     // it declares the columns for it, and nothing is stored that no expression
     // needs.
-    if (key.has(DirectionKind::surface_normal))
-      setting.state.need_surface_normal();
     for (const std::string &text : key.texts())
-      if (const std::string field = field_of_gradient(text); !field.empty())
+      if (kind_of(text) == DirectionKind::surface_normal)
+        setting.state.need_surface_normal();
+      else if (const std::string field = field_of_gradient(text);
+               !field.empty())
         fields[text] = setting.state.need_gradient(field);
   }
 
@@ -214,7 +212,7 @@ namespace Morula
     // undefined, at the centre or where a field is flat, becomes the x axis; a
     // vector that the user wrote as zero is a mistake and is refused.
     Tensor<1, dim> direction;
-    switch (key.kind(cell.type()))
+    switch (kind_of(key.text_of(cell.type())))
       {
         case DirectionKind::radial:
           direction = cell.cell().founder_position() - center;

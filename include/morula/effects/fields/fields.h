@@ -17,14 +17,7 @@
 
 namespace Morula
 {
-  /** When a solution of linear equations is good enough. */
-  struct LinearAccuracy
-  {
-    /** The residual, relative to the right-hand side. */
-    double tolerance;
-    /** Or relative to what it was at the start. */
-    double reduction;
-  };
+  struct LinearAccuracy;
 
   /** What was found for one field at the cells of this rank, in their order. */
   template <int dim>
@@ -228,12 +221,13 @@ namespace Morula
     std::optional<std::vector<char>> touching;
   };
 
-  /** A field over all cells of the tissue, on all ranks. */
-  struct FieldTotals
-  {
-    std::string name;
-    double      min, mean, max; // mean over the volume
-  };
+  template <int dim>
+  class Fields;
+
+  /** The fields in the steps of a run. Keeps references to the arguments. */
+  template <int dim>
+  std::unique_ptr<EquationInRun<dim>>
+  fields_in_run(const Fields<dim> &fields, const RunTools<dim> &tools);
 
   /**
    * The fields of a scene: what diffuses through the tissue, is made and used
@@ -258,7 +252,10 @@ namespace Morula
     }
 
     std::unique_ptr<EquationInRun<dim>>
-    in_run(const RunTools<dim> &tools) const override;
+    in_run(const RunTools<dim> &tools) const override
+    {
+      return fields_in_run(*this, tools);
+    }
 
     bool
     is_steady() const override
@@ -326,9 +323,10 @@ namespace Morula
     bool
     any(const FieldKind kind) const;
 
-    /** The totals of all fields, all 0 where there are no cells. Collective. */
-    std::vector<FieldTotals>
-    totals(const Tissue<dim> &tissue) const;
+    /** Gives their least, mean and largest values, 0 where there are no cells.
+     *  Collective. */
+    void
+    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const;
 
   private:
     /** Finds the order in which fields can be found. */
@@ -349,69 +347,6 @@ namespace Morula
     std::vector<Field<dim>>                fields;
     std::vector<Column<double>>            columns;
     std::vector<Column<Tensor<1, dim>>>    gradients;
-  };
-
-  /**
-   * The fields of a scene in the steps of a run. The solver is made for the
-   * first field of a configuration, shared by the others, and kept until the
-   * tissue moves. Keeps references to what it is made from.
-   */
-  template <int dim>
-  class StepFields : public EquationInRun<dim>
-  {
-  public:
-    StepFields(const Fields<dim> &fields, const RunTools<dim> &tools);
-
-    /** Resets the counts of clipped values. */
-    void
-    begin_step() override;
-
-    /** Gives cells the steady fields. */
-    void
-    settle(Tissue<dim>            &tissue,
-           const SplineSpace<dim> &space,
-           const double            t) override;
-
-    /** Gives cells the transient fields. The tissue is about to move, so the
-     *  solver is forgotten. */
-    void
-    advance(Tissue<dim>            &tissue,
-            const SplineSpace<dim> &space,
-            const double            t,
-            const double            t_next) override;
-
-    /** Forgets the solver. */
-    void
-    forget_configuration() override;
-
-    /** The fields' columns of statistics.csv. */
-    void
-    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const override;
-
-  private:
-    /** The fields of one kind at @p t1. */
-    FieldsOfStep<dim>
-    find(const FieldKind         kind,
-         const Tissue<dim>      &tissue,
-         const SplineSpace<dim> &space,
-         const double            t,
-         const double            t1);
-    /** @throws InputError about a field that has no steady state */
-    void
-    warn_if_unsettled(const FieldSolution<dim> &field, const double t);
-    void
-    warn_if_raised(const FieldSolution<dim> &field, const double t);
-    void
-    warn_of_nothing(const FieldSolution<dim> &field, const double t);
-
-    const Fields<dim>              &fields;
-    const FieldsParameters         &parameters;
-    const RunTools<dim>             tools;
-    std::optional<FieldSolver<dim>> solver;         // of the configuration
-    std::vector<std::uint64_t>      clipped;        // by field, in the step
-    bool                            warned = false; // of one not converged
-    bool                            warned_of_surface = false; // too rough
-    bool                            warned_of_nothing = false; // in a piece
   };
 } // namespace Morula
 

@@ -11,6 +11,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <memory>
+
 namespace Morula
 {
   using namespace dealii;
@@ -56,28 +58,11 @@ namespace Morula
     }
   };
 
-  /** Cells that change their type and are then free of stress as they stand,
-   *  `Material/On transition`: doc/theory.md, section 6.8. All that is elastic
-   *  in F flows at once. */
+  /** The flow of cells that change their type and are then free of stress as
+   *  they stand, `Material/On transition`: doc/theory.md, section 6.8. */
   template <int dim>
-  class Forgetting : public Flow<dim>
-  {
-  public:
-    FlowOfStep<dim>
-    flow(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &after,
-         const Tensor<2, dim> &,
-         const Tensor<2, dim> &,
-         const double,
-         const double) const override
-    {
-      if (after.get(cell.reader().columns.type) == cell.type())
-        return {};
-      // All of F_e becomes growth, so that none of it is left with the growth
-      // of t0.
-      return {cell.elastic(), 0., true};
-    }
-  };
+  std::unique_ptr<const Flow<dim>>
+  forgetting();
 } // namespace Morula
 
 #endif

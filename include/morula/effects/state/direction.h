@@ -12,24 +12,12 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
 {
   using namespace dealii;
-
-  /** How a direction is given. */
-  enum class DirectionKind
-  {
-    /** The vector of an expression. */
-    expression,
-    /** The direction from Tissue/Center to the founder. */
-    radial,
-    /** The outward normal of the surface near the founder, at t = 0. */
-    surface_normal,
-    /** The direction in which a field rises fastest. */
-    gradient
-  };
 
   /** The field of "gradient of NAME"; empty for any other text. */
   std::string
@@ -47,14 +35,6 @@ namespace Morula
 
     CellDirectionKey &
     operator=(const std::string &text);
-
-    /** How the direction of cells of a type is given, by the type's number. */
-    DirectionKind
-    kind(const unsigned int type) const;
-
-    /** Whether some type's direction is given in this way. */
-    bool
-    has(const DirectionKind kind) const;
 
     /** The text that gives the direction of cells of a type. */
     const std::string &
@@ -85,14 +65,9 @@ namespace Morula
     void
     check_field(const std::string &path, const std::string &text) const;
 
-    /** A type's own direction. */
-    struct Own
-    {
-      std::string path, text;
-    };
-
-    std::string                 written;
-    std::map<unsigned int, Own> of_types;
+    std::string written;
+    /** Paths and texts of types' own directions. */
+    std::map<unsigned int, std::pair<std::string, std::string>> of_types;
   };
 
   /** The direction that such a key gives to each cell. */

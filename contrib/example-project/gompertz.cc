@@ -96,6 +96,6 @@ int
 main(int argc, char *argv[])
 {
   Morula::Program program;
-  program.catalogue.add_growth_law<MyMorula::GompertzGrowth>("gompertz");
+  program.catalogue.add<MyMorula::GompertzGrowth>("gompertz");
   return program.run(argc, argv);
 }

@@ -212,8 +212,7 @@ int
 main(int argc, char *argv[])
 {
   Morula::Program program;
-  program.catalogue.add_growth_law<Step7::CrowdingLimitedGrowth>(
-    "crowding limited");
-  program.catalogue.add_division_rule<Step7::LongAxis>("long axis");
+  program.catalogue.add<Step7::CrowdingLimitedGrowth>("crowding limited");
+  program.catalogue.add<Step7::LongAxis>("long axis");
   return program.run(argc, argv);
 }

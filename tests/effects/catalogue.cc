@@ -60,9 +60,7 @@ TEST(Catalogue, RefusesNames)
        {"", "none", "isotropic", "random", "By", "a|b", " a", "a ", "dose"})
     {
       Catalogue full = catalogue();
-      EXPECT_THROW(full.add_growth_law<Own::DoseLaw>(name),
-                   std::invalid_argument);
-      EXPECT_THROW(full.add_division_rule<Own::AlongRule>(name),
-                   std::invalid_argument);
+      EXPECT_THROW(full.add<Own::DoseLaw>(name), std::invalid_argument);
+      EXPECT_THROW(full.add<Own::AlongRule>(name), std::invalid_argument);
     }
 }

@@ -29,50 +29,46 @@ namespace Own
   inline void
   add_effects(Catalogue &catalogue)
   {
-    catalogue.add_growth_law<Own::DoseLaw>("dose",
-                                           {"Growth/Law=dose",
-                                            "Growth/Dose/Uptake=1 + 0.1*X*Y"});
-    catalogue.add_division_rule<Own::AlongRule>(
+    catalogue.add<Own::DoseLaw>("dose",
+                                {"Growth/Law=dose",
+                                 "Growth/Dose/Uptake=1 + 0.1*X*Y"});
+    catalogue.add<Own::AlongRule>(
       "along",
       {"Growth/Law=rate",
        "Growth/Rate/Rate=J_e",
        "Division by size/Volume=1.1",
        "Proliferation/Cell cycle/Division axis=along",
        "Proliferation/Cell cycle/Along/Direction=1, 1, 0"});
-    catalogue.add_trait<Own::Ageing>("ageing",
-                                     {"Growth/Law=dose", "Ageing/Record=true"});
-    catalogue.add_growth_factor<Own::Swelling>(
-      "swelling", {"Swelling/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"});
-    catalogue.add_flow<Own::Melting>(
-      "melting",
-      {"Swelling/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)", "Melting/When=t > 0.15"});
-    catalogue.add_fate<Own::Anoikis>("anoikis",
-                                     {"Anoikis/Where=X + Y > 2",
-                                      "Anoikis/After=0.15"});
-    catalogue.add_step_effect<Own::Conversion>(
-      "conversion",
-      {"Fields/Names=raw, made",
-       "Fields/raw/Time=transient",
-       "Fields/raw/Diffusion=1",
-       "Fields/raw/Initial=1 + 0.1*X*Y",
-       "Fields/made/Time=transient",
-       "Fields/made/Diffusion=1",
-       "Conversion/Rate=2"});
-    catalogue.add_step_effect<Own::Census>("census", {"Census/Take=true"});
-    catalogue.add_equation<Own::Sharing>("sharing",
-                                         {"Sharing/Initial=1 + 0.1*X*Y"});
-    catalogue.add_force<Own::Pull>(
-      "pull",
-      {"Boundary conditions/Fixed where=X + Y < -2",
-       "Pull/Density=0.01*t; 0.01*t; 0"});
-    catalogue.add_boundary_condition<Own::Drag>(
-      "drag",
-      {"Boundary conditions/Fixed where=X + Y < -2",
-       "Boundary conditions/Drag/Where=X + Y > 2",
-       "Boundary conditions/Drag/Load=0.1; 0.1; 0"});
+    catalogue.add<Own::Ageing>("ageing",
+                               {"Growth/Law=dose", "Ageing/Record=true"});
+    catalogue.add<Own::Swelling>("swelling",
+                                 {"Swelling/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"});
+    catalogue.add<Own::Melting>("melting",
+                                {"Swelling/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+                                 "Melting/When=t > 0.15"});
+    catalogue.add<Own::Anoikis>("anoikis",
+                                {"Anoikis/Where=X + Y > 2",
+                                 "Anoikis/After=0.15"});
+    catalogue.add<Own::Conversion>("conversion",
+                                   {"Fields/Names=raw, made",
+                                    "Fields/raw/Time=transient",
+                                    "Fields/raw/Diffusion=1",
+                                    "Fields/raw/Initial=1 + 0.1*X*Y",
+                                    "Fields/made/Time=transient",
+                                    "Fields/made/Diffusion=1",
+                                    "Conversion/Rate=2"});
+    catalogue.add<Own::Census>("census", {"Census/Take=true"});
+    catalogue.add<Own::Sharing>("sharing", {"Sharing/Initial=1 + 0.1*X*Y"});
+    catalogue.add<Own::Pull>("pull",
+                             {"Boundary conditions/Fixed where=X + Y < -2",
+                              "Pull/Density=0.01*t; 0.01*t; 0"});
+    catalogue.add<Own::Drag>("drag",
+                             {"Boundary conditions/Fixed where=X + Y < -2",
+                              "Boundary conditions/Drag/Where=X + Y > 2",
+                              "Boundary conditions/Drag/Load=0.1; 0.1; 0"});
     // Bodies to hold together come from a file, so that there is no example:
     // tests/programs/test_own_effects.py has them.
-    catalogue.add_interaction<Own::Tethers>("tethers");
+    catalogue.add<Own::Tethers>("tethers");
     catalogue.materials.add("twofold", own_material(Twofold()));
   }
 } // namespace Own

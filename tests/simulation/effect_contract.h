@@ -191,7 +191,7 @@ namespace Morula
   {
     static std::list<Catalogue> catalogues;
     catalogues.push_back(effects);
-    catalogues.back().add_boundary_condition<Probe>("probe");
+    catalogues.back().add<Probe>("probe");
     std::vector<EffectCase> list;
     for (const auto &[name, example] : effects.examples())
       for (const int dim : {2, 3})

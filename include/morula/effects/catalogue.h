@@ -68,6 +68,14 @@ namespace Morula
       return choice;
     }
 
+    /** Whether an effect is of this kind. */
+    template <template <int> class Effect>
+    static constexpr bool
+    has()
+    {
+      return std::is_base_of<Interface<3>, Effect<3>>::value;
+    }
+
     Choice(const Choice &other)
     {
       *this = other;
@@ -204,110 +212,28 @@ namespace Morula
     /** The library's own effects. */
     Catalogue();
 
-    /** Adds a law that `Growth/Law` can name; its keys stand in
-     *  `Growth/<Name>`. See Choice::of(). */
-    template <template <int> class Law>
-    void
-    add_growth_law(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<Law>(growth_laws, "Growth/", name, example);
-    }
-
-    /** Adds a rule that `Proliferation/Cell cycle/Division axis` can name; its
-     *  keys stand in `Proliferation/Cell cycle/<Name>`. */
-    template <template <int> class Rule>
-    void
-    add_division_rule(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<Rule>(division_rules,
-                           "Proliferation/Cell cycle/",
-                           name,
-                           example);
-    }
-
-    /** Adds a force. A scene has it if its keys say so; they stand in `<Name>`.
+    /**
+     * Adds an effect, behind those of its kind. The kind is the class that it
+     * is derived from. A growth law is chosen by its name in `Growth/Law`, a
+     * division rule in `Proliferation/Cell cycle/Division axis`; a scene has
+     * others if their keys say so. The keys stand in a section `<Name>`, those
+     * of a growth law in `Growth/<Name>`, of a division rule in
+     * `Proliferation/Cell cycle/<Name>`, of a condition on the surface in
+     * `Boundary conditions/<Name>`. See Choice::of().
+     * @throws std::invalid_argument for names that are in use or that a .prm
+     *         file cannot hold
      */
-    template <template <int> class AddedForce>
-    void
-    add_force(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<AddedForce>(forces, "", name, example);
-    }
-
-    /** Adds a factor of F_g, left of those before. A scene has it if its keys
-     *  say so; they stand in `<Name>`. */
-    template <template <int> class Factor>
-    void
-    add_growth_factor(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<Factor>(growth_factors, "", name, example);
-    }
-
-    /** Adds a flow, which acts after those before. A scene has it if its keys
-     *  say so; they stand in `<Name>`. */
-    template <template <int> class AddedFlow>
-    void
-    add_flow(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<AddedFlow>(flows, "", name, example);
-    }
-
-    /** Adds a trait. A scene has it if its keys say so; they stand in `<Name>`.
-     */
-    template <template <int> class AddedTrait>
-    void
-    add_trait(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<AddedTrait>(traits, "", name, example);
-    }
-
-    /** Adds a step effect, whose moments come after those before. A scene has
-     * it if its keys say so; they stand in `<Name>`. */
     template <template <int> class Added>
     void
-    add_step_effect(const std::string &name, const Settings &example = {})
+    add(const std::string &name, const Settings &example = {})
     {
-      add_in_section<Added>(step_effects, "", name, example);
-    }
-
-    /** Adds a fate, which is asked after those before. A scene has it if its
-     *  keys say so; they stand in `<Name>`. */
-    template <template <int> class AddedFate>
-    void
-    add_fate(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<AddedFate>(fates, "", name, example);
-    }
-
-    /** Adds an equation, found after those before. A scene has it if its keys
-     *  say so; they stand in `<Name>`. */
-    template <template <int> class Added>
-    void
-    add_equation(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<Added>(equations, "", name, example);
-    }
-
-    /** Adds an interaction of bodies. A scene has it if its keys say so; they
-     *  stand in `<Name>`. */
-    template <template <int> class Added>
-    void
-    add_interaction(const std::string &name, const Settings &example = {})
-    {
-      add_in_section<Added>(interactions, "", name, example);
-    }
-
-    /** Adds a condition on the surface. A scene has it if its keys say so; they
-     *  stand in `Boundary conditions/<Name>`. */
-    template <template <int> class Condition>
-    void
-    add_boundary_condition(const std::string &name,
-                           const Settings    &example = {})
-    {
-      add_in_section<Condition>(boundary_conditions,
-                                "Boundary conditions/",
-                                name,
-                                example);
+      check_name(name);
+      for_each_kind(*this, [&](auto &choices, const std::string &around) {
+        using Kind = typename std::decay_t<decltype(choices)>::value_type;
+        if constexpr (Kind::template has<Added>())
+          choices.push_back(
+            Kind::template of<Added>(name, section(around, name), example));
+      });
     }
 
     /** The keys of an effect, by their type. */
@@ -366,41 +292,35 @@ namespace Morula
     Choices<Interaction>       interactions;
 
   private:
-    /** Adds an effect whose keys stand in @p around and a section of its own.
+    /** Calls @p action for all kinds of effects of a catalogue, which may be
+     *  constant: with the choices, and the section around those of added ones.
      */
-    template <template <int> class Added, template <int> class Interface>
-    void
-    add_in_section(Choices<Interface> &choices,
-                   const std::string  &around,
-                   const std::string  &name,
-                   const Settings     &example)
+    template <typename Self, typename Action>
+    static void
+    for_each_kind(Self &self, const Action &action)
     {
-      check_name(name);
-      choices.push_back(Choice<Interface>::template of<Added>(
-        name, section(around, name), example));
+      action(self.growth_laws, "Growth/");
+      action(self.division_rules, "Proliferation/Cell cycle/");
+      action(self.growth_factors, "");
+      action(self.flows, "");
+      action(self.fates, "");
+      action(self.equations, "");
+      action(self.traits, "");
+      action(self.step_effects, "");
+      action(self.forces, "");
+      action(self.boundary_conditions, "Boundary conditions/");
+      action(self.interactions, "");
     }
 
-    /** Calls @p action for all effects of all kinds of a catalogue, which may
-     *  be constant. */
+    /** Calls @p action for all effects of all kinds. */
     template <typename Self, typename Action>
     static void
     for_each(Self &self, const Action &action)
     {
-      const auto of_kind = [&action](auto &choices) {
+      for_each_kind(self, [&action](auto &choices, const std::string &) {
         for (auto &choice : choices)
           action(choice);
-      };
-      of_kind(self.growth_laws);
-      of_kind(self.division_rules);
-      of_kind(self.growth_factors);
-      of_kind(self.flows);
-      of_kind(self.fates);
-      of_kind(self.equations);
-      of_kind(self.traits);
-      of_kind(self.step_effects);
-      of_kind(self.forces);
-      of_kind(self.boundary_conditions);
-      of_kind(self.interactions);
+      });
     }
 
     /** The first keys of a type. */
@@ -417,8 +337,6 @@ namespace Morula
       return *found;
     }
 
-    /** @throws std::invalid_argument for names that are in use or that a .prm
-     *  file cannot hold */
     void
     check_name(const std::string &name);
 

@@ -56,9 +56,9 @@ namespace Morula
      *  know their full paths; an effect of a user's program gets a section. */
     template <template <int> class Effect, template <int> class Interface>
     void
-    add(Choices<Interface>        &choices,
-        const std::string         &name,
-        const Catalogue::Settings &example)
+    add_own(Choices<Interface>        &choices,
+            const std::string         &name,
+            const Catalogue::Settings &example)
     {
       choices.push_back(
         Choice<Interface>::template of<Effect>(name, "", example));
@@ -94,98 +94,103 @@ namespace Morula
     // made, declare their columns and stand in the printed parameters. Growth
     // factors and flows are applied in it as well, so a new effect belongs at
     // the end of its kind.
-    add<IsotropicGrowth>(growth_laws, "isotropic", uneven);
-    add<RateGrowth>(growth_laws, "rate", growing);
+    add_own<IsotropicGrowth>(growth_laws, "isotropic", uneven);
+    add_own<RateGrowth>(growth_laws, "rate", growing);
     add_contraction(growth_factors,
                     {"Contraction/Stretch=1 - 0.2*t",
                      "Contraction/Direction=1; 1; 0"});
     add_relaxation(flows, with(uneven, {"Material/Relaxation time=0.2"}));
-    add<Proliferation>(fates, "cell cycle", cycling);
-    add<DivisionBySize>(fates, "division by size", dividing("random"));
-    add<Death>(fates,
-               "death",
-               {"Material/Energy per=grown volume",
-                "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
-                "Death/Shrinking time=0.2"});
-    add<Extrusion>(fates, "extrusion", {"Extrusion/Rate=1"});
-    add<Fields>(equations,
-                "fields",
-                {"Fields/Names=signal",
-                 "Fields/signal/Time=transient",
-                 "Fields/signal/Diffusion=1",
-                 "Fields/signal/Consumption=signal",
-                 "Fields/signal/Initial=1 + 0.1*X*Y",
-                 "Fields/signal/Fixed where=X + Y > 2"});
-    add<FixedAxis>(division_rules, "fixed", cycling);
-    add<StretchAxis>(division_rules, "stretch", dividing("stretch"));
-    add<StressAxis>(division_rules, "stress", dividing("stress"));
-    add<RadialAxis>(division_rules, "radial", dividing("radial"));
-    add<SurfaceNormalAxis>(division_rules,
-                           "surface normal",
-                           dividing("surface normal"));
-    add<TangentialAxis>(division_rules, "tangential", dividing("tangential"));
-    add<Rearrangement>(step_effects,
-                       "rearrangement",
-                       {"Rearrangement/Diffusion=1"});
+    add_own<Proliferation>(fates, "cell cycle", cycling);
+    add_own<DivisionBySize>(fates, "division by size", dividing("random"));
+    add_own<Death>(fates,
+                   "death",
+                   {"Material/Energy per=grown volume",
+                    "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
+                    "Death/Shrinking time=0.2"});
+    add_own<Extrusion>(fates, "extrusion", {"Extrusion/Rate=1"});
+    add_own<Fields>(equations,
+                    "fields",
+                    {"Fields/Names=signal",
+                     "Fields/signal/Time=transient",
+                     "Fields/signal/Diffusion=1",
+                     "Fields/signal/Consumption=signal",
+                     "Fields/signal/Initial=1 + 0.1*X*Y",
+                     "Fields/signal/Fixed where=X + Y > 2"});
+    add_own<FixedAxis>(division_rules, "fixed", cycling);
+    add_own<StretchAxis>(division_rules, "stretch", dividing("stretch"));
+    add_own<StressAxis>(division_rules, "stress", dividing("stress"));
+    add_own<RadialAxis>(division_rules, "radial", dividing("radial"));
+    add_own<SurfaceNormalAxis>(division_rules,
+                               "surface normal",
+                               dividing("surface normal"));
+    add_own<TangentialAxis>(division_rules,
+                            "tangential",
+                            dividing("tangential"));
+    add_own<Rearrangement>(step_effects,
+                           "rearrangement",
+                           {"Rearrangement/Diffusion=1"});
     add_neighbours(step_effects,
                    {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"});
     add_present_depth(step_effects,
                       {"Growth/Law=rate",
                        "Growth/Rate/Rate=0.2*present_depth"});
-    add<CellShapeAxis>(division_rules, "cell shape", dividing("cell shape"));
-    add<BodyForce>(forces,
-                   "body force",
-                   with(held, {"Body force/Force density=0.01*x; 0.01*y; 0"}));
-    add<Friction>(forces,
-                  "friction",
-                  with(uneven, {"Friction/Coefficient=0.1"}));
-    add<TypeTension>(forces,
-                     "type tension",
-                     with(two_types, {"Cell types/a/Tension/With b=0.1"}));
-    add<Fixed>(boundary_conditions,
-               "fixed",
-               with(held,
-                    {"Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
-    add<Slip>(boundary_conditions,
-              "slip",
-              with(uneven,
-                   {"Boundary conditions/Slip where=X + Y < -2",
-                    "Friction/Coefficient=0.1"}));
-    add<Traction>(boundary_conditions,
-                  "traction",
-                  with(held,
-                       {"Boundary conditions/Traction where=X + Y > 2",
-                        "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
-    add<Pressure>(boundary_conditions,
-                  "pressure",
-                  with(held,
-                       {"Boundary conditions/Pressure where=X + Y > 2",
-                        "Boundary conditions/Pressure=0.1"}));
-    add<SurfaceTension>(boundary_conditions,
-                        "surface tension",
-                        {"Boundary conditions/Surface tension=0.1"});
-    add<Lumen>(boundary_conditions,
-               "lumen",
-               {"Dimension=2",
-                "Tissue/Radius=5",
-                "Tissue/Inner radius=3",
-                "Boundary conditions/Lumen where=X*X + Y*Y < 16",
-                "Boundary conditions/Lumen volume=1 + 0.01*t"});
-    add<Obstacles>(boundary_conditions,
-                   "obstacles",
-                   with(uneven,
-                        {"Obstacles/Names=mould",
-                         "Obstacles/mould/Shape=sphere",
-                         "Obstacles/mould/Side=inside",
-                         "Obstacles/mould/Radius=3.01"}));
-    add<TypeSurfaceTension>(boundary_conditions,
-                            "type surface tension",
-                            with(two_types,
-                                 {"Cell types/b/Tension/With surface=0.1"}));
-    add<Contact>(interactions,
-                 "contact",
-                 with(uneven,
-                      {"Contact/Between=all", "Tissue/Refine surface=true"}));
+    add_own<CellShapeAxis>(division_rules,
+                           "cell shape",
+                           dividing("cell shape"));
+    add_own<BodyForce>(forces,
+                       "body force",
+                       with(held,
+                            {"Body force/Force density=0.01*x; 0.01*y; 0"}));
+    add_own<Friction>(forces,
+                      "friction",
+                      with(uneven, {"Friction/Coefficient=0.1"}));
+    add_own<TypeTension>(forces,
+                         "type tension",
+                         with(two_types, {"Cell types/a/Tension/With b=0.1"}));
+    add_own<Fixed>(boundary_conditions,
+                   "fixed",
+                   with(held,
+                        {"Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
+    add_own<Slip>(boundary_conditions,
+                  "slip",
+                  with(uneven,
+                       {"Boundary conditions/Slip where=X + Y < -2",
+                        "Friction/Coefficient=0.1"}));
+    add_own<Traction>(boundary_conditions,
+                      "traction",
+                      with(held,
+                           {"Boundary conditions/Traction where=X + Y > 2",
+                            "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
+    add_own<Pressure>(boundary_conditions,
+                      "pressure",
+                      with(held,
+                           {"Boundary conditions/Pressure where=X + Y > 2",
+                            "Boundary conditions/Pressure=0.1"}));
+    add_own<SurfaceTension>(boundary_conditions,
+                            "surface tension",
+                            {"Boundary conditions/Surface tension=0.1"});
+    add_own<Lumen>(boundary_conditions,
+                   "lumen",
+                   {"Dimension=2",
+                    "Tissue/Radius=5",
+                    "Tissue/Inner radius=3",
+                    "Boundary conditions/Lumen where=X*X + Y*Y < 16",
+                    "Boundary conditions/Lumen volume=1 + 0.01*t"});
+    add_own<Obstacles>(boundary_conditions,
+                       "obstacles",
+                       with(uneven,
+                            {"Obstacles/Names=mould",
+                             "Obstacles/mould/Shape=sphere",
+                             "Obstacles/mould/Side=inside",
+                             "Obstacles/mould/Radius=3.01"}));
+    add_own<TypeSurfaceTension>(
+      boundary_conditions,
+      "type surface tension",
+      with(two_types, {"Cell types/b/Tension/With surface=0.1"}));
+    add_own<Contact>(
+      interactions,
+      "contact",
+      with(uneven, {"Contact/Between=all", "Tissue/Refine surface=true"}));
   }
 
 

@@ -88,34 +88,6 @@ namespace Morula
   }
 
 
-  bool
-  SceneKeys::grows(const unsigned int type) const
-  {
-    if (!cell_types.is_on() || cell_types.types[type].growth_law->empty())
-      return growth_law != "none";
-    return cell_types.types[type].growth_law != "none";
-  }
-
-
-  bool
-  SceneKeys::volumes_differ() const
-  {
-    // Volumes differ where cells have grown, or were born, to different ones.
-    return has_active_tissue() || has_any(catalogue.fates) ||
-           tissue.is_points() || tissue.surface_cells == "trimmed";
-  }
-
-
-  std::vector<std::string>
-  SceneKeys::field_names() const
-  {
-    std::vector<std::string> names;
-    for (const NamedField &field : catalogue.named_fields())
-      names.push_back(field.name);
-    return names;
-  }
-
-
   std::vector<const EffectKeys *>
   SceneKeys::effect_keys() const
   {
@@ -176,9 +148,4 @@ namespace Morula
   }
 
 
-  std::vector<std::string>
-  SceneKeys::type_names() const
-  {
-    return cell_types.name_list();
-  }
 } // namespace Morula

@@ -52,16 +52,6 @@ namespace Morula
       bool is_unbalanced = false;
     };
 
-    /** A force at a place of a piece. */
-    template <int dim>
-    struct LoadAt
-    {
-      unsigned int   piece;
-      Point<dim>     x;
-      Tensor<1, dim> force;
-      double         area; // µm^(dim-1); 0 in the body
-    };
-
     /** What ranks add up of a piece. */
     template <int dim>
     struct PieceSums
@@ -122,8 +112,10 @@ namespace Morula
       add_support(const unsigned int    piece,
                   const Point<dim>     &x,
                   const Tensor<2, dim> &held,
-                  const double          weight)
+                  const double          weight,
+                  const bool            is_friction)
       {
+        ++(is_friction ? sums[piece].friction : sums[piece].held);
         std::array<Tensor<1, dim>, n> motion;
         for (unsigned int k = 0; k < n; ++k)
           motion[k] = held * velocity(k, x - center(piece));
@@ -132,23 +124,21 @@ namespace Morula
             sums[piece].S[k * n + l] += weight * (motion[k] * motion[l]);
       }
 
+      /** @param area of the surface, µm^(dim-1); 0 in the body */
       void
-      count_support(const unsigned int piece, const bool is_friction)
+      add_load(const unsigned int    piece,
+               const Point<dim>     &x,
+               const Tensor<1, dim> &force,
+               const double          area)
       {
-        ++(is_friction ? sums[piece].friction : sums[piece].held);
-      }
-
-      void
-      add_load(const LoadAt<dim> &load)
-      {
-        PieceSums<dim> &of = sums[load.piece];
+        PieceSums<dim> &of = sums[piece];
         for (unsigned int k = 0; k < n; ++k)
           {
-            const auto v = velocity(k, load.x - center(load.piece));
-            of.load[k] += load.force * v;
-            of.magnitude[k] += load.force.norm() * v.norm();
+            const auto v = velocity(k, x - center(piece));
+            of.load[k] += force * v;
+            of.magnitude[k] += force.norm() * v.norm();
           }
-        of.area += load.area;
+        of.area += area;
       }
 
       /** The pieces that hold cells. Collective. */
@@ -261,8 +251,8 @@ namespace Morula
                              kind == SurfaceCondition::fixed ?
                                all :
                                outer_product(N, N),
-                             surface.areas[i]);
-          pieces.count_support(piece[i], false);
+                             surface.areas[i],
+                             false);
         }
       std::vector<std::size_t> patches;
       const LoadedPoints<dim>  loaded =
@@ -274,11 +264,10 @@ namespace Morula
           for (std::size_t l = 0; l < forces->size(); ++l)
             {
               const std::size_t i = patches[l];
-              pieces.add_load(
-                {piece[i],
-                 surface.positions[i],
-                 (*forces)[l],
-                 (*forces)[l].norm() > 0. ? surface.areas[i] : 0.});
+              pieces.add_load(piece[i],
+                              surface.positions[i],
+                              (*forces)[l],
+                              (*forces)[l].norm() > 0. ? surface.areas[i] : 0.);
             }
     }
 
@@ -300,7 +289,7 @@ namespace Morula
       for (const auto &[name, force] : model.forces)
         {
           if (const auto load = force->load_of(cell, scene.time.end_time))
-            pieces.add_load({piece, X, V * *load, 0.});
+            pieces.add_load(piece, X, V * *load, 0.);
           const double strength =
             force->friction_of(cell, 0.).value_or(0.) * h * h /
             (scene.time.step * youngs_modulus(cell.lame()));
@@ -309,8 +298,8 @@ namespace Morula
           pieces.add_support(piece,
                              X,
                              Tensor<2, dim>(unit_symmetric_tensor<dim>()),
-                             strength * V / h);
-          pieces.count_support(piece, true);
+                             strength * V / h,
+                             true);
         }
     }
 

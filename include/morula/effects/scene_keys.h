@@ -71,7 +71,12 @@ namespace Morula
 
     /** Whether cells of the type number @p type grow by the law. */
     bool
-    grows(const unsigned int type) const;
+    grows(const unsigned int type) const
+    {
+      if (!cell_types.is_on() || cell_types.types[type].growth_law->empty())
+        return growth_law != "none";
+      return cell_types.types[type].growth_law != "none";
+    }
 
     /** Whether some effect of a kind is on, which its keys switch on. */
     template <template <int> class Interface>
@@ -114,11 +119,20 @@ namespace Morula
     /** The names of the types of cells, by their numbers; empty: all cells are
      *  alike. */
     std::vector<std::string>
-    type_names() const;
+    type_names() const
+    {
+      return cell_types.name_list();
+    }
 
     /** The names of the fields of cells, by their numbers. */
     std::vector<std::string>
-    field_names() const;
+    field_names() const
+    {
+      std::vector<std::string> names;
+      for (const NamedField &field : catalogue.named_fields())
+        names.push_back(field.name);
+      return names;
+    }
 
     /** The keys of all effects: first those that are no entry of the catalogue.
      */
@@ -131,7 +145,12 @@ namespace Morula
 
     /** Whether volumes of cells may differ. */
     bool
-    volumes_differ() const;
+    volumes_differ() const
+    {
+      // Volumes differ where cells have grown, or were born, to different ones.
+      return has_active_tissue() || has_any(catalogue.fates) ||
+             tissue.is_points() || tissue.surface_cells == "trimmed";
+    }
 
     /** The keys of an effect, by their type: e.g. keys<FixedParameters>(). */
     template <typename Parameters>

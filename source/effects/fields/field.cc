@@ -57,41 +57,10 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Field<dim>::has_nonlinear_source() const
-  {
-    // Whether the field reads itself decides how it is solved, so it is asked
-    // of the expressions rather than of a key.
-    const Variable own = field_variable(number);
-    return diffusion_.uses(own) || production_.uses(own);
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::depends_on(const unsigned int other) const
-  {
-    const Variable variable = field_variable(other);
-    return other != number &&
-           (diffusion_.uses(variable) || production_.uses(variable) ||
-            consumption.uses(variable));
-  }
-
-
-  template <int dim>
   double
   Field<dim>::initial(const Point<dim> &X) const
   {
     return at_place(initial_, X, 0.);
-  }
-
-
-  template <int dim>
-  double
-  Field<dim>::used(PresentCell<dim> &cell, const double t, const double c) const
-  {
-    cell.set_field(number, c);
-    return cell.value(consumption, t) * c;
   }
 
 

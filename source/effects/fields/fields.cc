@@ -59,18 +59,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  Fields<dim>::any(const FieldKind kind) const
-  {
-    return std::any_of(fields.begin(),
-                       fields.end(),
-                       [kind](const Field<dim> &field) {
-                         return field.kind() == kind;
-                       });
-  }
-
-
-  template <int dim>
   void
   Fields<dim>::begin(const CellView<dim, double> &cell) const
   {
@@ -251,28 +239,6 @@ namespace Morula
           if (gradients[field.number].exists())
             cell.set(gradients[field.number], field.gradients[p]);
         }
-  }
-
-
-  template <int dim>
-  void
-  Fields<dim>::declare(Tables<dim> &tables) const
-  {
-    for (const Field<dim> &field : fields)
-      for (const std::string what : {"min", "mean", "max", "clipped"})
-        tables.add_number(field.name() + "_" + what);
-  }
-
-
-  template <int dim>
-  std::vector<Column<double>>
-  Fields<dim>::densities() const
-  {
-    std::vector<Column<double>> list;
-    for (unsigned int k = 0; k < fields.size(); ++k)
-      if (fields[k].is_diluted())
-        list.push_back(columns[k]);
-    return list;
   }
 
 

@@ -21,16 +21,6 @@ namespace Morula
   }
 
 
-  bool
-  ContractionParameters::is_on() const
-  {
-    // The keys have no switch of their own: contraction is on if the stretch
-    // may ever differ from 1. Dimension 3 admits all variables, and only the
-    // text counts here.
-    return !stretch.expression(3).is_always(1.);
-  }
-
-
   template <int dim>
   Tensor<2, dim>
   active_strain(const Tensor<1, dim> &a,

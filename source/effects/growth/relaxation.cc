@@ -55,15 +55,6 @@ namespace Morula
   }
 
 
-  bool
-  RelaxationParameters::is_on() const
-  {
-    // A time of zero stands for elastic tissue, though the limit would be a
-    // fluid.
-    return !time.expression(3).is_always(0.);
-  }
-
-
   namespace
   {
     /**

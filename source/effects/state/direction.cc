@@ -98,24 +98,6 @@ namespace Morula
   }
 
 
-  const std::string &
-  CellDirectionKey::text_of(const unsigned int type) const
-  {
-    const auto own = of_types.find(type);
-    return own == of_types.end() ? written : own->second.second;
-  }
-
-
-  std::vector<std::string>
-  CellDirectionKey::texts() const
-  {
-    std::vector<std::string> list{written};
-    for (const auto &[type, own] : of_types)
-      list.push_back(own.second);
-    return list;
-  }
-
-
   void
   CellDirectionKey::assign(const std::string &text)
   {
@@ -242,16 +224,6 @@ namespace Morula
             }
       }
     return direction / direction.norm();
-  }
-
-
-  template <int dim>
-  bool
-  DirectionOfCell<dim>::follows_state() const
-  {
-    // A radial direction and the normal are fixed at t = 0; a gradient turns as
-    // the field changes.
-    return !fields.empty() || expression.follows_state();
   }
 
 

@@ -127,17 +127,6 @@ namespace Morula
   }
 
 
-  bool
-  NeighbourParameters::is_on() const
-  {
-    return std::any_of(variables.begin(),
-                       variables.end(),
-                       [](const NeighbourVariable &told) {
-                         return told.kind != NeighbourVariable::slope;
-                       });
-  }
-
-
   std::string
   NeighbourParameters::details() const
   {

@@ -50,16 +50,6 @@ namespace Morula
 
 
   template <int dim>
-  unsigned int
-  PresentCell<dim>::type() const
-  {
-    // Without types in the scene there is no column, and all cells are of type
-    // 0.
-    return reader_.columns.type.exists() ? cell_.get(reader_.columns.type) : 0;
-  }
-
-
-  template <int dim>
   std::uint64_t
   PresentCell<dim>::lineage_key() const
   {
@@ -125,48 +115,6 @@ namespace Morula
                                     reader_.material.per_grown_volume());
     has_quantities = true;
     return quantities_;
-  }
-
-
-  template <int dim>
-  double
-  PresentCell<dim>::value(const Expression  &expression,
-                          const double       t,
-                          const unsigned int component) const
-  {
-    provide(expression.used(), t);
-    return expression.value(values, component);
-  }
-
-
-  template <int dim>
-  double
-  PresentCell<dim>::value(const Variable variable, const double t) const
-  {
-    provide({variable}, t);
-    return values[static_cast<unsigned int>(variable)];
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  PresentCell<dim>::vector(const Expression &expression, const double t) const
-  {
-    provide(expression.used(), t);
-    Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = expression.value(values, d);
-    return result;
-  }
-
-
-  template <int dim>
-  VariableValues
-  PresentCell<dim>::variables(const Expression &expression,
-                              const double      t) const
-  {
-    provide(expression.used(), t);
-    return values;
   }
 
 

@@ -133,24 +133,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  StateColumns<dim>::need(const Variable variable)
-  {
-    if (!uses(variable))
-      used.insert(std::upper_bound(used.begin(), used.end(), variable),
-                  variable);
-  }
-
-
-  template <int dim>
-  void
-  StateColumns<dim>::need_surface_normal()
-  {
-    needs_normal = true;
-  }
-
-
-  template <int dim>
   unsigned int
   StateColumns<dim>::need_gradient(const std::string &field)
   {
@@ -182,18 +164,6 @@ namespace Morula
           gradients[k] = columns.template add<Tensor<1, dim>>(
             {name + "_gradient", "1/um", "gradient of the field " + name});
       }
-  }
-
-
-  template <int dim>
-  void
-  StateColumns<dim>::declare_types(CellColumns<dim> &columns)
-  {
-    // The column of the type comes first of all, before effects are made: their
-    // expressions may compare it.
-    if (!types.empty())
-      type = columns.template add<unsigned int>(
-        {"type", "", "number of the cell's type", 0, AtDivision::copied, true});
   }
 
 
@@ -239,16 +209,6 @@ namespace Morula
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});
-  }
-
-
-  template <int dim>
-  bool
-  StateColumns<dim>::any_in_use() const
-  {
-    // X, Y, Z and t come first in the order of variables and need no row of the
-    // cell. So the last of the sorted variables decides.
-    return !types.empty() || (!used.empty() && used.back() > Variable::t);
   }
 
 

@@ -10,6 +10,7 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/boundary_state.h>
 
+#include <algorithm>
 #include <deque>
 #include <optional>
 #include <string>
@@ -260,11 +261,23 @@ namespace Morula
 
     /** Whether its diffusion or production depends on the field itself. */
     bool
-    has_nonlinear_source() const;
+    has_nonlinear_source() const
+    {
+      // Whether the field reads itself decides how it is solved, so it is asked
+      // of the expressions rather than of a key.
+      const Variable own = field_variable(number);
+      return diffusion_.uses(own) || production_.uses(own);
+    }
 
     /** Whether what cells do to it depends on another field, by its number. */
     bool
-    depends_on(const unsigned int other) const;
+    depends_on(const unsigned int other) const
+    {
+      const Variable variable = field_variable(other);
+      return other != number &&
+             (diffusion_.uses(variable) || production_.uses(variable) ||
+              consumption.uses(variable));
+    }
 
     /** D, if it is a plain number. */
     std::optional<double>
@@ -295,7 +308,11 @@ namespace Morula
     /** What a cell uses up at the value @p c, k c, in the field's unit per day.
      *  @param cell has the value afterwards. @throws InputError */
     double
-    used(PresentCell<dim> &cell, const double t, const double c) const;
+    used(PresentCell<dim> &cell, const double t, const double c) const
+    {
+      cell.set_field(number, c);
+      return cell.value(consumption, t) * c;
+    }
 
     /**
      * What a cell uses up at the value @p c, linearised: doc/theory.md (11.4).

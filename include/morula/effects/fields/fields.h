@@ -10,6 +10,7 @@
 #include <morula/mechanics/equilibrium.h>
 #include <morula/particles/tissue.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -293,7 +294,14 @@ namespace Morula
     /** The columns of the fields that growth dilutes, doc/theory.md, section
      *  11.4. */
     std::vector<Column<double>>
-    densities() const override;
+    densities() const override
+    {
+      std::vector<Column<double>> list;
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        if (fields[k].is_diluted())
+          list.push_back(columns[k]);
+      return list;
+    }
 
     /**
      * Finds the fields of one kind at the end @p t1 of a step that begins at @p
@@ -317,11 +325,23 @@ namespace Morula
     /** Least, mean and largest values in statistics.csv, and how many were
      *  clipped. */
     void
-    declare(Tables<dim> &tables) const override;
+    declare(Tables<dim> &tables) const override
+    {
+      for (const Field<dim> &field : fields)
+        for (const std::string what : {"min", "mean", "max", "clipped"})
+          tables.add_number(field.name() + "_" + what);
+    }
 
     /** Whether some are of this kind. */
     bool
-    any(const FieldKind kind) const;
+    any(const FieldKind kind) const
+    {
+      return std::any_of(fields.begin(),
+                         fields.end(),
+                         [kind](const Field<dim> &field) {
+                           return field.kind() == kind;
+                         });
+    }
 
     /** Gives their least, mean and largest values, 0 where there are no cells.
      *  Collective. */

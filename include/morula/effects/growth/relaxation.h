@@ -48,7 +48,12 @@ namespace Morula
       {1, 10000}};
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      // A time of zero stands for elastic tissue, though the limit would be a
+      // fluid.
+      return !time.expression(3).is_always(0.);
+    }
 
     std::string
     details() const override

@@ -38,11 +38,21 @@ namespace Morula
 
     /** The text that gives the direction of cells of a type. */
     const std::string &
-    text_of(const unsigned int type) const;
+    text_of(const unsigned int type) const
+    {
+      const auto own = of_types.find(type);
+      return own == of_types.end() ? written : own->second.second;
+    }
 
     /** The texts that give the directions of all types of cells. */
     std::vector<std::string>
-    texts() const;
+    texts() const
+    {
+      std::vector<std::string> list{written};
+      for (const auto &[type, own] : of_types)
+        list.push_back(own.second);
+      return list;
+    }
 
     std::string
     text() const override
@@ -91,7 +101,12 @@ namespace Morula
 
     /** Whether it changes as the tissue does. */
     bool
-    follows_state() const;
+    follows_state() const
+    {
+      // A radial direction and the normal are fixed at t = 0; a gradient turns
+      // as the field changes.
+      return !fields.empty() || expression.follows_state();
+    }
 
   private:
     Expression       expression;

@@ -8,6 +8,7 @@
 #include <morula/effects/step_effect.h>
 #include <morula/particles/neighbours.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,7 +45,15 @@ namespace Morula
     search() const;
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return std::any_of(variables.begin(),
+                         variables.end(),
+                         [](const NeighbourVariable &told) {
+                           return told.kind != NeighbourVariable::slope;
+                         });
+    }
+
     std::string
     details() const override;
     /**

@@ -92,7 +92,13 @@ namespace Morula
 
     /** Number of the type; 0 if the scene has no types. */
     unsigned int
-    type() const;
+    type() const
+    {
+      // Without types in the scene there is no column, and all cells are of
+      // type 0.
+      return reader_.columns.type.exists() ? cell_.get(reader_.columns.type) :
+                                             0;
+    }
 
     /** Key of the cell's random numbers. */
     std::uint64_t
@@ -144,21 +150,40 @@ namespace Morula
     double
     value(const Expression  &expression,
           const double       t,
-          const unsigned int component = 0) const;
+          const unsigned int component = 0) const
+    {
+      provide(expression.used(), t);
+      return expression.value(values, component);
+    }
 
     /** The value of a variable that some effect has announced to StateColumns,
      *  at @p t (day). */
     double
-    value(const Variable variable, const double t) const;
+    value(const Variable variable, const double t) const
+    {
+      provide({variable}, t);
+      return values[static_cast<unsigned int>(variable)];
+    }
 
     /** The first dim components. @throws InputError */
     Tensor<1, dim>
-    vector(const Expression &expression, const double t) const;
+    vector(const Expression &expression, const double t) const
+    {
+      provide(expression.used(), t);
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = expression.value(values, d);
+      return result;
+    }
 
     /** The values of the variables of an expression at @p t, for code that
      *  changes some of them and evaluates it again. */
     VariableValues
-    variables(const Expression &expression, const double t) const;
+    variables(const Expression &expression, const double t) const
+    {
+      provide(expression.used(), t);
+      return values;
+    }
 
     /** The value that an expression would have if the cell had grown
      *  isotropically by the factor @p ratio in volume while F stayed, as in a

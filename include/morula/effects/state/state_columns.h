@@ -8,6 +8,7 @@
 #include <morula/base/expression.h>
 #include <morula/particles/cell_state.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,12 +79,20 @@ namespace Morula
 
     /** Asks for a variable, for code that reads it without an expression. */
     void
-    need(const Variable variable);
+    need(const Variable variable)
+    {
+      if (!uses(variable))
+        used.insert(std::upper_bound(used.begin(), used.end(), variable),
+                    variable);
+    }
 
     /** Asks for the outward normal of the surface nearest to the founder, at t
      *  = 0: the column `surface_normal`. */
     void
-    need_surface_normal();
+    need_surface_normal()
+    {
+      needs_normal = true;
+    }
 
     /** Asks for the gradient of a field at the cells. @return the field's
      *  number */
@@ -96,7 +105,18 @@ namespace Morula
 
     /** Declares the column `type`, if there are types. */
     void
-    declare_types(CellColumns<dim> &columns);
+    declare_types(CellColumns<dim> &columns)
+    {
+      // The column of the type comes first of all, before effects are made:
+      // their expressions may compare it.
+      if (!types.empty())
+        type = columns.template add<unsigned int>({"type",
+                                                   "",
+                                                   "number of the cell's type",
+                                                   0,
+                                                   AtDivision::copied,
+                                                   true});
+    }
 
     /** Declares the other columns that are needed, when all expressions are
      *  known. */
@@ -121,7 +141,12 @@ namespace Morula
     /** Whether some expression depends on more than place and time, or there
      * are types. */
     bool
-    any_in_use() const;
+    any_in_use() const
+    {
+      // X, Y, Z and t come first in the order of variables and need no row of
+      // the cell. So the last of the sorted variables decides.
+      return !types.empty() || (!used.empty() && used.back() > Variable::t);
+    }
 
     /** Names of the types in the order of their numbers. */
     const std::vector<std::string> &

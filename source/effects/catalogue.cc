@@ -3,18 +3,13 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/contact/contact.h>
-#include <morula/effects/division/axis_rules.h>
-#include <morula/effects/division/cell_shape_axis.h>
-#include <morula/effects/fate/death.h>
-#include <morula/effects/fate/division_by_size.h>
-#include <morula/effects/fate/extrusion.h>
-#include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/friction.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/obstacles/obstacles.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -69,8 +64,7 @@ namespace Morula
   Catalogue::Catalogue()
   {
     // Parts of the examples.
-    const std::string cycle  = "Proliferation/Cell cycle/";
-    const Settings    uneven = {
+    const Settings uneven = {
       "Growth/Law=isotropic",
       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"};
     const Settings growing   = {"Growth/Law=rate",
@@ -78,17 +72,6 @@ namespace Morula
     const Settings held      = {"Boundary conditions/Fixed where=X + Y < -2"};
     const Settings two_types = {"Cell types/Names=a, b",
                                 "Cell types/b/Where=X*Y > 0"};
-    const Settings cycling   = {"Proliferation/Law=cell cycle",
-                                cycle + "Start=together",
-                                cycle + "Duration=0.4",
-                                cycle + "Division axis=fixed",
-                                cycle + "Fixed axis=1; 1; 0"};
-    const auto     dividing  = [&](const std::string &axis) {
-      return with(growing,
-                       {"Division by size/Volume=1.1",
-                   cycle + "Division axis=" + axis,
-                   cycle + "Least anisotropy=1"});
-    };
 
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
@@ -100,14 +83,10 @@ namespace Morula
                     {"Contraction/Stretch=1 - 0.2*t",
                      "Contraction/Direction=1; 1; 0"});
     add_relaxation(flows, with(uneven, {"Material/Relaxation time=0.2"}));
-    add_own<Proliferation>(fates, "cell cycle", cycling);
-    add_own<DivisionBySize>(fates, "division by size", dividing("random"));
-    add_own<Death>(fates,
-                   "death",
-                   {"Material/Energy per=grown volume",
-                    "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
-                    "Death/Shrinking time=0.2"});
-    add_own<Extrusion>(fates, "extrusion", {"Extrusion/Rate=1"});
+    add_cell_cycle(fates);
+    add_division_by_size(fates);
+    add_death(fates);
+    add_extrusion(fates);
     add_own<Fields>(equations,
                     "fields",
                     {"Fields/Names=signal",
@@ -116,16 +95,7 @@ namespace Morula
                      "Fields/signal/Consumption=signal",
                      "Fields/signal/Initial=1 + 0.1*X*Y",
                      "Fields/signal/Fixed where=X + Y > 2"});
-    add_own<FixedAxis>(division_rules, "fixed", cycling);
-    add_own<StretchAxis>(division_rules, "stretch", dividing("stretch"));
-    add_own<StressAxis>(division_rules, "stress", dividing("stress"));
-    add_own<RadialAxis>(division_rules, "radial", dividing("radial"));
-    add_own<SurfaceNormalAxis>(division_rules,
-                               "surface normal",
-                               dividing("surface normal"));
-    add_own<TangentialAxis>(division_rules,
-                            "tangential",
-                            dividing("tangential"));
+    add_division_rules(division_rules);
     add_own<Rearrangement>(step_effects,
                            "rearrangement",
                            {"Rearrangement/Diffusion=1"});
@@ -134,9 +104,6 @@ namespace Morula
     add_present_depth(step_effects,
                       {"Growth/Law=rate",
                        "Growth/Rate/Rate=0.2*present_depth"});
-    add_own<CellShapeAxis>(division_rules,
-                           "cell shape",
-                           dividing("cell shape"));
     add_own<BodyForce>(forces,
                        "body force",
                        with(held,

@@ -37,11 +37,8 @@ namespace Morula
     // costs more memory than its second computation costs time.
     keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
                  !this->effects.flows.empty();
-    announces_growth =
-      this->effects.law &&
-      std::any_of(this->effects.fates.begin(),
-                  this->effects.fates.end(),
-                  [](const auto &fate) { return fate->follows_growth(); });
+    announces_growth = this->effects.law && divides() &&
+                       this->effects.fates.dividing->follows_growth();
   }
 
 
@@ -54,7 +51,7 @@ namespace Morula
       proliferation = cycle;
     if (const auto *of_types = dynamic_cast<const CellTypes<dim> *>(fate.get()))
       types = of_types;
-    fates.push_back(std::move(fate));
+    fates.add(std::move(fate));
   }
 
 
@@ -79,44 +76,13 @@ namespace Morula
       return;
     auto proliferation =
       std::make_unique<Proliferation<dim>>(std::move(*cycle), columns_, 0);
-    DivisionRules<dim> rules;
+    typename DivisionAxes<dim>::Rules rules;
     if (rule)
-      rules.list.push_back(std::move(rule));
-    proliferation->set_axes(std::make_shared<const DivisionAxes<dim>>(
-      DivisionParameters(), state_, std::move(rules), 0));
+      rules.push_back(std::move(rule));
+    proliferation->axes = std::make_shared<const DivisionAxes<dim>>(
+      DivisionParameters(), state_, 0, std::move(rules));
     effects.with_state.push_back(proliferation.get());
     effects.add_fate(std::move(proliferation));
-  }
-
-
-  template <int dim>
-  bool
-  CellDevelopment<dim>::is_mortal() const
-  {
-    return std::any_of(effects.fates.begin(),
-                       effects.fates.end(),
-                       [](const auto &fate) { return fate->is_deadly(); });
-  }
-
-
-  template <int dim>
-  bool
-  CellDevelopment<dim>::divides() const
-  {
-    return std::any_of(effects.fates.begin(),
-                       effects.fates.end(),
-                       [](const auto &fate) { return fate->divides(); });
-  }
-
-
-  template <int dim>
-  const Fate<dim> &
-  CellDevelopment<dim>::dividing_fate() const
-  {
-    // A scene has one at most: a cell cycle refuses others.
-    return **std::find_if(effects.fates.begin(),
-                          effects.fates.end(),
-                          [](const auto &fate) { return fate->divides(); });
   }
 
 
@@ -186,7 +152,7 @@ namespace Morula
     // Without a step only the row is wanted, for example for an estimate.
     if (!(step > 0.))
       return;
-    for (const auto &fate : effects.fates)
+    for (const auto &fate : effects.fates.list)
       fate->check_cell(founder, step);
     if (effects.law)
       effects.law->check_cell(founder, step);
@@ -264,17 +230,17 @@ namespace Morula
     // one she is born with, since the later change is an event of its own.
     if (state_.birth_time.exists())
       daughter.set(state_.birth_time, birth);
-    for (const auto &fate : effects.fates)
+    for (const auto &fate : effects.fates.list)
       fate->inherit(daughter, state_, which, birth);
     const unsigned int own =
       state_.type.exists() ? daughter.get(state_.type) : 0;
     // Where the clock is the only fate there is nothing to do now: it has exact
     // times, so the next step finds what happened since the birth.
-    if (!effects.proliferation || effects.fates.size() > 1)
+    if (!effects.proliferation || effects.fates.list.size() > 1)
       {
         const CellReader<dim>  reader = this->reader(t1);
         const PresentCell<dim> cell(daughter, id, position, reader);
-        live(effects.fates, cell, daughter, birth, t1, events);
+        effects.fates.live(cell, daughter, birth, t1, events);
       }
     return own;
   }

@@ -69,8 +69,7 @@ namespace Morula
         ratio = determinant(effects.law->growth(growing, t0, t1)) /
                 determinant(growing.growth);
       }
-    for (const auto &fate : effects.fates)
-      fate->grow(before, after, ratio, {t0, t1});
+    effects.fates.dividing->grow(before, after, ratio, {t0, t1});
   }
 
 
@@ -211,7 +210,7 @@ namespace Morula
       {
         const PresentCell<dim> cell = present_cell(tissue, p, reader);
         const bool             grows =
-          grows_by_law(cell) && !is_dead(effects.fates, cell.cell());
+          grows_by_law(cell) && !effects.fates.is_dead(cell.cell());
         missed.push_back(grows ? effects.law->missed(growing(cell, t0)) : 0.);
       }
     return missed;

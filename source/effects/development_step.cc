@@ -274,21 +274,20 @@ namespace Morula
     // types beside the cell have changed is in the integrals already, so the
     // next step must not see it as missed: the rate is that among the types at
     // the end.
-    const auto tell = [&](const PresentCell<dim> &cell) {
-      for (const auto &fate : effects.fates)
-        fate->expect(cell, after, t, is_whole);
-    };
     if (around == nullptr)
       {
-        tell(before);
+        effects.fates.expect(before, after, t, is_whole);
         return;
       }
     const auto                  at_t0 = before.cell().row();
     std::vector<double>         row(at_t0.begin(), at_t0.end());
     const CellView<dim, double> at_end(make_array_view(row), columns_);
     around->set(at_end, around->size());
-    tell(PresentCell<dim>(
-      at_end, before.id(), before.position(), before.reader()));
+    effects.fates.expect(
+      PresentCell<dim>(at_end, before.id(), before.position(), before.reader()),
+      after,
+      t,
+      is_whole);
   }
 
 
@@ -312,21 +311,20 @@ namespace Morula
     // that dies or enters S within the step grows otherwise from then on.
     errors.missed_growth       = 0.;
     const std::size_t n_events = events.size();
-    const bool dead = is_dead_at(effects.fates, before, after, t0, events);
+    const bool dead = effects.fates.is_dead_at(before, after, t0, events);
     if (!dead)
       {
-        for (const auto &fate : effects.fates)
-          // The integral of a rate gets what the last step missed of it,
-          // doc/theory.md (5.9), before thresholds are looked for.
-          fate->make_good(before, after);
+        // The integral of a rate gets what the last step missed of it,
+        // doc/theory.md (5.9), before thresholds are looked for.
+        effects.fates.make_good(before, after);
         if (announces_growth)
           announce_growth(before, after, t0, t1);
         // A clock that no other fate can interrupt never has to be taken back,
         // so it needs no search for the earliest event.
-        if (effects.proliferation && effects.fates.size() == 1)
+        if (effects.proliferation && effects.fates.list.size() == 1)
           effects.proliferation->run_clock(before, after, {t0, t1});
         else
-          live(effects.fates, before, after, t0, t1, events, around);
+          effects.fates.live(before, after, t0, t1, events, around);
         expect(
           before, after, 0.5 * (t0 + t1), events.size() == n_events, around);
       }
@@ -340,16 +338,15 @@ namespace Morula
     // grows until its death. Flows come last: they relax the stress of the
     // elastic part, which is known only when all other factors are.
     Tensor<2, dim> F_g =
-      dead ?
-        before.cell().growth() :
-        living_growth(before,
-                      after,
-                      t0,
-                      std::min(t1, time_of_death<dim>(effects.fates, after)),
-                      errors.missed_growth);
-    for (const auto &fate : effects.fates)
-      if (fate->time_of_death(after) <= t1)
-        F_g *= fate->shrink(after, t1);
+      dead ? before.cell().growth() :
+             living_growth(before,
+                           after,
+                           t0,
+                           std::min(t1, effects.fates.time_of_death(after)),
+                           errors.missed_growth);
+    for (const Dies<dim> *const dies : effects.fates.deadly)
+      if (dies->time_of_death(after) <= t1)
+        F_g *= dies->shrink(after, t1);
     F_g = flow(before, after, F_g, t0, t1, errors.flow_shares);
     after.set(columns_.growth, F_g);
   }

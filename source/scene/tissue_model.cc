@@ -2,8 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/division/axis_rules.h>
-#include <morula/effects/division/division_axes.h>
+#include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/types_around.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/direction.h>
@@ -118,7 +117,8 @@ namespace Morula
             {
               fates.push_back(make(choice));
               // The dead may shrink, whatever else grows.
-              if (fates.back()->is_deadly())
+              if (dynamic_cast<const Dies<dim> *>(fates.back().get()) !=
+                  nullptr)
                 effects.columns.need_growth();
             }
       }
@@ -127,11 +127,12 @@ namespace Morula
       make_types()
       {
         types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
-        for (unsigned int type = 0; type < types->size(); ++type)
+        for (unsigned int type = 0; type < scene.cell_types.types.size();
+             ++type)
           {
             development.grows.push_back(scene.grows(type));
-            for (const Expression *const rate : types->rates(type))
-              if (reads_types_around(*rate, effects.state))
+            for (const CellHazard<dim> &way : types->hazards(type))
+              if (reads_types_around(way.rate, effects.state))
                 development.neighbours =
                   scene.keys<NeighbourParameters>().search();
           }
@@ -145,10 +146,7 @@ namespace Morula
           development.law =
             make(*find_choice(catalogue.growth_laws, scene.law_of_growth()));
         if (scene.cells_divide())
-          axes = std::make_shared<const DivisionAxes<dim>>(scene.division,
-                                                           effects.state,
-                                                           make_rules(),
-                                                           scene.random_seed);
+          make_axes();
         make_all(catalogue.growth_factors, development.factors);
         // A factor left of F_law hides it in the product, so it needs a column.
         if (scene.has_growth() && !development.factors.empty())
@@ -179,7 +177,8 @@ namespace Morula
           fates.push_back(std::move(types));
         for (std::unique_ptr<Fate<dim>> &fate : fates)
           {
-            fate->set_axes(axes);
+            if (auto *const divides = dynamic_cast<Divides<dim> *>(fate.get()))
+              divides->axes = axes;
             development.add_fate(std::move(fate));
           }
       }
@@ -201,32 +200,36 @@ namespace Morula
       }
 
     private:
-      /** Makes each of the rules that types of cells have once. */
-      DivisionRules<dim>
-      make_rules()
+      /** Along what cells divide. */
+      void
+      make_axes()
       {
         // Types may share an axis, so each rule is made once, by its name, and
         // types point to it. The random axis is no rule: it is a null pointer.
-        DivisionRules<dim>                               all;
+        typename DivisionAxes<dim>::Rules                all;
         std::map<std::string, const DivisionRule<dim> *> rules;
         for (const std::string &axis : scene.division_axes())
           {
             const std::string field = field_of_gradient(axis);
-            const auto *choice = find_choice(catalogue.division_rules, axis);
-            rules[axis]        = nullptr;
+            const auto *const choice =
+              find_choice(catalogue.division_rules, axis);
+            rules[axis] = nullptr;
             if (field.empty() && choice == nullptr)
               continue;
             if (field.empty())
-              all.list.push_back(make(*choice));
+              all.push_back(make(*choice));
             else
-              all.list.push_back(
-                std::make_unique<GradientAxis<dim>>(field, setting));
-            rules[axis] = all.list.back().get();
+              all.push_back(gradient_axis(field, setting));
+            rules[axis] = all.back().get();
           }
-        for (unsigned int type = 0; type < scene.cell_types.types.size();
-             ++type)
-          all.of_type.push_back(rules.at(scene.division_axis(type)));
-        return all;
+        std::vector<const DivisionRule<dim> *> of_type;
+        for (unsigned int i = 0; i < scene.cell_types.types.size(); ++i)
+          of_type.push_back(rules.at(scene.division_axis(i)));
+        axes = std::make_shared<const DivisionAxes<dim>>(scene.division,
+                                                         effects.state,
+                                                         scene.random_seed,
+                                                         std::move(all),
+                                                         of_type);
       }
 
       /** Makes an effect. One that has declared columns is told of every cell's
@@ -327,7 +330,7 @@ namespace Morula
     std::vector<const Effect<dim> *> list;
     if (development.types != nullptr)
       list.push_back(development.types);
-    for (const auto &fate : development.fates)
+    for (const auto &fate : development.fates.list)
       if (fate.get() != development.types)
         list.push_back(fate.get());
     if (development.law)

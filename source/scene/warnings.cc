@@ -70,7 +70,8 @@ namespace Morula
     coupled_rates(const TissueModel<dim> &model)
     {
       // Types have rates of their own, so they are asked type by type; other
-      // fates have one list for all cells.
+      // fates have one list for all cells. The waits of fates that divide
+      // cells are not looked at.
       const auto seen = [&](const Variable variable) {
         return model.sees_neighbours &&
                is_type_around(variable, model.development.state());
@@ -81,14 +82,15 @@ namespace Morula
         if (feels_others(rate, seen))
           list.push_back({rate, type});
       };
-      if (model.types != nullptr)
-        for (unsigned int type = 0; type < model.types->size(); ++type)
-          for (const Expression *rate : model.types->rates(type))
-            add(*rate, type);
-      for (const auto &fate : model.development.fates())
-        if (fate.get() != model.types)
-          for (const Expression *rate : fate->rates(0))
-            add(*rate, {});
+      for (unsigned int type = 0; type < model.scene.cell_types.types.size();
+           ++type)
+        for (const CellHazard<dim> &way : model.types->hazards(type))
+          add(way.rate, type);
+      for (const auto &fate : model.development.fates().list)
+        if (fate.get() != model.types &&
+            dynamic_cast<const Divides<dim> *>(fate.get()) == nullptr)
+          for (const CellHazard<dim> &hazard : fate->hazards(0))
+            add(hazard.rate, {});
       return list;
     }
 

@@ -288,14 +288,9 @@ namespace Morula
         if (n == 0)
           return;
         row.dividing += n;
-        const Divisions<dim> divisions =
-          Morula::divide(tissue, model.development, due, t, run_state.next_id);
-        births.insert(births.end(),
-                      divisions.births.begin(),
-                      divisions.births.end());
-        events.insert(events.end(),
-                      divisions.events.begin(),
-                      divisions.events.end());
+        const auto born = Morula::divide(
+          tissue, model.development, due, t, run_state.next_id, events);
+        births.insert(births.end(), born.begin(), born.end());
       }
   }
 

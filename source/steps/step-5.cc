@@ -14,7 +14,7 @@
 
 #include <morula/base/expression.h>
 #include <morula/base/input_error.h>
-#include <morula/effects/division/axis_rules.h>
+#include <morula/effects/division/division_rule.h>
 #include <morula/program/program.h>
 #include <morula/simulation/simulation.h>
 

@@ -6,12 +6,9 @@
 
 #include <morula/effects/contact/contact_forces.h>
 #include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/division/axis_rules.h>
 #include <morula/effects/division/directions.h>
 #include <morula/effects/division/divide.h>
-#include <morula/effects/division/numbering.h>
-#include <morula/effects/fate/death.h>
-#include <morula/effects/fate/division_by_size.h>
+#include <morula/effects/fate/random.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/fields/field_equation.h>
 #include <morula/effects/forces/friction.h>

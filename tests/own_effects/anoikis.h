@@ -40,7 +40,7 @@ namespace Own
   };
 
   template <int dim>
-  class Anoikis : public Fate<dim>
+  class Anoikis : public Fate<dim>, public Dies<dim>
   {
   public:
     using Parameters = AnoikisKeys;
@@ -85,24 +85,12 @@ namespace Own
       return LifeAfter::ends;
     }
 
-    bool
-    is_deadly() const override
-    {
-      return true;
-    }
-
     double
     time_of_death(const CellView<dim, const double> &cell) const override
     {
       return cell.get(lost_time) < 0. ?
                std::numeric_limits<double>::infinity() :
                cell.get(lost_time);
-    }
-
-    double
-    removal_time(const CellView<dim, const double> &cell) const override
-    {
-      return time_of_death(cell); // at once
     }
 
   private:

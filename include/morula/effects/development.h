@@ -5,7 +5,6 @@
 #define morula_effects_development_h
 
 #include <morula/effects/fate/cell_types.h>
-#include <morula/effects/fate/life.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/present_cell.h>
@@ -265,7 +264,10 @@ namespace Morula
 
     /** Whether cells can divide. */
     bool
-    divides() const;
+    divides() const
+    {
+      return effects.fates.dividing != nullptr;
+    }
 
     /** When a cell divides, if at or before @p t; day; infinity: it does not.
      */
@@ -273,7 +275,7 @@ namespace Morula
     time_of_division(const CellView<dim, const double> &cell,
                      const double                       t) const
     {
-      return dividing_fate().time_of_division(cell, t);
+      return effects.fates.dividing->time_of_division(cell, t);
     }
 
     /** Whether daughters stay inside the whole surface, not only inside its
@@ -281,12 +283,16 @@ namespace Morula
     bool
     stays_inside() const
     {
-      return dividing_fate().stays_inside();
+      const auto &axes = effects.fates.dividing->axes;
+      return axes && axes->stay_inside;
     }
 
     /** Whether cells can die. */
     bool
-    is_mortal() const;
+    is_mortal() const
+    {
+      return !effects.fates.deadly.empty();
+    }
 
     /**
      * Sets what distinguishes a daughter from her mother, and lets her live
@@ -311,7 +317,7 @@ namespace Morula
     Tensor<1, dim>
     placement_axis(const CellView<dim, const double> &cell) const
     {
-      return dividing_fate().placement_axis(
+      return effects.fates.dividing->placement_axis(
         cell, state_.type.exists() ? cell.get(state_.type) : 0);
     }
 
@@ -377,17 +383,13 @@ namespace Morula
     GrowingCell<dim>
     growing(const PresentCell<dim> &cell, const double t0) const;
 
-    /** Tells the fates that follow growth how the law lets a living cell grow
+    /** Tells the fate that follows growth how the law lets a living cell grow
      *  in the step, in @p after. */
     void
     announce_growth(const PresentCell<dim>      &before,
                     const CellView<dim, double> &after,
                     const double                 t0,
                     const double                 t1) const;
-
-    /** The fate by which cells divide. */
-    const Fate<dim> &
-    dividing_fate() const;
 
     /** The factors of F_g to the right of the law's part, at the time @p t of
      *  the clock: the cycle's part and what has relaxed. */
@@ -430,7 +432,7 @@ namespace Morula
     TissueMaterial          material;
     std::uint64_t           random_seed;
     bool                    keeps_rows;
-    bool                    announces_growth; // to some fate
+    bool                    announces_growth; // to the fate that divides
   };
 } // namespace Morula
 

@@ -7,8 +7,8 @@
 #include <morula/base/time_parameters.h>
 #include <morula/base/tissue_parameters.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/division/division_parameters.h>
-#include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/fate/cell_types.h>
 #include <morula/grid/grid_parameters.h>
 #include <morula/mechanics/material.h>
 

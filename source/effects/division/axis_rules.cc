@@ -2,193 +2,337 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/effects/division/axis_rules.h>
+#include <morula/base/instantiate.h>
 #include <morula/effects/division/directions.h>
+#include <morula/effects/division/division_rule.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+
+// The library's own rules for `Proliferation/Cell cycle/Division axis`. If a
+// cell has no state yet, as before the run, or its state singles out no
+// direction, they take its random direction.
 
 namespace Morula
 {
-  namespace
-  {
-    template <int dim>
-    std::string
-    zero_is_refused()
-    {
-      return "a vector of " + std::to_string(dim) +
-             " components that is not zero";
-    }
-
-    const char *const remedy_of_zero =
-      "Give the direction along which cells divide, or set Division axis = "
-      "random.";
-
-    /** The normal of the surface near the cell, now. */
-    template <int dim>
-    Tensor<1, dim>
-    surface_normal(const PresentCell<dim> &cell)
-    {
-      // What is stored is N of the point that was nearest to the founder at t =
-      // 0; F carries it to now.
-      return Directions::carried_normal(cell.cell().F(), cell.surface_normal());
-    }
-  } // namespace
-
-
   FixedAxisParameters::FixedAxisParameters()
   {
     axis.admit_commas();
   }
 
+  namespace
+  {
+    /** A rule that has no keys of its own. */
+    struct NoAxisKeys : public EffectKeys
+    {
+      using Keys::list;
+      KeyList
+      list() override
+      {
+        return {};
+      }
+    };
+
+    /** `Division axis = fixed`: along a vector in the reference configuration.
+     *  @throws InputError from axis() if the vector is zero */
+    template <int dim>
+    class FixedAxis : public DivisionRule<dim>
+    {
+    public:
+      using Parameters = FixedAxisParameters;
+
+      FixedAxis(const Parameters &parameters, const EffectSetting<dim> &setting)
+        : direction(setting.state.use(parameters.axis))
+      {
+        // A vector that is zero for every cell is refused as the keys are read.
+        // One that is zero for some cells is found as they enter S.
+        if (direction.is_always(0., dim))
+          parameters.axis.refuse(allowed(), remedy);
+      }
+
+      Tensor<1, dim>
+      axis(const CellAtOnset<dim> &cell) const override
+      {
+        if (cell.present == nullptr)
+          return cell.random;
+        const Tensor<1, dim> vector =
+          cell.present->vector(direction, cell.time);
+        if (vector.norm() > 0.)
+          return vector;
+        std::ostringstream place;
+        place << cell.founder_position;
+        throw InputError(direction.key(),
+                         direction.text(),
+                         allowed() +
+                           "; it is zero for the cell whose founder was at (" +
+                           place.str() + ") um",
+                         remedy);
+      }
+
+      /** Does nothing: check_cell() checks the founders that proliferate. */
+      void
+      check(const Preview<dim> &) const override
+      {}
+
+    private:
+      static std::string
+      allowed()
+      {
+        return "a vector of " + std::to_string(dim) +
+               " components that is not zero";
+      }
+
+      static constexpr const char *remedy =
+        "Give the direction along which cells divide, or set Division axis = "
+        "random.";
+
+      const Expression direction;
+    };
+
+    /** A rule that gives the axis of a present cell in the present
+     *  configuration. */
+    template <int dim>
+    class PresentAxis : public DivisionRule<dim>
+    {
+    public:
+      using Parameters = NoAxisKeys;
+
+      bool
+      is_present() const override
+      {
+        return true;
+      }
+
+      Tensor<1, dim>
+      axis(const CellAtOnset<dim> &cell) const override
+      {
+        return cell.present == nullptr ?
+                 cell.random :
+                 this->direction(*cell.present, cell).value_or(cell.random);
+      }
+
+    protected:
+      /** Of any length but zero, or nothing: at random. */
+      virtual std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const = 0;
+    };
+
+    /** `Division axis = stretch`: along the largest elastic stretch, (6.3a). */
+    template <int dim>
+    class StretchAxis : public PresentAxis<dim>
+    {
+    public:
+      explicit StretchAxis(const NoAxisKeys &) {}
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &,
+                const CellAtOnset<dim> &cell) const override
+      {
+        return Directions::of_largest_stretch(cell.elastic,
+                                              cell.least_anisotropy,
+                                              cell.random);
+      }
+    };
+
+    /** `Division axis = stress`: along the most tensile stress, (6.3b): that at
+     *  the beginning of the step, since the step is still to be solved. */
+    template <int dim>
+    class StressAxis : public PresentAxis<dim>
+    {
+    public:
+      explicit StressAxis(const NoAxisKeys &) {}
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const override
+      {
+        return Directions::of_largest_stress(present.quantities().stress,
+                                             present.lame().mu,
+                                             cell.least_anisotropy,
+                                             cell.random);
+      }
+    };
+
+    /** Key of `Division axis = radial`. */
+    struct RadialAxisParameters : public EffectKeys
+    {
+      ExpressionKey center{
+        {this, "Proliferation/Cell cycle/Radial center"},
+        "0; 0; 0",
+        "Point from which n_s points away for Division axis = radial. "
+        "Expressions; 2-D: the first two. Units: um.",
+        Evaluated::event,
+        3};
+    };
+
+    /** `Division axis = radial`: from a point to where the cell is now. */
+    template <int dim>
+    class RadialAxis : public PresentAxis<dim>
+    {
+    public:
+      using Parameters = RadialAxisParameters;
+
+      RadialAxis(const Parameters         &parameters,
+                 const EffectSetting<dim> &setting)
+        : center(setting.state.use(parameters.center))
+      {}
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const override
+      {
+        const Tensor<1, dim> away =
+          present.position() - Point<dim>(present.vector(center, cell.time));
+        // A cell exactly at the center has no way out from it.
+        return away.norm() > 0. ? away : cell.random;
+      }
+
+    private:
+      const Expression center;
+    };
+
+    /** `Division axis = surface normal`: along the normal n of (6.3c). */
+    template <int dim>
+    class SurfaceNormalAxis : public PresentAxis<dim>
+    {
+    public:
+      SurfaceNormalAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
+      {
+        // The columns for the normal exist only where an effect asks for them.
+        setting.state.need_surface_normal();
+      }
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &) const override
+      {
+        // What is stored is N of the point that was nearest to the founder at
+        // t = 0; F carries it to now.
+        return Directions::carried_normal(present.cell().F(),
+                                          present.surface_normal());
+      }
+    };
+
+    /** `Division axis = tangential`: along the surface, uniform, m of (6.3c).
+     */
+    template <int dim>
+    class TangentialAxis : public SurfaceNormalAxis<dim>
+    {
+    public:
+      using SurfaceNormalAxis<dim>::SurfaceNormalAxis;
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const override
+      {
+        return Directions::across(*SurfaceNormalAxis<dim>::direction(present,
+                                                                     cell),
+                                  cell.random);
+      }
+    };
+
+    /**
+     * `Division axis = cell shape`: along the longest axis of the cell,
+     * Hertwig's rule, doc/theory.md (6.10b). A cell's shape is the one that its
+     * founder's cube has got by the tissue's deformation, halved at each
+     * division across the axis.
+     */
+    template <int dim>
+    class CellShapeAxis : public PresentAxis<dim>
+    {
+    public:
+      CellShapeAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
+      {
+        setting.columns.need_shape();
+      }
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const override
+      {
+        return Directions::of_largest_stretch(present.cell().shape(),
+                                              cell.least_anisotropy,
+                                              cell.random);
+      }
+    };
+
+    /** See gradient_axis(). */
+    template <int dim>
+    class GradientAxis : public PresentAxis<dim>
+    {
+    public:
+      GradientAxis(const std::string &field, const EffectSetting<dim> &setting)
+        : number(setting.state.need_gradient(field))
+      {}
+
+    protected:
+      std::optional<Tensor<1, dim>>
+      direction(const PresentCell<dim> &present,
+                const CellAtOnset<dim> &cell) const override
+      {
+        const Tensor<1, dim> gradient = present.gradient(number);
+        return gradient.norm() > 0. ? gradient : cell.random;
+      }
+
+    private:
+      const unsigned int number; // of the field
+    };
+
+    /** Adds a rule, by which small balls of growing cells divide. */
+    template <template <int> class Rule>
+    void
+    add_rule(Choices<DivisionRule> &rules, const std::string &name)
+    {
+      rules.push_back(Choice<DivisionRule>::of<Rule>(
+        name,
+        "",
+        {"Growth/Law=rate",
+         "Growth/Rate/Rate=J_e + 0.1*X*Y",
+         "Division by size/Volume=1.1",
+         "Proliferation/Cell cycle/Division axis=" + name,
+         "Proliferation/Cell cycle/Least anisotropy=1"}));
+    }
+  } // namespace
+
 
   template <int dim>
-  FixedAxis<dim>::FixedAxis(const Parameters         &parameters,
-                            const EffectSetting<dim> &setting)
-    : direction(setting.state.use(parameters.axis))
+  std::unique_ptr<const DivisionRule<dim>>
+  gradient_axis(const std::string &field, const EffectSetting<dim> &setting)
   {
-    // A vector that is zero for every cell is refused as the keys are read. One
-    // that is zero for some cells is found as they enter S.
-    if (direction.is_always(0., dim))
-      parameters.axis.refuse(zero_is_refused<dim>(), remedy_of_zero);
+    return std::make_unique<const GradientAxis<dim>>(field, setting);
   }
 
 
-  template <int dim>
-  Tensor<1, dim>
-  FixedAxis<dim>::axis(const CellAtOnset<dim> &cell) const
+  void
+  add_division_rules(Choices<DivisionRule> &rules)
   {
-    // Before the cells are placed no rule can look at one. The random axis then
-    // stands in, so that the checks before the run go through.
-    if (cell.present == nullptr)
-      return cell.random;
-    const Tensor<1, dim> vector = cell.present->vector(direction, cell.time);
-    if (vector.norm() > 0.)
-      return vector;
-    std::ostringstream place;
-    place << cell.founder_position;
-    throw InputError(direction.key(),
-                     direction.text(),
-                     zero_is_refused<dim>() +
-                       "; it is zero for the cell whose founder was at (" +
-                       place.str() + ") um",
-                     remedy_of_zero);
+    rules.push_back(Choice<DivisionRule>::of<FixedAxis>(
+      "fixed",
+      "",
+      {"Proliferation/Law=cell cycle",
+       "Proliferation/Cell cycle/Start=together",
+       "Proliferation/Cell cycle/Duration=0.4",
+       "Proliferation/Cell cycle/Division axis=fixed",
+       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"}));
+    add_rule<StretchAxis>(rules, "stretch");
+    add_rule<StressAxis>(rules, "stress");
+    add_rule<RadialAxis>(rules, "radial");
+    add_rule<SurfaceNormalAxis>(rules, "surface normal");
+    add_rule<TangentialAxis>(rules, "tangential");
+    add_rule<CellShapeAxis>(rules, "cell shape");
   }
 
 
-  template <int dim>
-  Tensor<1, dim>
-  StretchAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    // A cell that is stretched equally has no long axis and takes the random
-    // one, as with Division axis = random.
-    return Directions::of_largest_stretch(cell.elastic,
-                                          cell.least_anisotropy,
-                                          cell.random)
-      .value_or(cell.random);
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  StressAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    if (cell.present == nullptr)
-      return cell.random;
-    // The stress is that at the beginning of the step, since the present step
-    // is still to be solved.
-    return Directions::of_largest_stress(cell.present->quantities().stress,
-                                         cell.present->lame().mu,
-                                         cell.least_anisotropy,
-                                         cell.random)
-      .value_or(cell.random);
-  }
-
-
-  template <int dim>
-  RadialAxis<dim>::RadialAxis(const Parameters         &parameters,
-                              const EffectSetting<dim> &setting)
-    : center(setting.state.use(parameters.center))
-  {}
-
-
-  template <int dim>
-  Tensor<1, dim>
-  RadialAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    if (cell.present == nullptr)
-      return cell.random;
-    const Tensor<1, dim> away =
-      cell.present->position() -
-      Point<dim>(cell.present->vector(center, cell.time));
-    // A cell exactly at the center has no way out from it.
-    return away.norm() > 0. ? away : cell.random;
-  }
-
-
-  template <int dim>
-  SurfaceNormalAxis<dim>::SurfaceNormalAxis(const NoAxisKeys &,
-                                            const EffectSetting<dim> &setting)
-  {
-    // The columns for the normal exist only where an effect asks for them.
-    setting.state.need_surface_normal();
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  SurfaceNormalAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    return cell.present == nullptr ? cell.random :
-                                     surface_normal(*cell.present);
-  }
-
-
-  template <int dim>
-  TangentialAxis<dim>::TangentialAxis(const NoAxisKeys &,
-                                      const EffectSetting<dim> &setting)
-  {
-    setting.state.need_surface_normal();
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  TangentialAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    return cell.present == nullptr ?
-             cell.random :
-             Directions::across(surface_normal(*cell.present), cell.random);
-  }
-
-
-  template <int dim>
-  GradientAxis<dim>::GradientAxis(const std::string        &field,
-                                  const EffectSetting<dim> &setting)
-    : number(setting.state.need_gradient(field))
-  {}
-
-
-  template <int dim>
-  Tensor<1, dim>
-  GradientAxis<dim>::axis(const CellAtOnset<dim> &cell) const
-  {
-    if (cell.present == nullptr)
-      return cell.random;
-    const Tensor<1, dim> gradient = cell.present->gradient(number);
-    return gradient.norm() > 0. ? gradient : cell.random;
-  }
-
-
-#define INSTANTIATE(dim)                 \
-  template class FixedAxis<dim>;         \
-  template class StretchAxis<dim>;       \
-  template class StressAxis<dim>;        \
-  template class RadialAxis<dim>;        \
-  template class SurfaceNormalAxis<dim>; \
-  template class TangentialAxis<dim>;    \
-  template class GradientAxis<dim>;
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  MORULA_INSTANTIATE(gradient_axis);
 } // namespace Morula

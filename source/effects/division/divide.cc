@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/division/divide.h>
-#include <morula/effects/division/numbering.h>
 #include <morula/effects/division/wall_distance.h>
 #include <morula/particles/point_exchange.h>
 
@@ -89,7 +89,50 @@ namespace Morula
         }
       return list;
     }
+
+    /**
+     * Halves the shape of a daughter, doc/theory.md (6.10b); nothing if the
+     * shape of cells is not followed.
+     * @param daughter has the shape of her mother, and her F
+     * @param axis     unit vector from one daughter to the other, in the
+     *                 present configuration
+     */
+    template <int dim>
+    void
+    halve_shape(const CellView<dim, double> &daughter,
+                const Tensor<1, dim>        &axis)
+    {
+      // V⁰ has the volume, so the determinant of the shape is kept at 1.
+      const Column<Tensor<2, dim>> &shape = daughter.columns().shape;
+      if (!shape.exists())
+        return;
+      const Tensor<2, dim> whole = daughter.shape();
+      const Tensor<2, dim> half =
+        whole - 0.5 * outer_product(axis, axis * whole);
+      daughter.set(shape,
+                   std::pow(2., 1. / dim) *
+                     (invert(daughter.unrelaxed_deformation()) * half));
+    }
   } // namespace
+
+
+  std::vector<types::particle_index>
+  number_daughters(const std::vector<DivisionEvent> &events,
+                   types::particle_index            &next_id,
+                   const MPI_Comm                    comm)
+  {
+    // The places of this rank's events among those of all ranks say which pairs
+    // of ids they get. All ranks advance the next free id alike.
+    const GlobalOrder order = global_order(events, comm);
+
+    std::vector<types::particle_index> first_daughters;
+    first_daughters.reserve(events.size());
+    for (const std::uint64_t place : order.places)
+      first_daughters.push_back(next_id + 2 * place);
+    next_id += 2 * order.n_keys;
+    return first_daughters;
+  }
+
 
   template <int dim>
   std::vector<unsigned int>
@@ -106,12 +149,13 @@ namespace Morula
   }
 
   template <int dim>
-  Divisions<dim>
+  std::vector<Birth<dim>>
   divide(Tissue<dim>                     &tissue,
          const CellDevelopment<dim>      &development,
          const std::vector<unsigned int> &due,
          const double                     t1,
-         types::particle_index           &next_id)
+         types::particle_index           &next_id,
+         std::vector<CellEvent>          &events)
   {
     // First come the places of daughters, which need neighbours and walls of
     // other ranks, then the numbers of daughters, which need the divisions of
@@ -139,16 +183,16 @@ namespace Morula
                          walls(tissue, longest, development.stays_inside()),
                          tissue.grid().box());
 
-    std::vector<DivisionEvent> events;
+    std::vector<DivisionEvent> divisions;
     for (const unsigned int p : due)
-      events.push_back(
+      divisions.push_back(
         {development.time_of_division(cells[p], t1), cells.id(p)});
     // Ids follow the exact times on all ranks, not the ranks or the order of
     // cells on them, so that any number of ranks gives the same cells.
-    const auto first_ids = number_daughters(events, next_id, comm);
+    const auto first_ids = number_daughters(divisions, next_id, comm);
 
-    PointList<dim> daughters(columns.n_numbers());
-    Divisions<dim> result;
+    PointList<dim>          daughters(columns.n_numbers());
+    std::vector<Birth<dim>> births;
     for (std::size_t k = 0; k < due.size(); ++k)
       {
         const auto         mother     = cells[due[k]];
@@ -160,8 +204,9 @@ namespace Morula
             // after them.
             std::vector<double>         row = columns.daughter(mother.row());
             const CellView<dim, double> daughter(make_array_view(row), columns);
-            daughter.set(columns.parent, static_cast<int>(events[k].mother));
+            daughter.set(columns.parent, static_cast<int>(divisions[k].mother));
             daughter.set(columns.generation, generation);
+            halve_shape(daughter, dividing[k].axis);
 
             const Point<dim> position =
               dividing[k].position +
@@ -171,18 +216,18 @@ namespace Morula
             // step. She lives that time here, so that an onset or a change of
             // type in it is not lost.
             const unsigned int type = development.make_daughter(
-              daughter, id, position, which, events[k].time, t1, result.events);
+              daughter, id, position, which, divisions[k].time, t1, events);
             daughters.add(id, position, make_array_view(row));
-            result.births.push_back({id,
-                                     static_cast<int>(events[k].mother),
-                                     generation,
-                                     events[k].time,
-                                     position,
-                                     type});
+            births.push_back({id,
+                              static_cast<int>(divisions[k].mother),
+                              generation,
+                              divisions[k].time,
+                              position,
+                              type});
           }
       }
     tissue.replace(due, daughters);
-    return result;
+    return births;
   }
 
   MORULA_INSTANTIATE(cells_due);

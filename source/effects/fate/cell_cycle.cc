@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
+#include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <sstream>
 
 namespace Morula
 {
@@ -23,6 +28,48 @@ namespace Morula
       return F + amount * outer_product(n, n * F);
     }
   } // namespace
+
+
+  bool
+  CellCycleParameters::is_on() const
+  {
+    return law != "none" || is_law_of_types;
+  }
+
+
+  std::string
+  CellCycleParameters::details() const
+  {
+    return "cell cycle, T = " + duration.text() +
+           " day, Lambda = " + exit_rate.text() + " /day" +
+           (size_checkpoint.is_default() ?
+              "" :
+              ", size checkpoint J_th = " + size_checkpoint.text());
+  }
+
+
+  void
+  CellCycleParameters::see(const SceneKeys &scene,
+                           const std::vector<ExpressionKey *> &)
+  {
+    // Cells of a type that does not proliferate stay in G0: their rate of
+    // leaving it is set to 0, so that one cell cycle serves all types.
+    const auto &types = scene.cell_types.types;
+    is_law_of_types =
+      std::any_of(types.begin(), types.end(), [](const CellTypeKeys &type) {
+        return !type.proliferation_law->empty() &&
+               type.proliferation_law != "none";
+      });
+    if (!is_on())
+      return;
+    for (unsigned int i = 0; i < types.size(); ++i)
+      {
+        const Key<std::string> &own     = types[i].proliferation_law;
+        const Key<std::string> &of_type = own->empty() ? law : own;
+        if (of_type == "none")
+          exit_rate.set_for_type(i, of_type.path(), "0");
+      }
+  }
 
 
   template <int dim>
@@ -43,6 +90,34 @@ namespace Morula
              cell->value(expression, when) :
              expression.value(X, 0.);
   }
+
+
+  template <int dim>
+  CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
+                            const std::uint64_t        seed,
+                            const double               slack)
+    : CellCycle(parameters, seed, slack, *std::make_unique<StateColumns<dim>>())
+  {}
+
+
+  template <int dim>
+  CellCycle<dim>::CellCycle(const CellCycleParameters &parameters,
+                            const std::uint64_t        seed,
+                            const double               slack,
+                            StateColumns<dim>         &state)
+    : duration(state.use(parameters.duration))
+    , exit_rate(state.use(parameters.exit_rate))
+    , size_checkpoint(state.use(parameters.size_checkpoint))
+    , where(parameters.where.expression(dim))
+    , start_together(parameters.start == "together")
+    , seed(seed)
+    , slack(slack)
+    // The flags are kept, as they are asked for each cell in each step: whether
+    // an expression needs the state decides which columns the cycle has.
+    , own_duration(depends_on_more_than_place(duration))
+    , own_hazard(depends_on_more_than_place(exit_rate))
+    , exit_rate_follows_state(exit_rate.follows_state())
+  {}
 
 
   template <int dim>
@@ -182,28 +257,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  CellCycle<dim>::divides(const CycleState<dim> &state,
-                          const CellAt<dim>     &at,
-                          const double           t1) const
-  {
-    // The slack admits rounding: a division at t1 belongs to this step.
-    return state.phase == CyclePhase::growing &&
-           division_time(state, at) <= t1 + slack;
-  }
-
-
-  template <int dim>
-  double
-  CellCycle<dim>::division_time(const CycleState<dim> &state,
-                                const CellAt<dim>     &at) const
-  {
-    Assert(state.phase == CyclePhase::growing, ExcInternalError());
-    return state.event_time + 0.5 * cycle_duration(state, at);
-  }
-
-
-  template <int dim>
   Tensor<2, dim>
   CellCycle<dim>::growth(const CycleState<dim> &state,
                          const CellAt<dim>     &at,
@@ -234,10 +287,8 @@ namespace Morula
     std::pair<CycleState<dim>, CycleState<dim>> states(mother, mother);
     states.first.phase  = CyclePhase::divided;
     states.second.phase = CyclePhase::divided;
-    states.first.key =
-      Random::daughter_key(seed, mother.key, Random::Draw::first_daughter);
-    states.second.key =
-      Random::daughter_key(seed, mother.key, Random::Draw::second_daughter);
+    states.first.key    = Random::daughter_key(seed, mother.key, 0);
+    states.second.key   = Random::daughter_key(seed, mother.key, 1);
     return states;
   }
 
@@ -263,17 +314,6 @@ namespace Morula
     if (state.phase == CyclePhase::divided)
       return 4;
     return age < 0.25 * T - slack ? 1 : 2;
-  }
-
-
-  template <int dim>
-  bool
-  CellCycle<dim>::passes_checkpoint(const CellAt<dim> &at,
-                                    const double       J_e,
-                                    const double       t) const
-  {
-    const double threshold = at.value(size_checkpoint, t);
-    return threshold == 0. || J_e > threshold;
   }
 
 
@@ -329,8 +369,7 @@ namespace Morula
     // A wait with a constant rate ends at a time that is drawn at once.
     // Otherwise the end is unknown, and integrate_hazard() finds it step by
     // step with the same draw.
-    state.hazard    = 0.;
-    state.exit_rate = not_expected;
+    state.hazard = 0.;
     state.event_time =
       has_own_hazard() ?
         std::numeric_limits<double>::infinity() :
@@ -360,17 +399,65 @@ namespace Morula
 
   template <int dim>
   void
-  CellCycle<dim>::make_good(CycleState<dim>   &state,
-                            const CellAt<dim> &at,
-                            const PastStep    &past) const
+  CellCycle<dim>::check(const std::vector<Point<dim>> &founders,
+                        const double                   step) const
   {
-    // A negative rate says that the last step expected none: then nothing was
-    // missed.
-    if (state.is_drawn_by_hazard() && state.exit_rate >= 0.)
-      state.hazard = with_missed(state.hazard,
-                                 exit_rate_at(at),
-                                 state.exit_rate,
-                                 past.length());
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const Point<dim> &X : founders)
+      if (where.value(X, 0.) > 0.)
+        shortest = std::min(shortest, checked_duration(X, false));
+    check_step(shortest, step);
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::check_cell(const CellAt<dim> &founder,
+                             const double       step) const
+  {
+    if (founder.value(where) > 0.)
+      check_step(checked_duration(founder, true), step);
+  }
+
+
+  template <int dim>
+  double
+  CellCycle<dim>::checked_duration(const CellAt<dim> &at,
+                                   const bool         in_its_state) const
+  {
+    // The rules of the keys refuse bad values. check() has no cell and
+    // evaluates the expressions of X alone; check_cell() has one and evaluates
+    // the rest. A duration that is not known here must not shorten the step.
+    const auto is_known = [&](const Expression &expression) {
+      return depends_on_more_than_place(expression) == in_its_state;
+    };
+    const double T = is_known(duration) ?
+                       at.value(duration) :
+                       std::numeric_limits<double>::infinity();
+    for (const Expression *const other : {&exit_rate, &size_checkpoint})
+      if (is_known(*other))
+        at.value(*other);
+    return T;
+  }
+
+
+  template <int dim>
+  void
+  CellCycle<dim>::check_step(const double shortest, const double step) const
+  {
+    // A cell divides T/2 after the onset and could divide twice in a longer
+    // step; only one division per step is provided for. The slack admits a step
+    // of T/2 with rounding.
+    if (step <= 0.5 * shortest + slack)
+      return;
+    std::ostringstream value, limit;
+    value << step;
+    limit << "at most half the shortest cell cycle, " << 0.5 * shortest
+          << " day";
+    throw InputError(TimeParameters::step_path,
+                     value.str(),
+                     limit.str(),
+                     "Shorten the step, or lengthen " + duration.key() + ".");
   }
 
 

@@ -1,66 +1,100 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/extrusion.h>
+#include <morula/effects/fate/end_at_rate.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/state/present_cell.h>
+#include <morula/effects/library_effects.h>
+
+#include <string>
 
 namespace Morula
 {
-  template <int dim>
-  Extrusion<dim>::Extrusion(const Parameters         &parameters,
-                            const EffectSetting<dim> &setting)
-    : EndAtRate<dim>(parameters.rate,
-                     setting,
-                     {"extrusion",
-                      "when the cell leaves; -1: not yet",
-                      "no cell leaves by it.",
-                      false})
-  {}
-
-
-  template <int dim>
-  LifeAfter
-  Extrusion<dim>::happen(const PresentCell<dim>      &cell,
-                         const CellView<dim, double> &row,
-                         const Stretch &,
-                         const double            s,
-                         std::vector<CellEvent> &events) const
+  namespace
   {
-    this->end(row, s);
-    events.push_back(
-      {s, cell.id(), CellEvent::death, cell.type(), cell.type(), "extruded"});
-    return LifeAfter::ends;
-  }
+    /** Section "Extrusion". */
+    struct ExtrusionParameters : public EffectKeys
+    {
+      ExpressionKey rate{
+        {this, "Extrusion/Rate"},
+        "0",
+        "Rate at which live cells leave the tissue with their volume, which "
+        "closes up behind them: an expression of their state, e.g. "
+        "5*ramp(pressure, 0.2, 0.5)*(present_depth < 10); not negative. "
+        "Units: 1/day.",
+        Evaluated::step,
+        not_negative("1/day", "0 keeps cells in.")};
+
+      bool
+      is_on() const override
+      {
+        return !rate.expression(3).is_always(0.);
+      }
+
+      EffectFacts
+      facts() const override
+      {
+        return {&rate};
+      }
+
+      std::string
+      details() const override
+      {
+        return "rate = " + rate.text() + " /day";
+      }
+    };
+
+    /**
+     * How live cells leave the tissue: at a rate (1/day), a hazard with a
+     * threshold of its own. The cell is whole until the end of the step of its
+     * event and then goes with its grown volume; the cells of its grid cell
+     * take over all the space that it had, so that their pressure falls and the
+     * tissue closes up: doc/theory.md, section 6.9.
+     */
+    template <int dim>
+    class Extrusion : public EndAtRate<dim>
+    {
+    public:
+      using Parameters = ExtrusionParameters;
+
+      Extrusion(const Parameters &parameters, const EffectSetting<dim> &setting)
+        : EndAtRate<dim>(
+            parameters.rate,
+            setting,
+            [](const std::uint64_t seed, const std::uint64_t key) {
+              return Random::threshold_of("extrusion", seed, key);
+            },
+            "extrusion",
+            "when the cell leaves; -1: not yet",
+            false,
+            "no cell leaves by it.")
+      {}
+
+      LifeAfter
+      happen(const PresentCell<dim>      &cell,
+             const CellView<dim, double> &row,
+             const Stretch &,
+             const double            s,
+             std::vector<CellEvent> &events) const override
+      {
+        this->end(cell, row, s, events, "extruded");
+        return LifeAfter::ends;
+      }
+
+      bool
+      shrinks(const CellView<dim, const double> &cell) const override
+      {
+        // Nothing shrinks, but the space is handed on as that of a shrunken
+        // cell.
+        return this->has_ended(cell);
+      }
+    };
+  } // namespace
 
 
-  template <int dim>
-  double
-  Extrusion<dim>::removal_time(const CellView<dim, const double> &cell) const
-  {
-    // The event lies within the step, so the cell goes at its end.
-    return this->time_of_death(cell);
-  }
-
-
-  template <int dim>
-  bool
-  Extrusion<dim>::shrinks(const CellView<dim, const double> &cell) const
-  {
-    // Nothing shrinks, but the space is handed on as that of a shrunken cell.
-    return this->has_ended(cell);
-  }
-
-
-  template <int dim>
   void
-  Extrusion<dim>::check_cell(const PresentCell<dim> &founder,
-                             const double) const
+  add_extrusion(Choices<Fate> &fates)
   {
-    founder.value(*this->rates(0)[0], 0.);
+    fates.push_back(
+      Choice<Fate>::of<Extrusion>("extrusion", "", {"Extrusion/Rate=1"}));
   }
-
-
-  template class Extrusion<2>;
-  template class Extrusion<3>;
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/hazard.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
 
@@ -35,4 +36,53 @@ namespace Morula
              std::max(0., integral + 0.5 * dt * (rate - expected)) :
              integral;
   }
+
+
+  template <int dim>
+  Hazard
+  CellHazard<dim>::in(const double                       t0,
+                      const double                       t1,
+                      const PresentCell<dim>            &cell,
+                      const CellView<dim, const double> &row) const
+  {
+    return {cell.value(rate, 0.5 * (t0 + t1)),
+            row.get(integral),
+            threshold(cell, row)};
+  }
+
+
+  template <int dim>
+  void
+  CellHazard<dim>::make_good(const PresentCell<dim>      &before,
+                             const CellView<dim, double> &row) const
+  {
+    // Where the last step expected nothing the rate may have no value.
+    const PastStep &past = before.reader().past;
+    if (past.exists() && expected.exists() && row.get(expected) >= 0.)
+      row.set(integral,
+              with_missed(row.get(integral),
+                          before.value(rate, past.middle()),
+                          row.get(expected),
+                          past.length()));
+  }
+
+
+  template <int dim>
+  void
+  CellHazard<dim>::expect(const PresentCell<dim>      &before,
+                          const CellView<dim, double> &row,
+                          const double                 t,
+                          const bool                   is_whole) const
+  {
+    // An integral that began or ended in the step is one of another time.
+    if (expected.exists())
+      row.set(expected,
+              is_whole && (!runs || (runs(before.cell()) && runs(row))) ?
+                before.value(rate, t) :
+                not_expected);
+  }
+
+
+  template struct CellHazard<2>;
+  template struct CellHazard<3>;
 } // namespace Morula

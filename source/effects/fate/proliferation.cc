@@ -1,15 +1,137 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/time_parameters.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace Morula
 {
+  template <int dim>
+  CycleColumns<dim>::CycleColumns(CellColumns<dim>     &columns,
+                                  const CellCycle<dim> *cycle)
+  {
+    // The first five columns are always there. The others are numbers that only
+    // some scenes need, so each is declared on its condition; load() puts a
+    // default in its place.
+    columns.need_growth();
+    columns.need_lineage();
+    phase = columns.template add<CyclePhase>(
+      {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
+    event_time = columns.template add<double>(
+      {"event_time", "day", "end of the G0 wait, or onset of S"});
+    columns.need_lineage_key();
+    lineage_key_  = columns.lineage_key;
+    division_axis = columns.template add<Tensor<1, dim>>(
+      {"division_axis", "", "n_s of the running cycle"});
+    growth_pre = columns.template add<Tensor<2, dim>>(
+      {"growth_before_the_cycle",
+       "",
+       "F_g of the cycle before the onset of S",
+       Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    if (cycle == nullptr)
+      return;
+    if (cycle->has_own_duration())
+      duration = columns.template add<double>(
+        {"cycle_duration", "day", "T of the running cycle"});
+    if (cycle->has_own_hazard())
+      hazard = columns.template add<double>(
+        {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
+    if (cycle->keeps_exit_rate())
+      exit_rate = columns.template add<double>(
+        {"wait_rate",
+         "1/day",
+         "rate of leaving G0 that the last step saw; -1: none",
+         not_expected});
+    if (cycle->has_checkpoint())
+      J_e_before = columns.template add<double>(
+        {"j_e_before", "", "J_e at the beginning of the step before", 1.});
+  }
+
+
+  template <int dim>
+  CycleState<dim>
+  CycleColumns<dim>::load(const CellView<dim, const double> &cell) const
+  {
+    // The order is that of the members of CycleState.
+    return {cell.get(phase),
+            cell.get(event_time),
+            cell.get(lineage_key_),
+            cell.get(division_axis),
+            cell.get(growth_pre),
+            duration.exists() ? cell.get(duration) : 0.,
+            hazard.exists() ? cell.get(hazard) : 0.};
+  }
+
+
+  template <int dim>
+  void
+  CycleColumns<dim>::store(const CycleState<dim>       &state,
+                           const CellView<dim, double> &cell) const
+  {
+    // What has no column is the same for all cells, or is not used.
+    cell.set(phase, state.phase);
+    cell.set(event_time, state.event_time);
+    cell.set(lineage_key_, state.key);
+    cell.set(division_axis, state.axis);
+    cell.set(growth_pre, state.growth_pre);
+    if (duration.exists())
+      cell.set(duration, state.duration);
+    if (hazard.exists())
+      cell.set(hazard, state.hazard);
+  }
+
+
+  template <int dim>
+  CellHazard<dim>
+  CycleColumns<dim>::exit_hazard(const Expression &rate) const
+  {
+    // The hazard runs while the cell waits and only the integral tells for how
+    // long.
+    const auto runs = [phase = phase, event_time = event_time](
+                        const CellView<dim, const double> &cell) {
+      return cell.get(phase) == CyclePhase::waiting &&
+             !std::isfinite(cell.get(event_time));
+    };
+    return {rate, hazard, exit_rate, {}, {}, runs};
+  }
+
+
+  template <int dim>
+  ElasticSize
+  CycleColumns<dim>::size(const CellView<dim, const double> &cell,
+                          const PastStep                    &past) const
+  {
+    // The slope is that of the last step, doc/theory.md (6.3g). In the first
+    // step there is none, and J_e counts as constant.
+    const double J_e = cell.elastic_volume_ratio();
+    if (!J_e_before.exists() || !past.exists())
+      return {J_e};
+    return {J_e, (J_e - cell.get(J_e_before)) / past.length(), past.begin};
+  }
+
+
+  template <int dim>
+  void
+  CycleColumns<dim>::remember_size(const CellView<dim, const double> &before,
+                                   const CellView<dim, double> &after) const
+  {
+    // `before` is the cell at the beginning of this step: for the next step
+    // that is the beginning of the step before.
+    if (J_e_before.exists())
+      after.set(J_e_before, before.elastic_volume_ratio());
+  }
+
+
   template <int dim>
   Proliferation<dim>::Proliferation(const Parameters         &parameters,
                                     const EffectSetting<dim> &setting)
@@ -29,20 +151,21 @@ namespace Morula
                                     CellColumns<dim>   &columns,
                                     const std::uint64_t seed)
     : cycle_(std::move(cycle))
-    , columns_(columns,
-               cycle_.has_own_duration(),
-               cycle_.has_own_hazard(),
-               cycle_.keeps_exit_rate(),
-               cycle_.has_checkpoint())
+    , columns_(columns, &cycle_)
     , random_seed(seed)
-  {}
+  {
+    if (cycle_.keeps_exit_rate())
+      this->hazards_of_types[0].push_back(
+        columns_.exit_hazard(cycle_.rate_of_exit()));
+  }
 
 
   template <int dim>
   void
   Proliferation<dim>::check(const Preview<dim> &scene) const
   {
-    DividingFate<dim>::check(scene);
+    if (this->axes)
+      this->axes->check(scene);
     cycle_.check(scene.founders, scene.keys.time.step);
   }
 
@@ -51,18 +174,56 @@ namespace Morula
   void
   Proliferation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    DividingFate<dim>::review(scene, review);
-    if (parameters)
-      review_cell_cycle(*parameters, scene, review);
-  }
+    // Rules come first, then cells that never enter S. Then the shortest cycle
+    // of all founders that proliferate is compared with the step. A duration
+    // that depends on the state or the time is left to the run. All ranks
+    // return there together, as the expression is the same on all, so the
+    // minimum is reached by all or none.
+    if (this->axes)
+      this->axes->review(scene, review);
+    if (!parameters)
+      return;
+    const Expression &exit_rate = parameters->exit_rate.expression(dim);
+    if (parameters->start == "waiting" &&
+        never_acts<dim>(
+          exit_rate,
+          [](const double rate) { return rate > 0.; },
+          AskedAt::all_moments,
+          scene))
+      review.warn(exit_rate.key(),
+                  exit_rate.text(),
+                  "all cells wait in G0 at t = 0, and none ever leaves it: "
+                  "no cell divides.",
+                  "Set a rate > 0, or " + parameters->start.path() +
+                    " = together.");
+    const Expression &checkpoint = parameters->size_checkpoint.expression(dim);
+    if (checkpoint.is_constant() && *checkpoint.number() >= 1.)
+      review.warn(checkpoint.key(),
+                  checkpoint.text(),
+                  "cells at rest have J_e = 1, which is not above it: only "
+                  "stretched cells enter S.",
+                  "Choose a number below 1.");
 
-
-  template <int dim>
-  void
-  Proliferation<dim>::set_clock(const CellView<dim, double> &cell,
-                                const CycleState<dim>       &state) const
-  {
-    columns_.store(state, cell);
+    const Expression &duration = parameters->duration.expression(dim);
+    const Expression &where    = parameters->where.expression(dim);
+    if (depends_on_more_than_place(duration))
+      return;
+    double shortest = std::numeric_limits<double>::max();
+    for (const Point<dim> &X : scene.founders)
+      if (where.value(X, 0.) > 0.)
+        shortest = std::min(shortest, duration.value(X, 0.));
+    shortest = Utilities::MPI::min(shortest, scene.comm);
+    // Without any proliferating founder the minimum is huge and nothing is
+    // said.
+    if (scene.keys.time.step > (0.25 + 1e-9) * shortest)
+      review.warn(TimeParameters::step_path,
+                  as_text(scene.keys.time.step) + " day",
+                  "that is " + as_text(scene.keys.time.step / shortest) +
+                    " of the shortest cell cycle, " + as_text(shortest) +
+                    " day; measured are steps of up to a quarter "
+                    "(doc/accuracy-and-cost.md, advice; doc/hard-cases.md, "
+                    "showcase).",
+                  "Shorten the step to 0.1 or 0.2 of the cycle.");
   }
 
 
@@ -102,8 +263,7 @@ namespace Morula
     // Founders get their axis before the steady fields are known. It is chosen
     // again when they are, from the same random direction.
     CycleState<dim> state = clock(row);
-    if (this->rule(founder.type()) == nullptr ||
-        state.phase != CyclePhase::growing)
+    if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
       return;
     state.axis = Random::direction<dim>(random_seed, state.key);
     choose_axis(CycleState<dim>(), founder, 0., state);
@@ -139,11 +299,11 @@ namespace Morula
     const DivisionRule<dim> *const rule  = this->rule(type);
     // The running cycle stretches n_s along itself, so what is behind it in F_g
     // is taken off and the direction is F F_pre⁻¹ n_s.
-    if (rule != nullptr && rule->frame() == AxisFrame::present)
+    if (rule != nullptr && rule->is_present())
       return this->axes->placement(cell,
                                    invert(state.growth_pre) * state.axis,
                                    type);
-    return this->axes && this->axes->follow_rotation() ?
+    return this->axes && this->axes->follow_rotation ?
              this->axes->placement(cell, state.axis, type) :
              state.axis;
   }
@@ -165,30 +325,15 @@ namespace Morula
   template <int dim>
   void
   Proliferation<dim>::inherit(const CellView<dim, double> &daughter,
-                              const StateColumns<dim>     &columns,
-                              const unsigned int           which,
+                              const StateColumns<dim> &,
+                              const unsigned int which,
                               const double) const
   {
     // The clock in the row is still the mother's, and so is the type: this fate
     // is the first, and that of types the last. Both daughters go on with the
     // mother's cycle, but each gets a random key of its own from hers.
-    this->halve(daughter, columns);
     const auto [minus, plus] = cycle_.daughters(clock(daughter));
     set_clock(daughter, which == 0 ? minus : plus);
-  }
-
-
-  template <int dim>
-  void
-  Proliferation<dim>::make_good(const PresentCell<dim>      &before,
-                                const CellView<dim, double> &row) const
-  {
-    const PastStep &past = before.reader().past;
-    if (!past.exists() || !cycle_.keeps_exit_rate())
-      return;
-    CycleState<dim> state = clock(row);
-    cycle_.make_good(state, CellAt<dim>(before, past.middle()), past);
-    set_clock(row, state);
   }
 
 
@@ -236,28 +381,6 @@ namespace Morula
 
   template <int dim>
   void
-  Proliferation<dim>::expect(const PresentCell<dim>      &before,
-                             const CellView<dim, double> &row,
-                             const double                 t,
-                             const bool                   is_whole) const
-  {
-    // A rate is expected only of a cell that waited at both ends of the step:
-    // otherwise the wait began or ended in it, and the integral is of another
-    // time.
-    if (!cycle_.keeps_exit_rate())
-      return;
-    CycleState<dim> state = clock(row);
-    const bool      waits =
-      clock(before.cell()).is_drawn_by_hazard() && state.is_drawn_by_hazard();
-    state.exit_rate = is_whole && waits ?
-                        cycle_.exit_rate_at(CellAt<dim>(before, t)) :
-                        not_expected;
-    set_clock(row, state);
-  }
-
-
-  template <int dim>
-  void
   Proliferation<dim>::end_of_life(const PresentCell<dim>      &cell,
                                   const CellView<dim, double> &row,
                                   const double                 s) const
@@ -290,9 +413,7 @@ namespace Morula
     if (clock(founder.cell()).phase == CyclePhase::never)
       return;
     if (this->axes)
-      this->axes->draw(founder, 0., 0);
-    if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
-      rule->check_cell(founder, step);
+      this->axes->check_cell(founder, step);
   }
 
 
@@ -336,18 +457,15 @@ namespace Morula
       return;
     const CellView<dim, const double> &view = cell.cell();
     Tensor<1, dim>                     axis =
-      axis_by_rule(*rule,
-                   cell,
-                   t,
-                   after.axis,
-                   this->axes->draw(cell,
-                                    t,
-                                    has_begun ?
-                                      Random::past_key(random_seed, after.key) :
-                                      after.key));
+      this->axes->direction(cell,
+                            t,
+                            after.axis,
+                            has_begun ?
+                              Random::past_key(random_seed, after.key) :
+                              after.key);
     // A present direction is pulled back through all growth but the cycle's,
     // doc/theory.md (6.3e), since the cycle's stretch acts before that.
-    if (rule->frame() == AxisFrame::present)
+    if (rule->is_present())
       {
         Tensor<2, dim>        F_g   = view.growth();
         const CycleState<dim> state = clock(view);
@@ -359,6 +477,22 @@ namespace Morula
   }
 
 
+  void
+  add_cell_cycle(Choices<Fate> &fates)
+  {
+    fates.push_back(Choice<Fate>::of<Proliferation>(
+      "cell cycle",
+      "",
+      {"Proliferation/Law=cell cycle",
+       "Proliferation/Cell cycle/Start=together",
+       "Proliferation/Cell cycle/Duration=0.4",
+       "Proliferation/Cell cycle/Division axis=fixed",
+       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"}));
+  }
+
+
+  template class CycleColumns<2>;
+  template class CycleColumns<3>;
   template class Proliferation<2>;
   template class Proliferation<3>;
 } // namespace Morula

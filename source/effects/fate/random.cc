@@ -21,6 +21,24 @@ namespace Morula::Random
 
   namespace
   {
+    /** The purpose of a random number; every cell draws each at most once. */
+    enum class Draw : std::uint32_t
+    {
+      wait,
+      axis,
+      first_daughter,
+      second_daughter,
+      axis_spread,      // the angle
+      axis_spread_side, // which way
+      noise,
+      phase,
+      death,
+      // and from here on, one for each entry into a type and each way out of it
+      transition = 0x1000,
+      // and from here on, by the names of effects
+      named = 0x80000000
+    };
+
     /** The fourth word of the counter. It keeps the ids of founders apart from
      *  lineage keys, which may be equal numbers. */
     enum class Domain : std::uint32_t
@@ -171,11 +189,12 @@ namespace Morula::Random
   std::uint64_t
   daughter_key(const std::uint64_t seed,
                const std::uint64_t mother_key,
-               const Draw          which)
+               const unsigned int  which)
   {
-    Assert(which == Draw::first_daughter || which == Draw::second_daughter,
-           ExcInternalError());
-    return bits(seed, mother_key, which)[0];
+    Assert(which < 2, ExcInternalError());
+    return bits(seed,
+                mother_key,
+                which == 0 ? Draw::first_daughter : Draw::second_daughter)[0];
   }
 
 
@@ -222,7 +241,7 @@ namespace Morula::Random
   std::uint64_t
   past_key(const std::uint64_t seed, const std::uint64_t founder_key)
   {
-    return daughter_key(seed, founder_key, Draw::phase);
+    return bits(seed, founder_key, Draw::phase)[0];
   }
 
   double

@@ -4,31 +4,129 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
-#include <morula/effects/fate/left_amounts.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace Morula
 {
   namespace
   {
-    /** Whether the condition holds for some fate. */
-    template <int dim, typename Condition>
-    bool
-    any_of(const Fates<dim> &fates, const Condition &condition)
+    /** What a cell carries that goes without another one in its grid cell. */
+    template <int dim>
+    struct LeftAmounts
     {
-      return std::any_of(fates.begin(), fates.end(), [&](const auto &fate) {
-        return condition(*fate);
-      });
+      /** Where it is, µm. */
+      Point<dim> position;
+      /** Of the fields, times µm^dim. */
+      std::vector<double> amounts;
+    };
+
+    /** What all ranks' cells leave, one after the other: position and amounts.
+     *  Collective. */
+    template <int dim>
+    std::vector<double>
+    gather(const std::vector<LeftAmounts<dim>> &left, const MPI_Comm comm)
+    {
+      std::vector<double> mine;
+      for (const LeftAmounts<dim> &one : left)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            mine.push_back(one.position[d]);
+          mine.insert(mine.end(), one.amounts.begin(), one.amounts.end());
+        }
+      std::vector<double> all;
+      for (const auto &list : Utilities::MPI::all_gather(comm, mine))
+        all.insert(all.end(), list.begin(), list.end());
+      return all;
+    }
+
+    /**
+     * Gives what these cells of this rank leave to the nearest cells that stay,
+     * of whichever rank: doc/theory.md (6.9d). Collective.
+     * @param gone    numbers of this rank's cells that go, sorted
+     * @param carried the columns of the fields
+     */
+    template <int dim>
+    void
+    give_to_nearest(Tissue<dim>                         &tissue,
+                    const std::vector<unsigned int>     &gone,
+                    const std::vector<Column<double>>   &carried,
+                    const std::vector<LeftAmounts<dim>> &left)
+    {
+      // All ranks get what all leave, which is rare and little. Each looks for
+      // its own nearest cell that stays; the nearest of all ranks counts, and
+      // of cells that are equally near that with the lowest id, so that the
+      // number of ranks does not matter.
+      const MPI_Comm            comm   = tissue.communicator();
+      const std::vector<double> all    = gather(left, comm);
+      const std::size_t         length = dim + carried.size();
+      const std::size_t         n      = all.size() / length;
+      if (n == 0)
+        return;
+
+      const Cells<dim>         &cells = tissue.cells();
+      std::vector<unsigned int> staying;
+      std::vector<Point<dim>>   positions;
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        if (!std::binary_search(gone.begin(), gone.end(), p))
+          {
+            staying.push_back(p);
+            positions.push_back(cells.position(p));
+          }
+      const auto                tree = pack_rtree_of_indices(positions);
+      std::vector<double>       distance(n, std::numeric_limits<double>::max());
+      std::vector<double>       id(n, std::numeric_limits<double>::max());
+      std::vector<unsigned int> nearest(n);
+      constexpr unsigned int    most_alike = 12; // in a lattice, in 3-D
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = all[k * length + d];
+          std::vector<std::size_t> found;
+          tree.query(boost::geometry::index::nearest(x, most_alike),
+                     std::back_inserter(found));
+          for (const std::size_t i : found)
+            {
+              const double way = x.distance(positions[i]);
+              const double its = cells.id(staying[i]);
+              if (way < distance[k] || (way == distance[k] && its < id[k]))
+                {
+                  distance[k] = way;
+                  id[k]       = its;
+                  nearest[k]  = staying[i];
+                }
+            }
+        }
+      std::vector<double> least(n), lowest(id);
+      Utilities::MPI::min(distance, comm, least);
+      for (std::size_t k = 0; k < n; ++k)
+        if (distance[k] > least[k])
+          lowest[k] = std::numeric_limits<double>::max();
+      Utilities::MPI::min(lowest, comm, lowest);
+      for (std::size_t k = 0; k < n; ++k)
+        if (distance[k] == least[k] && id[k] == lowest[k] &&
+            distance[k] < std::numeric_limits<double>::max())
+          {
+            const CellView<dim, double> cell = tissue.cell(nearest[k]);
+            for (std::size_t c = 0; c < carried.size(); ++c)
+              cell.set(carried[c],
+                       cell.get(carried[c]) +
+                         all[k * length + dim + c] / cell.volume());
+          }
     }
 
     /**
@@ -63,9 +161,11 @@ namespace Morula
           for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
             if (next != gone.end() && *next == p)
               {
-                if (any_of(fates, [&](const Fate<dim> &fate) {
-                      return fate.shrinks(cells[p]);
-                    }))
+                if (std::any_of(fates.deadly.begin(),
+                                fates.deadly.end(),
+                                [&](const Dies<dim> *const dies) {
+                                  return dies->shrinks(cells[p]);
+                                }))
                   {
                     from += cells.volume(p);
                     left.push_back({cells.position(p), {}});
@@ -162,12 +262,12 @@ namespace Morula
     /** The fate that strikes a living cell at @p t (day) such that it is to be
      *  removed then, or null. @throws InputError */
     template <int dim>
-    const Fate<dim> *
+    const Dies<dim> *
     takes_at_once(const Fates<dim>       &fates,
                   const PresentCell<dim> &cell,
                   const double            t)
     {
-      for (const auto &fate : fates)
+      for (const Dies<dim> *const fate : fates.deadly)
         {
           if (!fate->strikes(cell, t))
             continue;
@@ -181,7 +281,7 @@ namespace Morula
           fate->strike(cell, after, t, events);
           // The first fate that strikes a cell has it, whatever others would
           // do.
-          return fate->is_due_for_removal(after, t) ? fate.get() : nullptr;
+          return fate->is_due_for_removal(after, t) ? fate : nullptr;
         }
       return nullptr;
     }
@@ -216,7 +316,7 @@ namespace Morula
     struct Taken
     {
       unsigned int     p;
-      const Fate<dim> *by;
+      const Dies<dim> *by;
     };
 
     /** Living cells of this rank that are removed at once in the reader's
@@ -230,8 +330,8 @@ namespace Morula
       std::vector<Taken<dim>> list;
       everywhere(tissue.communicator(), [&]() {
         for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-          if (!is_dead(fates, tissue.cells()[p]))
-            if (const Fate<dim> *fate = takes_at_once(
+          if (!fates.is_dead(tissue.cells()[p]))
+            if (const Dies<dim> *fate = takes_at_once(
                   fates, present_cell(tissue, p, reader), reader.time))
               list.push_back({p, fate});
       });
@@ -247,8 +347,9 @@ namespace Morula
                  const Fates<dim>      &fates,
                  const CellReader<dim> &reader)
     {
-      if (!any_of(fates,
-                  [](const Fate<dim> &fate) { return fate.may_strike(); }))
+      if (std::none_of(fates.deadly.begin(),
+                       fates.deadly.end(),
+                       [](const auto &dies) { return dies->may_strike(); }))
         return {};
       try
         {
@@ -283,7 +384,7 @@ namespace Morula
     for (const auto &[p, fate] : cells_to_cut(tissue, fates, reader))
       fate->strike(present_cell(tissue, p, reader), tissue.cell(p), t, events);
     for (unsigned int p = 0; p < cells.size(); ++p)
-      for (const auto &fate : fates)
+      for (const Dies<dim> *const fate : fates.deadly)
         if (fate->is_due_for_removal(cells[p], t))
           {
             const unsigned int type = present_cell(tissue, p, reader).type();

@@ -5,30 +5,21 @@
 
 namespace
 {
-  constexpr std::uint64_t seed  = 42;
-  constexpr double        slack = 1e-9;
+  constexpr std::uint64_t seed = 42;
 
   /** A cell cycle with a rule, and a single cell. */
-  template <int dim, template <int> class Rule>
+  template <int dim>
   class OneCell
   {
   public:
-    explicit OneCell(const typename Rule<dim>::Parameters &keys,
-                     const DivisionParameters &division = DivisionParameters())
-      : development(make(keys, division))
+    explicit OneCell(const std::string              &rule,
+                     const std::vector<std::string> &keys = {})
+      : development(development_of<dim>(scene_of(settings(rule, keys))))
       , row(development.columns().founder(X(), 100.))
     {
       view().set(development.columns().deformation, F());
       if (development.state().surface_normal.exists())
         view().set(development.state().surface_normal, normal());
-    }
-
-    static CellCycleParameters
-    together()
-    {
-      CellCycleParameters keys;
-      keys.start = "together";
-      return keys;
     }
 
     static Point<dim>
@@ -86,33 +77,18 @@ namespace
     CellDevelopment<dim> development;
 
   private:
-    static CellDevelopment<dim>
-    make(const typename Rule<dim>::Parameters &keys,
-         const DivisionParameters             &division)
+    static std::vector<std::string>
+    settings(const std::string &rule, const std::vector<std::string> &keys)
     {
-      CellColumns<dim>         columns;
-      StateColumns<dim>        state;
-      DevelopmentEffects<dim>  effects;
-      const EffectSetting<dim> setting{seed, slack, columns, state};
-      DivisionRules<dim>       rules;
-      if constexpr (std::is_constructible<
-                      Rule<dim>,
-                      const typename Rule<dim>::Parameters &,
-                      const EffectSetting<dim> &>::value)
-        rules.list.push_back(std::make_unique<const Rule<dim>>(keys, setting));
-      else
-        rules.list.push_back(std::make_unique<const Rule<dim>>(keys));
-      auto proliferation = std::make_unique<Proliferation<dim>>(
-        CellCycle<dim>(together(), seed, slack, state), columns, seed);
-      proliferation->set_axes(std::make_shared<const DivisionAxes<dim>>(
-        division, state, std::move(rules), seed));
-      effects.add_fate(std::move(proliferation));
-      state.declare(columns);
-      return CellDevelopment<dim>(std::move(effects),
-                                  columns,
-                                  state,
-                                  TissueMaterial(MaterialParameters()),
-                                  seed);
+      const std::string        cycle = "Proliferation/Cell cycle/";
+      std::vector<std::string> list  = {"Dimension=" + std::to_string(dim),
+                                        "Random seed=" + std::to_string(seed),
+                                        "Proliferation/Law=cell cycle",
+                                        cycle + "Start=together",
+                                        cycle + "Division axis=" + rule};
+      for (const std::string &key : keys)
+        list.push_back(cycle + key);
+      return list;
     }
 
     std::vector<double> row;
@@ -125,23 +101,16 @@ namespace
     return Random::direction<dim>(seed, state.key);
   }
 
-  FixedAxisParameters
-  fixed_along(const std::string &text)
-  {
-    FixedAxisParameters keys;
-    keys.axis = text;
-    return keys;
-  }
-
   /** The rule's direction is where the deformation carries n_s, and where the
    *  daughters go. */
-  template <int dim, template <int> class Rule>
+  template <int dim>
   void
-  expect_along(const Tensor<1, dim>                 &expected,
-               const typename Rule<dim>::Parameters &keys = {})
+  expect_along(const Tensor<1, dim>           &expected,
+               const std::string              &rule,
+               const std::vector<std::string> &keys = {})
   {
-    OneCell<dim, Rule> cell(keys);
-    const auto         state = cell.onset();
+    OneCell<dim> cell(rule, keys);
+    const auto   state = cell.onset();
     EXPECT_NEAR(state.axis.norm(), 1., 1e-15);
     EXPECT_LT((cell.carried(state) - expected).norm(), 1e-14);
     EXPECT_LT((cell.development.placement_axis(cell.view()) - expected).norm(),
@@ -152,8 +121,8 @@ namespace
 
 TEST_2D_3D(AxisRules, AlongAnExpression)
 {
-  OneCell<dim, FixedAxis> cell(fixed_along("X; -Y; 0"));
-  Tensor<1, dim>          expected;
+  OneCell<dim>   cell("fixed", {"Fixed axis=X; -Y; 0"});
+  Tensor<1, dim> expected;
   expected[0]      = 0.6;
   expected[1]      = -0.8;
   const auto state = cell.onset();
@@ -166,52 +135,46 @@ TEST(AxisRules, PlainNumbersMayBeSeparatedByCommas)
 {
   for (const std::string text : {"1, 2, 2", "1; 2; 2", " 1,2 ,2.0", "1;2; 1+1"})
     {
-      OneCell<3, FixedAxis> cell(fixed_along(text));
+      OneCell<3> cell("fixed", {"Fixed axis=" + text});
       EXPECT_EQ(cell.onset().axis, (Tensor<1, 3>({1., 2., 2.}) / 3.)) << text;
     }
-  EXPECT_EQ(fixed_along("1, 2, 2").axis.text(), "1, 2, 2");
   EXPECT_EQ(FixedAxisParameters().axis.text(), "0, 0, 1");
 }
 
 
 TEST_2D_3D(AxisRules, AlongPresentDirections)
 {
-  using Some = OneCell<dim, StretchAxis>;
+  using Some = OneCell<dim>;
   const auto random =
     Random::direction<dim>(seed, Random::founder_key(seed, 5));
   const auto stretch = Directions::of_largest_stretch(Some::F(), 1.02, random);
   ASSERT_TRUE(stretch.has_value());
-  expect_along<dim, StretchAxis>(*stretch);
+  expect_along<dim>(*stretch, "stretch");
   // The material is isotropic.
-  expect_along<dim, StressAxis>(*stretch);
+  expect_along<dim>(*stretch, "stress");
 
-  RadialAxisParameters around;
-  around.center       = "-1; 1; 0";
   Tensor<1, dim> away = Some::X();
   away[0] += 1.;
   away[1] -= 1.;
-  expect_along<dim, RadialAxis>(away / away.norm(), around);
+  expect_along<dim>(away / away.norm(), "radial", {"Radial center=-1; 1; 0"});
 
   const auto normal = Directions::carried_normal(Some::F(), Some::normal());
-  expect_along<dim, SurfaceNormalAxis>(normal);
-  expect_along<dim, TangentialAxis>(Directions::across(normal, random));
+  expect_along<dim>(normal, "surface normal");
+  expect_along<dim>(Directions::across(normal, random), "tangential");
 }
 
 TEST_2D_3D(AxisRules, AtRandomWhereThereIsNoDirection)
 {
-  DivisionParameters keys;
-  keys.least_anisotropy = "2 + 0*volume";
-  OneCell<dim, StretchAxis> stretched({}, keys);
-  const auto                state = stretched.onset();
+  const std::string least = "Least anisotropy=2 + 0*volume";
+  OneCell<dim>      stretched("stretch", {least});
+  const auto        state = stretched.onset();
   EXPECT_LT((stretched.carried(state) - random_direction(state)).norm(), 1e-14);
-  OneCell<dim, StressAxis> stressed({}, keys);
+  OneCell<dim> stressed("stress", {least});
   EXPECT_LT(
     (stressed.carried(stressed.onset()) - random_direction(state)).norm(),
     1e-14);
 
-  RadialAxisParameters here;
-  here.center = "3; 4; 0";
-  OneCell<dim, RadialAxis> central(here);
+  OneCell<dim> central("radial", {"Radial center=3; 4; 0"});
   EXPECT_LT((central.carried(central.onset()) - random_direction(state)).norm(),
             1e-14);
 }
@@ -219,10 +182,8 @@ TEST_2D_3D(AxisRules, AtRandomWhereThereIsNoDirection)
 /** The spread is around what the rule says, where the rule says it. */
 TEST_2D_3D(AxisRules, SpreadInThePresentConfiguration)
 {
-  DivisionParameters keys;
-  keys.axis_spread = "4 + 0*noise";
-  OneCell<dim, SurfaceNormalAxis> cell({}, keys);
-  const auto normal = Directions::carried_normal(cell.F(), cell.normal());
+  OneCell<dim> cell("surface normal", {"Axis spread=4 + 0*noise"});
+  const auto   normal = Directions::carried_normal(cell.F(), cell.normal());
   for (unsigned int id = 0; id < 100; ++id)
     {
       const auto state = cell.onset(id);

@@ -46,8 +46,9 @@ namespace
       before         = all_cells(tissue);
       const auto due = cells_due(tissue, growth, t);
       n_due          = Utilities::MPI::sum(due.size(), comm);
-      births         = divide(tissue, growth, due, t, next_id).births;
-      after          = all_cells(tissue);
+      std::vector<CellEvent> events;
+      births = divide(tissue, growth, due, t, next_id, events);
+      after  = all_cells(tissue);
     }
 
     CellView<dim, const double>
@@ -167,8 +168,9 @@ TEST(Divide, ASingleCell)
                  MPI_COMM_WORLD),
                PointList<3>());
   grow(tissue, growth, 0., 0.5);
-  types::particle_index next_id = 1;
-  divide(tissue, growth, cells_due(tissue, growth, 0.5), 0.5, next_id);
+  types::particle_index  next_id = 1;
+  std::vector<CellEvent> events;
+  divide(tissue, growth, cells_due(tissue, growth, 0.5), 0.5, next_id, events);
   const auto cells = all_cells(tissue);
   ASSERT_EQ(cells.size(), 2u);
   EXPECT_NEAR(cells.at(1).first.distance(cells.at(2).first), 10., 1e-10);

@@ -262,14 +262,8 @@ TEST(CellCycle, GrowthDoublesOverACycle)
       EXPECT_DOUBLE_EQ(daughter.event_time,
                        0.95 + Random::exponential(seed, daughter.key, 1.));
     }
-  EXPECT_EQ(daughters.first.key,
-            Random::daughter_key(seed,
-                                 state.key,
-                                 Random::Draw::first_daughter));
-  EXPECT_EQ(daughters.second.key,
-            Random::daughter_key(seed,
-                                 state.key,
-                                 Random::Draw::second_daughter));
+  EXPECT_EQ(daughters.first.key, Random::daughter_key(seed, state.key, 0));
+  EXPECT_EQ(daughters.second.key, Random::daughter_key(seed, state.key, 1));
 }
 
 
@@ -315,9 +309,9 @@ TEST(DivisionAxes, FollowRotationOnRequest)
   cell.set(columns.deformation, F);
   const Tensor<1, 3> z({0., 0., 1.}), x({1., 0., 0.});
   DivisionParameters keys;
-  EXPECT_EQ(DivisionAxes<3>(keys, state, {}, seed).placement(cell, z, 0), z);
+  EXPECT_EQ(DivisionAxes<3>(keys, state, seed).placement(cell, z, 0), z);
   keys.axis_follows_rotation = true;
-  EXPECT_EQ(DivisionAxes<3>(keys, state, {}, seed).placement(cell, z, 0), x);
+  EXPECT_EQ(DivisionAxes<3>(keys, state, seed).placement(cell, z, 0), x);
 }
 
 

@@ -114,8 +114,8 @@ TEST(CellTypes, HaveAxesOfTheirOwn)
           "Time/Step=0.002"}));
   EXPECT_NO_THROW(scene.check());
   const SceneEffects<2> effects = effects_of<2>(scene);
-  EXPECT_EQ(effects.development.proliferation->rule(0), nullptr);
-  EXPECT_NE(effects.development.proliferation->rule(1), nullptr);
+  EXPECT_EQ(effects.development.proliferation->axes->rule(0), nullptr);
+  EXPECT_NE(effects.development.proliferation->axes->rule(1), nullptr);
   const CellDevelopment<2> development = development_of(scene);
   for (const double X : {0., 80.})
     {

@@ -59,6 +59,7 @@ namespace
     for (unsigned int n = 0; n < n_steps; ++n)
       {
         const double t0 = n * end / n_steps, t1 = (n + 1) * end / n_steps;
+        std::vector<CellEvent> events;
         grow(tissue, development, t0, t1);
         while (true)
           {
@@ -66,7 +67,7 @@ namespace
             if (due.empty())
               break;
             const auto births =
-              divide(tissue, development, due, t1, next_id).births;
+              divide(tissue, development, due, t1, next_id, events);
             colony.births.insert(colony.births.end(),
                                  births.begin(),
                                  births.end());
@@ -214,12 +215,14 @@ TEST(DivisionBySize, CutsTheLongAxis)
       alone.live(0., 0.5);
       const auto axis = development.placement_axis(alone.cell());
       EXPECT_NEAR(std::abs(axis * along), 1., 1e-12);
-      types::particle_index next_id = 1;
+      types::particle_index  next_id = 1;
+      std::vector<CellEvent> events;
       divide(alone.tissue,
              development,
              cells_due(alone.tissue, development, 0.5),
              0.5,
-             next_id);
+             next_id,
+             events);
       ASSERT_EQ(alone.tissue.cells().size(), 2u);
       alone.live(0.5, 1.5);
       for (unsigned int p = 0; p < 2; ++p)

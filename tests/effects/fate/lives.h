@@ -143,10 +143,8 @@ namespace Morula
             const auto due = cells_due(tissue, development, t1);
             if (due.empty())
               break;
-            const auto divisions =
-              divide(tissue, development, due, t1, next_id);
-            note(divisions.events);
-            for (const auto &birth : divisions.births)
+            for (const auto &birth :
+                 divide(tissue, development, due, t1, next_id, lives.events))
               lives.births.push_back(birth.time);
           }
         if (development.is_mortal())

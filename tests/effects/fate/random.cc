@@ -113,10 +113,8 @@ TEST(Random, RelativesAreIndependent)
     {
       const std::uint64_t key = Random::founder_key(seed, id);
       mother.push_back(wait(key));
-      first.push_back(
-        wait(Random::daughter_key(seed, key, Random::Draw::first_daughter)));
-      second.push_back(
-        wait(Random::daughter_key(seed, key, Random::Draw::second_daughter)));
+      first.push_back(wait(Random::daughter_key(seed, key, 0)));
+      second.push_back(wait(Random::daughter_key(seed, key, 1)));
       next_founder.push_back(wait(Random::founder_key(seed, id + 1)));
       other_seed.push_back(
         Random::exponential(seed + 1, Random::founder_key(seed + 1, id), 1.));

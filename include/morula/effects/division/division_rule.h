@@ -4,14 +4,94 @@
 #ifndef morula_effects_division_division_rule_h
 #define morula_effects_division_division_rule_h
 
+#include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace Morula
 {
   using namespace dealii;
+
+  /** The keys of section "Proliferation/Cell cycle" that say along what cells
+   *  divide, and where daughters are placed: with a cycle and without. */
+  struct DivisionParameters : public EffectKeys
+  {
+    Key<std::string> axis{
+      {this, "Proliferation/Cell cycle/Division axis"},
+      "random",
+      "n_s, chosen at every onset of S, or at a Division by size: 'random': uniform on the sphere "
+      "(2-D: circle); 'fixed': along Fixed axis; in the present "
+      "configuration, 'stretch': along the largest elastic stretch, "
+      "'stress': along the most tensile stress, 'radial': away from Radial "
+      "center, 'surface normal', 'tangential': across or along the surface "
+      "that was nearest to the founder at t = 0, 'cell shape': along which "
+      "the cell is longest; 'gradient of NAME': along "
+      "which a field rises fastest.",
+      {"random"}};
+
+    /** κ */
+    ExpressionKey axis_spread{
+      {this, "Proliferation/Cell cycle/Axis spread"},
+      "0",
+      "kappa: concentration of the axes around what Division axis "
+      "says, by the distribution of von Mises and Fisher. The "
+      "larger, the nearer: the root of the mean square angle tends "
+      "to sqrt(2/kappa), in 2-D sqrt(1/kappa). An expression; not "
+      "negative; 0: no spread.",
+      Evaluated::event,
+      not_negative("(a concentration)",
+                   "0 means no spread; otherwise, the larger the "
+                   "number, the nearer are axes to what Division axis "
+                   "says.")};
+
+    ExpressionKey least_anisotropy{
+      {this, "Proliferation/Cell cycle/Least anisotropy"},
+      "1.02",
+      "Ratio of the two largest elastic stretches below which Division axis "
+      "= stretch takes a random axis; for stress, of 1 + (sigma_1 - "
+      "sigma_2)/(2 mu). An expression; at least 1.",
+      Evaluated::event,
+      {[](const double ratio) { return ratio >= 1.; },
+       "a ratio of at least 1",
+       "1 lets every cell follow its stretch; 1.02 leaves those to chance that "
+       "can hardly tell."}};
+
+    Key<bool> axis_follows_rotation{
+      {this, "Proliferation/Cell cycle/Axis follows rotation"},
+      false,
+      "false: daughters are placed along n_s, as in the paper; "
+      "true: along F_e n_s. For Division axis = random or fixed; others "
+      "place them along the direction that they name."};
+
+    Key<bool> stay_inside{
+      {this, "Proliferation/Cell cycle/Stay inside surface"},
+      false,
+      "true: daughters are placed inside the whole surface; false: only "
+      "inside what is held of it, as in the paper."};
+  };
+
+  /** Key of `Division axis = fixed`. */
+  struct FixedAxisParameters : public EffectKeys
+  {
+    FixedAxisParameters();
+
+    ExpressionKey axis{
+      {this, "Proliferation/Cell cycle/Fixed axis"},
+      "0, 0, 1",
+      "Direction of n_s for Division axis = fixed, in the reference "
+      "configuration, of any length but zero: 3 expressions separated by "
+      "';', or plain numbers separated by ','. 2-D: the first two "
+      "components.",
+      Evaluated::event,
+      3};
+  };
 
   /** What a division rule sees of a cell that enters S. */
   template <int dim>
@@ -33,17 +113,6 @@ namespace Morula
     double least_anisotropy = 1.;
   };
 
-  /** The configuration in which an axis is given. */
-  enum class AxisFrame
-  {
-    /** That of t = 0: the axis is n_s itself. */
-    reference,
-    /** The present one: n_s is the direction that the deformation carries to
-     *  the axis. The daughters are placed along the direction to which n_s is
-     *  carried. */
-    present
-  };
-
   /**
    * Chooses the axis along which a cell grows and divides, n_s of (6.2), for
    * `Proliferation/Cell cycle/Division axis`. A rule keeps nothing between
@@ -58,11 +127,14 @@ namespace Morula
     virtual Tensor<1, dim>
     axis(const CellAtOnset<dim> &cell) const = 0;
 
-    /** The configuration in which axis() is given. */
-    virtual AxisFrame
-    frame() const
+    /** Whether axis() is given in the present configuration: then n_s is the
+     *  direction that the deformation carries to it, and daughters are placed
+     *  along the direction to which n_s is carried. Otherwise it is n_s itself.
+     */
+    virtual bool
+    is_present() const
     {
-      return AxisFrame::reference;
+      return false;
     }
 
     /** Evaluates the axes of the founders, so that errors appear before the
@@ -74,6 +146,85 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
+  };
+
+  /** `Division axis = gradient of NAME`: along the direction in which a field
+   *  rises fastest now, and at random where it is uniform. */
+  template <int dim>
+  std::unique_ptr<const DivisionRule<dim>>
+  gradient_axis(const std::string &field, const EffectSetting<dim> &setting);
+
+  /** Along what the cells of a scene divide: the rules of its types, and keys.
+   *  Axes are kept in the reference configuration. */
+  template <int dim>
+  class DivisionAxes
+  {
+  public:
+    using Rules = std::vector<std::unique_ptr<const DivisionRule<dim>>>;
+
+    /** @param of_type the rule of each type of cells, one of these, or null for
+     *  a random axis; empty: all types have the first
+     *  @throws InputError for expressions that cannot be parsed */
+    DivisionAxes(const DivisionParameters                     &keys,
+                 StateColumns<dim>                            &state,
+                 const std::uint64_t                           seed,
+                 Rules                                         rules   = {},
+                 const std::vector<const DivisionRule<dim> *> &of_type = {});
+
+    /** The rule of a type of cells, or null. */
+    const DivisionRule<dim> *
+    rule(const unsigned int type) const;
+
+    /** Refuses what the rules cannot do at the founders. @throws InputError */
+    void
+    check(const Preview<dim> &scene) const;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const;
+
+    /** Evaluates the expressions and the rule of a founder in its state. */
+    void
+    check_cell(const PresentCell<dim> &founder, const double step) const;
+
+    /**
+     * The direction of a cell of which there is a rule, of any length but zero,
+     * in the rule's configuration: the rule's, and the spread around it,
+     * doc/theory.md (6.3d).
+     * @param cell   in its state at @p t, day
+     * @param random its own random unit vector
+     * @param key    of the draw
+     */
+    Tensor<1, dim>
+    direction(const PresentCell<dim> &cell,
+              const double            t,
+              const Tensor<1, dim>   &random,
+              const std::uint64_t     key) const;
+
+    /** The unit vector in the reference configuration along which a cell in its
+     *  state at @p t (day) divides. @throws InputError */
+    Tensor<1, dim>
+    choose(const PresentCell<dim> &cell, const double t) const;
+
+    /** Unit direction along which the daughters of a cell are placed.
+     *  @param axis as choose() gave it. @param type of the cell */
+    Tensor<1, dim>
+    placement(const CellView<dim, const double> &cell,
+              const Tensor<1, dim>              &axis,
+              const unsigned int                 type) const;
+
+    /** Whether an axis of the reference configuration is placed along F_e n_s,
+     *  not n_s. */
+    const bool follow_rotation;
+    /** Whether daughters stay inside the whole surface, not only inside its
+     *  held parts. */
+    const bool stay_inside;
+
+  private:
+    Expression                             spread; // κ of (6.3d); 0: none
+    Expression                             least_anisotropy;
+    std::uint64_t                          seed;
+    Rules                                  rules;
+    std::vector<const DivisionRule<dim> *> of_type;
   };
 } // namespace Morula
 

@@ -7,14 +7,12 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/past_step.h>
 #include <morula/effects/effect.h>
-#include <morula/effects/fate/cell_cycle_parameters.h>
 #include <morula/effects/fate/hazard.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/particles/property_pool.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -28,13 +26,87 @@ namespace Morula
   template <int dim>
   class PresentCell;
 
-  /** Warns of steps that are long beside the shortest cycle of a founder.
-   *  Collective. */
-  template <int dim>
-  void
-  review_cell_cycle(const CellCycleParameters &parameters,
-                    const Preview<dim>        &scene,
-                    Review                    &review);
+  /** Section "Proliferation/Cell cycle", but for DivisionParameters. */
+  struct CellCycleParameters : public EffectKeys
+  {
+    /** of all types that have none of their own */
+    static inline const std::string of_founder =
+      " An expression of X, Y, Z (um), evaluated at the founder's initial "
+      "position and inherited by all its descendants.";
+
+    Key<std::string> law{{this, "Proliferation/Law"},
+                         "none",
+                         "How cells grow and divide.",
+                         {"none|cell cycle"}};
+
+    Key<std::string> start{
+      {this, "Proliferation/Cell cycle/Start"},
+      "waiting",
+      "State at t = 0: 'waiting': all cells in G0, with "
+      "exponentially distributed waits; 'together': all cells "
+      "enter S at t = 0.",
+      {"waiting|together"}};
+
+    ExpressionKey duration{{this, "Proliferation/Cell cycle/Duration"},
+                           "1",
+                           "T_cycle: total duration of S, G2, M and G1. "
+                           "Positive, and at least twice Time/Step." +
+                             of_founder + " Units: day.",
+                           Evaluated::event,
+                           positive("day",
+                                    "Choose the duration of a cycle in days.")};
+
+    ExpressionKey exit_rate{
+      {this, "Proliferation/Cell cycle/G0 exit rate"},
+      "1",
+      "Lambda: rate of the exponentially distributed "
+      "wait in G0. Not negative; 0: cells never leave G0." +
+        of_founder + " Units: 1/day.",
+      Evaluated::event,
+      not_negative("1/day", "0 lets cells wait forever.")};
+
+    /** J_th */
+    ExpressionKey size_checkpoint{
+      {this, "Proliferation/Cell cycle/Size checkpoint"},
+      "0",
+      "J_th: a cell enters S only while its elastic volume "
+      "ratio J_e is above this value. Not negative; 0: no "
+      "checkpoint." +
+        of_founder,
+      Evaluated::event,
+      not_negative("(a ratio of volumes)", "0 means no checkpoint.")};
+
+    ExpressionKey where{{this, "Proliferation/Cell cycle/Where"},
+                        "1",
+                        "Founders for which this is > 0 proliferate." +
+                          of_founder,
+                        Evaluated::founder};
+
+    bool
+    is_on() const override;
+
+    EffectFacts
+    facts() const override
+    {
+      EffectFacts facts;
+      facts.switch_key    = &law;
+      facts.divides_cells = true;
+      facts.grows_cells   = true;
+      facts.founders_key  = &where;
+      facts.topic         = "proliferation";
+      return facts;
+    }
+
+    void
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &of_cells) override;
+
+    std::string
+    details() const override;
+
+  private:
+    bool is_law_of_types = false; // of some
+  };
 
   /** A cell's place in its cycle. S and G2 differ by the clock alone. */
   enum class CyclePhase
@@ -59,16 +131,6 @@ namespace Morula
     /** The rate of leaving G0, integrated since the wait began, if cells store
      *  it. */
     double hazard = 0.;
-    /** That rate as the last step saw it, 1/day, if it follows the state; or
-     *  not_expected. */
-    double exit_rate = not_expected;
-
-    /** Whether the cell waits, and only the hazard tells for how long. */
-    bool
-    is_drawn_by_hazard() const
-    {
-      return phase == CyclePhase::waiting && !std::isfinite(event_time);
-    }
   };
 
   /** J_e of a cell at the beginning of a step, and how it came to it, for the
@@ -124,43 +186,24 @@ namespace Morula
     double
     value(const Expression &expression, const double when) const;
 
-    /** The present cell, or null. */
-    const PresentCell<dim> *
-    present() const
-    {
-      return cell;
-    }
-
   private:
     Point<dim>              X;
     const PresentCell<dim> *cell = nullptr;
     double                  t    = 0.;
   };
 
+  template <int dim>
+  class CellCycle;
+
   /** The columns of a cell's clock: those that the cell cycle needs. */
   template <int dim>
   class CycleColumns
   {
   public:
-    /**
-     * Declares them, with all that a growing and dividing cell needs.
-     * @param own_duration whether every cell has a T of its own
-     * @param own_hazard   whether the rate of leaving G0 changes
-     * @param exit_rate    whether it follows the state
-     * @param checkpoint   whether there is a size checkpoint
-     */
-    explicit CycleColumns(CellColumns<dim> &columns,
-                          const bool        own_duration = false,
-                          const bool        own_hazard   = false,
-                          const bool        exit_rate    = false,
-                          const bool        checkpoint   = false);
-
-    /** The key of the cell's random numbers. */
-    std::uint64_t
-    lineage_key(const CellView<dim, const double> &cell) const
-    {
-      return cell.get(lineage_key_);
-    }
+    /** Declares them, with all that a growing and dividing cell needs, and what
+     *  this cycle stores besides. */
+    explicit CycleColumns(CellColumns<dim>     &columns,
+                          const CellCycle<dim> *cycle = nullptr);
 
     /** A cell's clock. */
     CycleState<dim>
@@ -180,6 +223,10 @@ namespace Morula
     void
     remember_size(const CellView<dim, const double> &before,
                   const CellView<dim, double>       &after) const;
+
+    /** The rate of leaving G0 as a hazard that this clock integrates itself. */
+    CellHazard<dim>
+    exit_hazard(const Expression &rate) const;
 
   private:
     Column<CyclePhase>     phase;
@@ -254,19 +301,12 @@ namespace Morula
       return exit_rate_follows_state;
     }
 
-    /** The rate of leaving G0, 1/day. @throws InputError */
-    double
-    exit_rate_at(const CellAt<dim> &at) const
+    /** The rate of leaving G0, 1/day. */
+    const Expression &
+    rate_of_exit() const
     {
-      return at.value(exit_rate);
+      return exit_rate;
     }
-
-    /** Adds what the last step missed of the integral of that rate:
-     *  doc/theory.md (5.9). @param at the cell at the middle of that step */
-    void
-    make_good(CycleState<dim>   &state,
-              const CellAt<dim> &at,
-              const PastStep    &past) const;
 
     /** Refuses numbers of a founder in its state at t = 0: see check().
      *  @throws InputError */
@@ -276,9 +316,8 @@ namespace Morula
     /**
      * Refuses a time step too long for the cycle (above T/2 for the smallest T
      * of those of these founders that proliferate: a cell could divide twice in
-     * a step), T <= 0, negative rates, negative thresholds of the checkpoint.
-     * Not collective: ranks that pass different founders may disagree.
-     * @throws InputError
+     * a step), and values against the keys' rules. Not collective: ranks that
+     * pass different founders may disagree. @throws InputError
      */
     void
     check(const std::vector<Point<dim>> &founders, const double step) const;
@@ -323,11 +362,20 @@ namespace Morula
     bool
     divides(const CycleState<dim> &state,
             const CellAt<dim>     &at,
-            const double           t1) const;
+            const double           t1) const
+    {
+      // The slack admits rounding: a division at t1 belongs to this step.
+      return state.phase == CyclePhase::growing &&
+             division_time(state, at) <= t1 + slack;
+    }
 
     /** Exact time of the division of a `growing` cell, day. */
     double
-    division_time(const CycleState<dim> &state, const CellAt<dim> &at) const;
+    division_time(const CycleState<dim> &state, const CellAt<dim> &at) const
+    {
+      Assert(state.phase == CyclePhase::growing, ExcInternalError());
+      return state.event_time + 0.5 * cycle_duration(state, at);
+    }
 
     /**
      * F_g of the cycle at @p t, doc/theory.md (6.2), equation (15) of the
@@ -375,7 +423,11 @@ namespace Morula
     bool
     passes_checkpoint(const CellAt<dim> &at,
                       const double       J_e,
-                      const double       t) const;
+                      const double       t) const
+    {
+      const double threshold = at.value(size_checkpoint, t);
+      return threshold == 0. || J_e > threshold;
+    }
 
     /** When a waiting cell starts S in a step until @p t1, day; infinity: not
      * in this step. doc/theory.md (6.3g) */
@@ -393,12 +445,10 @@ namespace Morula
       return has_own_duration() ? state.duration : at.value(duration);
     }
 
-    /** T of a cell from @p X. Refuses bad values: of the expressions that
-     *  depend on its state, or of the others. */
+    /** T of a cell. Evaluates the expressions that depend on its state, or the
+     *  others. */
     double
-    checked_duration(const CellAt<dim> &at,
-                     const Point<dim>  &X,
-                     const bool         in_its_state) const;
+    checked_duration(const CellAt<dim> &at, const bool in_its_state) const;
 
     /** Refuses steps in which a cell could divide twice. */
     void
@@ -414,11 +464,6 @@ namespace Morula
                      const CellAt<dim> &at,
                      const double       t0,
                      const double       t1) const;
-
-    CellCycle(const CellCycleParameters &parameters,
-              const std::uint64_t        seed,
-              const double               slack,
-              StateColumns<dim>        &&own);
 
     Expression    duration, exit_rate, size_checkpoint, where;
     bool          start_together;

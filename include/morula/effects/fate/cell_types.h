@@ -4,9 +4,10 @@
 #ifndef morula_effects_fate_cell_types_h
 #define morula_effects_fate_cell_types_h
 
-#include <morula/effects/fate/cell_hazard.h>
-#include <morula/effects/fate/cell_type_parameters.h>
+#include <morula/base/expression_key.h>
+#include <morula/effects/fate/fate.h>
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,13 +15,130 @@
 
 namespace Morula
 {
+  /** Section "Cell types/NAME". */
+  struct CellTypeKeys : public Keys
+  {
+    /**
+     * @param name   of the type
+     * @param others names of the other types
+     * @param of_cells keys of cells, for which the type may have values of its
+     *        own
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
+     */
+    CellTypeKeys(const std::string                        &name,
+                 const std::vector<std::string>           &others,
+                 const std::vector<const ExpressionKey *> &of_cells,
+                 const std::string                        &growth_laws,
+                 const std::string                        &division_axes);
+
+    std::string      name;
+    ExpressionKey    where;
+    Key<std::string> daughters;
+    Key<std::string> growth_law;
+    Key<std::string> proliferation_law;
+    Key<std::string> division_axis;
+    /** Rates of becoming one of the other types, in their order. */
+    std::deque<ExpressionKey> transitions;
+    /** Values of keys for this type; empty: the values of all types. */
+    std::deque<ExpressionKey> overrides;
+
+    /** The path of a key of cells in the section of this type. */
+    std::string
+    path_of(const AnyKey &key) const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Section "Cell types": names first, then a section for each of them. */
+  struct CellTypesParameters : public EffectKeys
+  {
+    Key<std::string> names{
+      "Cell types/Names",
+      "",
+      "Types of cells, separated by commas; the first is that of founders "
+      "for which no other one's Where holds. Each has a section of this "
+      "name, and expressions of cells may compare `type` with it. Empty: "
+      "all cells are alike."};
+    std::deque<CellTypeKeys> types;
+
+    bool
+    is_on() const override
+    {
+      return !types.empty();
+    }
+
+    /** The values of a key of cells that types have of their own. */
+    std::vector<const ExpressionKey *>
+    own_values_of(const AnyKey &key) const;
+
+    /** What the type number @p type has of its own: a line a key. */
+    std::string
+    details_of(const unsigned int type) const;
+
+    /** Refuses types whose Where holds at no founder. @param n numbers of
+     *  founders, over all ranks, by type. @throws InputError */
+    void
+    check_founders(const std::vector<dealii::types::particle_index> &n) const;
+
+    /** Refuses laws that differ from type to type, and daughters of types that
+     *  there are not. */
+    void
+    check(const SceneKeys &scene, Review &review) const override;
+
+    /** The names in the order of the types' numbers. */
+    std::vector<std::string>
+    name_list() const;
+
+    /**
+     * Makes the sections of the types.
+     * @param names as `Names` has them
+     * @param of_cells keys of cells, for which types may have values of their
+     *        own
+     * @param growth_laws, division_axes from which types may choose,
+     *        separated by '|'
+     * @param fields names that are taken
+     * @throws InputError for names that expressions cannot have, or that are
+     *         given twice
+     */
+    void
+    make_types(const std::string                        &names,
+               const std::vector<const ExpressionKey *> &of_cells,
+               const std::string                        &growth_laws,
+               const std::string                        &division_axes,
+               const std::vector<std::string>           &fields);
+
+    /** Tells the keys of cells the types and their own values. */
+    void
+    apply(const std::vector<ExpressionKey *> &of_cells);
+
+    /** Numbers of the daughters' types of a type. @throws InputError */
+    std::pair<unsigned int, unsigned int>
+    daughters(const unsigned int type) const;
+
+    using Keys::list;
+    KeyList
+    list() override;
+  };
+
+  /** Warns of types that no cell has and none can get, of daughters where no
+   *  cell divides, and of a first type that takes what no other one does.
+   *  Collective. @param of_file whether a file says the founders' types */
+  template <int dim>
+  void
+  review_types(const CellTypesParameters &parameters,
+               const Preview<dim>        &scene,
+               const bool                 of_file,
+               Review                    &review);
+
   /**
    * The types of cells, and how cells change their type. Each way out of a type
-   * has a rate r (1/day), an expression of the cell's state at the beginning of
-   * the step, and is taken when ∫ r dt since the cell got its type reaches a
-   * number that is exponentially distributed with mean 1, drawn from the
-   * lineage key: doc/theory.md, section 6.8. So events have exact times, and if
-   * the rates do not depend on steps, neither do the events.
+   * is a hazard with a rate (1/day), an expression of the cell's state at the
+   * beginning of the step, integrated since the cell got its type:
+   * doc/theory.md, section 6.8. So events have exact times, and if the rates do
+   * not depend on steps, neither do the events.
    */
   template <int dim>
   class CellTypes : public Fate<dim>
@@ -35,33 +153,12 @@ namespace Morula
     unsigned int
     founder_type(const Point<dim> &X) const;
 
-    void
-    make_good(const PresentCell<dim>      &cell,
-              const CellView<dim, double> &row) const override;
-
-    std::optional<double>
-    next(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch) const override;
-
-    void
-    pass(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch,
-         const double                 s) const override;
-
     LifeAfter
     happen(const PresentCell<dim>      &cell,
            const CellView<dim, double> &row,
            const Stretch               &stretch,
            const double                 s,
            std::vector<CellEvent>      &events) const override;
-
-    void
-    expect(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const override;
 
     void
     inherit(const CellView<dim, double> &daughter,
@@ -72,63 +169,15 @@ namespace Morula
     void
     declare(Tables<dim> &tables) const override;
 
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
-
-    std::vector<const Expression *>
-    rates(const unsigned int type) const override;
-
-    /** Number of types. */
-    unsigned int
-    size() const
-    {
-      return transitions.size();
-    }
-
   private:
-    struct Transition
-    {
-      unsigned int    to;
-      CellHazard<dim> hazard;
-    };
-
-    /** The ways out of a cell's type in a stretch, and the first that is taken.
-     */
-    struct Outlook
-    {
-      std::vector<Hazard>         ways;
-      std::optional<double>       time; // day
-      std::optional<unsigned int> to;   // number of the type
-    };
-
-    /** @param row that of the beginning of the stretch. @throws InputError for
-     *  negative rates */
-    Outlook
-    outlook(const PresentCell<dim>            &cell,
-            const CellView<dim, const double> &row,
-            const Stretch                     &stretch) const;
-
-    /** Keeps the integrals of the ways at @p s, day. */
-    void
-    integrate(const Outlook               &outlook,
-              const Stretch               &stretch,
-              const double                 s,
-              const CellView<dim, double> &row) const;
-
     std::vector<std::string>                           names;
-    std::uint64_t                                      random_seed;
     std::vector<std::optional<Expression>>             where;
-    std::vector<std::pair<unsigned int, unsigned int>> daughters_;
-    std::vector<std::vector<Transition>>               transitions; // by type
-    Column<unsigned int>                               n_changes;
-    std::vector<Column<double>>                        hazards;
-    /** Rates that the last step saw, by the number of the way; a column exists
-     *  if the rate of some type's way of this number follows the state. */
-    std::vector<Column<double>> expected;
+    std::vector<std::pair<unsigned int, unsigned int>> daughters;
+    /** To which type the ways out of a type lead. */
+    std::vector<std::vector<unsigned int>> targets;
+    Column<unsigned int>                   n_changes;
+    /** Of the rates, by the number of the way. */
+    std::vector<Column<double>> integrals;
   };
 } // namespace Morula
 

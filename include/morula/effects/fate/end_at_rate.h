@@ -5,9 +5,12 @@
 #define morula_effects_fate_end_at_rate_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/fate/cell_hazard.h>
+#include <morula/effects/fate/fate.h>
+#include <morula/effects/tables.h>
 
-#include <optional>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 namespace Morula
@@ -16,36 +19,9 @@ namespace Morula
    *  life: a change of its type changes the rate and keeps the integral,
    *  doc/theory.md, section 6.9. */
   template <int dim>
-  class EndAtRate : public Fate<dim>
+  class EndAtRate : public Fate<dim>, public Dies<dim>
   {
   public:
-    void
-    make_good(const PresentCell<dim>      &before,
-              const CellView<dim, double> &row) const override;
-
-    std::optional<double>
-    next(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch) const override;
-
-    void
-    pass(const PresentCell<dim>      &cell,
-         const CellView<dim, double> &row,
-         const Stretch               &stretch,
-         const double                 s) const override;
-
-    void
-    expect(const PresentCell<dim>      &before,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const override;
-
-    bool
-    is_deadly() const override
-    {
-      return true;
-    }
-
     double
     time_of_death(const CellView<dim, const double> &cell) const override
     {
@@ -53,59 +29,106 @@ namespace Morula
                                std::numeric_limits<double>::infinity();
     }
 
-    std::vector<const Expression *>
-    rates(const unsigned int type) const override;
-
-    /** The columns of events, which those that end lives share. */
     void
-    declare(Tables<dim> &tables) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
+    declare(Tables<dim> &tables) const override
+    {
+      // The numbers of pieces are known to the run only; here the column is
+      // announced. The first of such fates announces it all.
+      tables.record_events(true);
+      const auto &columns = tables.columns();
+      if (std::any_of(columns.begin(), columns.end(), [](const auto &column) {
+            return column.name == "deaths";
+          }))
+        return;
+      tables.add_count("deaths", CellEvent::death);
+      tables.add_count("removed", CellEvent::removal);
+      tables.add_number("pieces");
+    }
 
   protected:
-    /** The names and the meanings of the columns. */
-    struct Words
-    {
-      /** The columns are NAME_hazard, NAME_rate and NAME_time. */
-      std::string name;
-      /** Of NAME_time. */
-      std::string meaning;
-      /** What no cell does by a rate that is 0 everywhere, a sentence. */
-      std::string nobody;
-      /** Whether NAME_time is written to the tables of cells. */
-      bool in_tables;
-    };
+    using Threshold = double (*)(const std::uint64_t seed,
+                                 const std::uint64_t key);
 
-    /** Declares the columns: no hazard for a rate that is always zero.
+    /** Declares the columns NAME_hazard, NAME_rate and NAME_time: no hazard
+     *  for a rate that is always zero.
+     *  @param meaning   of NAME_time
+     *  @param in_tables whether it is written to the tables of cells
      *  @throws InputError */
-    EndAtRate(const ExpressionKey      &rate,
+    EndAtRate(const ExpressionKey      &rate_key,
               const EffectSetting<dim> &setting,
-              const Words              &words);
+              const Threshold           threshold,
+              const std::string        &name,
+              const std::string        &meaning,
+              const bool                in_tables,
+              const std::string        &nobody)
+    {
+      // The rate is announced first, as it decides which columns the state
+      // has. A rate that does not follow the state misses nothing.
+      const Expression  rate = setting.state.use(rate_key);
+      const std::string what = "rate of " + name;
+      const auto add = [&columns = setting.columns](const auto &...column) {
+        return columns.template add<double>({column...});
+      };
+      constexpr AtDivision reset = AtDivision::reset;
+      setting.columns.need_growth();
+      if (!rate.is_always(0.))
+        {
+          const auto integral =
+            add(name + "_hazard", "", what + ", integrated", 0., reset);
+          const auto expected =
+            rate.follows_state() ?
+              add(name + "_rate",
+                  "1/day",
+                  what + " that the last step saw; -1: none",
+                  not_expected,
+                  reset) :
+              Column<double>();
+          this->hazards_of_types[0].push_back(
+            {rate,
+             integral,
+             expected,
+             [threshold,
+              seed = setting.random_seed](const PresentCell<dim> &cell,
+                                          const CellView<dim, const double> &) {
+               return threshold(seed, cell.lineage_key());
+             },
+             nobody});
+        }
+      time = add(name + "_time", "day", meaning, never, reset, in_tables);
+    }
 
-    /** The threshold of a cell with this lineage key. */
-    virtual double
-    threshold(const std::uint64_t seed, const std::uint64_t key) const = 0;
-
-    /** Ends the life at @p t, day. */
+    /** Ends the life at @p t, day. @param at_once by a condition that held,
+     *  not by the rate */
     void
-    end(const CellView<dim, double> &row, const double t) const;
+    end(const PresentCell<dim>      &cell,
+        const CellView<dim, double> &row,
+        const double                 t,
+        std::vector<CellEvent>      &events,
+        const char *const            cause,
+        const bool                   at_once = false) const
+    {
+      row.set(time, t);
+      events.push_back({t,
+                        cell.id(),
+                        CellEvent::death,
+                        cell.type(),
+                        cell.type(),
+                        cause,
+                        at_once});
+    }
 
     /** Whether the life has ended by this fate. */
     bool
-    has_ended(const CellView<dim, const double> &cell) const;
+    has_ended(const CellView<dim, const double> &cell) const
+    {
+      return cell.get(time) != never;
+    }
 
   private:
-    /** Declares the columns of the rate. */
-    static CellHazard<dim>
-    hazard_of(const ExpressionKey      &rate,
-              const EffectSetting<dim> &setting,
-              const std::string        &name);
+    /** The time of a cell that lives. No life ends before t = 0. */
+    static constexpr double never = -1.;
 
-    const CellHazard<dim> hazard;
-    const Column<double>  time; // day
-    const std::uint64_t   random_seed;
-    const std::string     nobody;
+    Column<double> time; // day
   };
 } // namespace Morula
 

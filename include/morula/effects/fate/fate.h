@@ -5,12 +5,13 @@
 #define morula_effects_fate_fate_h
 
 #include <morula/effects/effect.h>
+#include <morula/effects/fate/hazard.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/cell_event.h>
 
-#include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -20,9 +21,6 @@ namespace Morula
   {
     double begin, end; // day
   };
-
-  template <int dim>
-  class DivisionAxes;
 
   /** What an event leaves of a cell's life in the step. */
   enum class LifeAfter
@@ -34,8 +32,10 @@ namespace Morula
 
   /**
    * What befalls cells, at exact times: the cell cycle, death, changes of type,
-   * a program's own. live() asks all fates of a cell for their next event and
-   * lets the first one happen; of two at the same time that of the later fate.
+   * a program's own. Fates::live() asks all fates of a cell for their next
+   * event and lets the first one happen; of two at the same time that of the
+   * later fate. One that divides cells is Divides as well, one that ends lives
+   * Dies.
    *
    * A fate keeps nothing between calls: its integrals and clocks are in columns
    * of the cell. @p cell is always the cell in its state at the beginning of
@@ -46,31 +46,24 @@ namespace Morula
   class Fate : public Effect<dim>
   {
   public:
-    /** Adds what the last step missed of integrals whose rates follow the
-     *  state, doc/theory.md (5.9), to the row of a living cell. */
-    virtual void
-    make_good(const PresentCell<dim>      &before,
-              const CellView<dim, double> &row) const;
-
     /**
      * Takes the fate's columns to the end of the stretch, or to the fate's next
-     * event if that comes before.
+     * event if that comes before: of its hazards, unless it says otherwise.
      * @return when it comes, day; nothing if it does not
      * @throws InputError for rates without a value
      */
     virtual std::optional<double>
     next(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
-         const Stretch               &stretch) const = 0;
+         const Stretch               &stretch) const;
 
     /** Takes the columns of @p cell to @p s (day) only: another fate's event
      *  has come, before the end of the stretch of next(). */
     virtual void
-    pass(const PresentCell<dim> &,
-         const CellView<dim, double> &,
-         const Stretch &,
-         const double) const
-    {}
+    pass(const PresentCell<dim>      &cell,
+         const CellView<dim, double> &row,
+         const Stretch               &stretch,
+         const double                 s) const;
 
     /** The event of next() happens at @p s, day. @param events gets what
      *  events.csv shall tell. */
@@ -80,24 +73,6 @@ namespace Morula
            const Stretch               &stretch,
            const double                 s,
            std::vector<CellEvent>      &events) const = 0;
-
-    /** Keeps what the next step will compare in make_good().
-     *  `t` is the middle of the step, day; `is_whole` says whether nothing has
-     *  happened to the cell in it. */
-    virtual void
-    expect(const PresentCell<dim> & /*before*/,
-           const CellView<dim, double> & /*cell*/,
-           const double /*t*/,
-           const bool /*is_whole*/) const
-    {}
-
-    /** The cell's life ends at @p s (day), by this fate or another: sets what a
-     *  dead cell has of this one. */
-    virtual void
-    end_of_life(const PresentCell<dim> &,
-                const CellView<dim, double> &,
-                const double) const
-    {}
 
     /** Sets what distinguishes a daughter, whose row is her mother's by the
      *  columns' rules, from her mother. `which` is 0 for the one at -n_s, 1
@@ -109,28 +84,59 @@ namespace Morula
             const double /*birth*/) const
     {}
 
-    /** The rates, 1/day, with which the fate befalls cells of a type. */
-    virtual std::vector<const Expression *>
-    rates(const unsigned int) const
-    {
-      return {};
-    }
-
-    /** @name Fates that divide cells */
-    ///@{
-
-    /** Whether cells may divide by this fate at all. Then it sets the columns
-     *  of both daughters in inherit(). */
-    virtual bool
-    divides() const
-    {
-      return false;
-    }
-
-    /** Tells along what cells divide; without it at random. */
+    /** The cell's life ends at @p s (day), by this fate or another: sets what a
+     *  dead cell has of this one. */
     virtual void
-    set_axes(std::shared_ptr<const DivisionAxes<dim>>)
+    end_of_life(const PresentCell<dim> &,
+                const CellView<dim, double> &,
+                const double) const
     {}
+
+    /** The hazards of cells of a type by this fate. Their integrals are made
+     *  good and compared step by step. */
+    const std::vector<CellHazard<dim>> &
+    hazards(const unsigned int type) const;
+
+    /** Evaluates all rates at a founder in its state. */
+    void
+    check_cell(const PresentCell<dim> &founder,
+               const double            step) const override;
+
+    void
+    review(const Preview<dim> &scene, Review &review) const override;
+
+  protected:
+    /** Which of its hazards brings the event of next(). */
+    std::size_t
+    first_hazard(const PresentCell<dim> &cell, const Stretch &stretch) const;
+
+    /** By type; a single list is that of all types. */
+    std::vector<std::vector<CellHazard<dim>>> hazards_of_types =
+      std::vector<std::vector<CellHazard<dim>>>(1);
+  };
+
+  template <int dim>
+  class DivisionAxes;
+
+  /** A fate that divides cells, and sets the columns of both daughters in
+   *  Fate::inherit(). */
+  template <int dim>
+  class Divides
+  {
+  public:
+    virtual ~Divides() = default;
+
+    /** When the cell divides, if at or before @p t; day; infinity: it does not.
+     */
+    virtual double
+    time_of_division(const CellView<dim, const double> &cell,
+                     const double                       t) const = 0;
+
+    /** Unit direction along which the daughters of a cell are placed, in the
+     *  present configuration. @param type of the cell */
+    virtual Tensor<1, dim>
+    placement_axis(const CellView<dim, const double> &cell,
+                   const unsigned int                 type) const = 0;
 
     /** Whether grow() is to be called. */
     virtual bool
@@ -150,77 +156,27 @@ namespace Morula
          const Stretch & /*step*/) const
     {}
 
-    /** When the cell divides by this fate, if at or before @p t; day; infinity:
-     *  it does not. */
-    virtual double
-    time_of_division(const CellView<dim, const double> &, const double) const
-    {
-      return std::numeric_limits<double>::infinity();
-    }
+    /** Along what cells divide; null: at random. */
+    std::shared_ptr<const DivisionAxes<dim>> axes;
+  };
 
-    /** Unit direction along which the daughters of a cell that divides by this
-     *  fate are placed, in the present configuration.
-     *  @param type of the cell */
-    virtual Tensor<1, dim>
-    placement_axis(const CellView<dim, const double> &cell,
-                   const unsigned int                 type) const;
-
-    /** Whether daughters stay inside the whole surface, not only inside its
-     *  held parts. */
-    virtual bool
-    stays_inside() const
-    {
-      return false;
-    }
-
-    ///@}
-
-    /** @name Fates that end lives */
-    ///@{
-
-    /** Whether lives may end by this fate at all. */
-    virtual bool
-    is_deadly() const
-    {
-      return false;
-    }
-
-    /** Whether strikes() may tell of cells that are then removed at once. */
-    virtual bool
-    may_strike() const
-    {
-      return false;
-    }
-
-    /** Whether the fate ends the life of a living cell at once, in its state at
-     *  @p t, day. Asked at the beginning of a step, and at its end of cells
-     *  that are then removed. @throws InputError */
-    virtual bool
-    strikes(const PresentCell<dim> &, const double) const
-    {
-      return false;
-    }
-
-    /** Ends the life of a cell that strikes() has told of. */
-    virtual void
-    strike(const PresentCell<dim> &,
-           const CellView<dim, double> &,
-           const double,
-           std::vector<CellEvent> &) const
-    {}
+  /** A fate that ends lives. */
+  template <int dim>
+  class Dies
+  {
+  public:
+    virtual ~Dies() = default;
 
     /** When the cell's life ended by this fate, day; infinity: it did not. */
     virtual double
-    time_of_death(const CellView<dim, const double> &cell) const;
-
-    /** The factor by which the stretch of F_g of a cell that died of this fate
-     *  changes until @p t, day; may note it in the row. doc/theory.md (6.9) */
-    virtual double
-    shrink(const CellView<dim, double> &row, const double t) const;
+    time_of_death(const CellView<dim, const double> &cell) const = 0;
 
     /** When the dead cell will be removed, day; infinity: never. */
     virtual double
-    removal_time(const CellView<dim, const double> &cell) const;
+    removal_time(const CellView<dim, const double> &cell) const
+    {
+      return time_of_death(cell);
+    }
 
     /** Whether the cell is to be removed at @p t (day) at the latest. */
     virtual bool
@@ -238,7 +194,102 @@ namespace Morula
       return false;
     }
 
-    ///@}
+    /** The factor by which the stretch of F_g of a cell that died of this fate
+     *  changes until @p t, day; may note it in the row. doc/theory.md (6.9) */
+    virtual double
+    shrink(const CellView<dim, double> & /*row*/, const double /*t*/) const
+    {
+      return 1.;
+    }
+
+    /** Whether strikes() may tell of cells that are then removed at once. */
+    virtual bool
+    may_strike() const
+    {
+      return false;
+    }
+
+    /** Whether the fate ends the life of a living cell at once, in its state at
+     *  @p t, day. Asked at the beginning of a step, and at its end of cells
+     *  that are then removed. @throws InputError */
+    virtual bool
+    strikes(const PresentCell<dim> & /*cell*/, const double /*t*/) const
+    {
+      return false;
+    }
+
+    /** Ends the life of a cell that strikes() has told of. */
+    virtual void
+    strike(const PresentCell<dim> &,
+           const CellView<dim, double> &,
+           const double,
+           std::vector<CellEvent> &) const
+    {}
+  };
+
+  template <int dim>
+  class TypesAround;
+
+  /** The fates of a scene's cells, in the order in which they are asked. */
+  template <int dim>
+  struct Fates
+  {
+    std::vector<std::unique_ptr<const Fate<dim>>> list;
+    /** Those of the list that end lives. */
+    std::vector<const Dies<dim> *> deadly;
+    /** The one by which cells divide, or null. */
+    const Divides<dim> *dividing = nullptr;
+
+    /** Adds a fate, behind those before. */
+    void
+    add(std::unique_ptr<const Fate<dim>> fate);
+
+    /**
+     * Lets a cell live through (t0, t1], day, event by event: doc/theory.md,
+     * sections 6.8 and 6.9. Its row is then that of t1, or of its death. What
+     * would come after a division is left out: it happens to the daughters.
+     * @param before the cell at the beginning of the step
+     * @param row    its row at @p t0, to be written
+     * @param events gets what happens
+     * @param around the types of the cells beside it, if they change in the
+     *        step; or null
+     * @throws InputError for rates without a value, or too many events
+     */
+    void
+    live(const PresentCell<dim>      &before,
+         const CellView<dim, double> &row,
+         const double                 t0,
+         const double                 t1,
+         std::vector<CellEvent>      &events,
+         const TypesAround<dim>      *around = nullptr) const;
+
+    /** As CellHazard::make_good(), for all hazards. */
+    void
+    make_good(const PresentCell<dim>      &before,
+              const CellView<dim, double> &row) const;
+
+    /** As CellHazard::expect(), for all hazards. */
+    void
+    expect(const PresentCell<dim>      &before,
+           const CellView<dim, double> &row,
+           const double                 t,
+           const bool                   is_whole) const;
+
+    /** Ends the cell's life at @p t (day) if a fate strikes it then. @return
+     *  whether it is dead. @throws InputError */
+    bool
+    is_dead_at(const PresentCell<dim>      &before,
+               const CellView<dim, double> &row,
+               const double                 t,
+               std::vector<CellEvent>      &events) const;
+
+    /** When the cell's life ended, day; infinity: it lives. */
+    double
+    time_of_death(const CellView<dim, const double> &cell) const;
+
+    /** Whether the cell is dead, but still there. */
+    bool
+    is_dead(const CellView<dim, const double> &cell) const;
   };
 } // namespace Morula
 

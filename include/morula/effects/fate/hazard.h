@@ -4,10 +4,20 @@
 #ifndef morula_effects_fate_hazard_h
 #define morula_effects_fate_hazard_h
 
+#include <morula/base/expression.h>
+#include <morula/particles/cell_state.h>
+
+#include <functional>
 #include <optional>
+#include <string>
 
 namespace Morula
 {
+  using namespace dealii;
+
+  template <int dim>
+  class PresentCell;
+
   /**
    * The chance of an event, integrated: the event comes when the integral of
    * its rate reaches a threshold that is exponentially distributed with mean 1.
@@ -48,6 +58,51 @@ namespace Morula
               const double rate,
               const double expected,
               const double dt);
+
+  /** A rate of cells with the columns that it needs: doc/theory.md (6.6). */
+  template <int dim>
+  struct CellHazard
+  {
+    /** 1/day, from StateColumns::use(). */
+    Expression rate;
+    /** The integral of the rate. */
+    Column<double> integral;
+    /** What the step before saw of a rate that follows the cells' state, (5.9);
+     *  does not exist for others. */
+    Column<double> expected;
+    /** The threshold of a cell with its row of the moment. */
+    std::function<double(const PresentCell<dim> &,
+                         const CellView<dim, const double> &)>
+      threshold = {};
+    /** What no cell does by a rate that is 0 everywhere, a sentence; empty: no
+     *  warning. */
+    std::string nobody = {};
+    /** Whether the integral of a cell runs; null: always. */
+    std::function<bool(const CellView<dim, const double> &)> runs = {};
+
+    /** The chance of the event in [t0, t1], day, from the integral in @p row
+     *  on. @throws InputError for negative rates */
+    Hazard
+    in(const double                       t0,
+       const double                       t1,
+       const PresentCell<dim>            &cell,
+       const CellView<dim, const double> &row) const;
+
+    /** Adds what the last step missed of the integral to the row of a living
+     *  cell. */
+    void
+    make_good(const PresentCell<dim>      &before,
+              const CellView<dim, double> &row) const;
+
+    /** Keeps what the next step will compare in make_good(). @param t the
+     *  middle of the step, day. @param is_whole whether nothing has happened to
+     *  the cell in it */
+    void
+    expect(const PresentCell<dim>      &before,
+           const CellView<dim, double> &row,
+           const double                 t,
+           const bool                   is_whole) const;
+  };
 } // namespace Morula
 
 #endif

@@ -4,8 +4,9 @@
 #ifndef morula_effects_fate_proliferation_h
 #define morula_effects_fate_proliferation_h
 
+#include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
-#include <morula/effects/fate/dividing_fate.h>
+#include <morula/effects/fate/fate.h>
 
 #include <cstdint>
 #include <optional>
@@ -18,7 +19,7 @@ namespace Morula
    * division, which happens when the step is done: see divide().
    */
   template <int dim>
-  class Proliferation : public DividingFate<dim>
+  class Proliferation : public Fate<dim>, public Divides<dim>
   {
   public:
     using Parameters = CellCycleParameters;
@@ -60,7 +61,10 @@ namespace Morula
     /** Sets a cell's clock. */
     void
     set_clock(const CellView<dim, double> &cell,
-              const CycleState<dim>       &state) const;
+              const CycleState<dim>       &state) const
+    {
+      columns_.store(state, cell);
+    }
 
     /**
      * Sets the clock of a founder at t = 0.
@@ -120,10 +124,6 @@ namespace Morula
             const unsigned int           which,
             const double                 birth) const override;
 
-    void
-    make_good(const PresentCell<dim>      &before,
-              const CellView<dim, double> &row) const override;
-
     std::optional<double>
     next(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
@@ -146,12 +146,6 @@ namespace Morula
     }
 
     void
-    expect(const PresentCell<dim>      &before,
-           const CellView<dim, double> &row,
-           const double                 t,
-           const bool                   is_whole) const override;
-
-    void
     end_of_life(const PresentCell<dim>      &cell,
                 const CellView<dim, double> &row,
                 const double                 s) const override;
@@ -168,6 +162,13 @@ namespace Morula
                const double            step) const override;
 
   private:
+    /** The rule of a type of cells, or null. */
+    const DivisionRule<dim> *
+    rule(const unsigned int type) const
+    {
+      return this->axes ? this->axes->rule(type) : nullptr;
+    }
+
     /** The clock at @p t1 of a cell with the clock @p before at @p t0. */
     CycleState<dim>
     next_clock(const PresentCell<dim> &cell,

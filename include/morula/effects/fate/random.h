@@ -16,33 +16,16 @@
  */
 namespace Morula::Random
 {
-  /** The purpose of a random number; every cell draws each at most once. */
-  enum class Draw : std::uint32_t
-  {
-    wait,
-    axis,
-    first_daughter,
-    second_daughter,
-    axis_spread,      // the angle
-    axis_spread_side, // which way
-    noise,
-    phase,
-    death,
-    // and from here on, one for each entry into a type and each way out of it
-    transition = 0x1000,
-    // and from here on, by the names of effects
-    named = 0x80000000
-  };
-
   /** Key of founder number @p id. */
   std::uint64_t
   founder_key(const std::uint64_t seed, const std::uint64_t id);
 
-  /** Key of a daughter: from its mother's key and which of the two it is. */
+  /** Key of a daughter: from its mother's key and which of the two it is, 0 or
+   *  1. */
   std::uint64_t
   daughter_key(const std::uint64_t seed,
                const std::uint64_t mother_key,
-               const Draw          which);
+               const unsigned int  which);
 
   /** Exponentially distributed with @p rate (1/day); infinite for rate 0. */
   double

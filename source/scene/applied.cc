@@ -76,6 +76,7 @@ namespace Morula
   namespace
   {
     /** What a condition acts on at t = 0, over all ranks. */
+    template <int dim>
     struct AppliedCondition
     {
       /** Name of the condition in the catalogue. */
@@ -87,80 +88,56 @@ namespace Morula
       /** Those that its expression chooses, also where another one wins. */
       std::uint64_t chosen = 0;
       /** Corners of the box around these points, µm. */
-      Point<3> lower, upper;
+      Point<dim> lower, upper;
       /** Whether it is a load whose size is known before the run. */
       bool has_force = false;
       /** Sum of its forces at the end of the run on the surface of t = 0, and
        * of their magnitudes, kPa µm^(dim-1). */
-      Tensor<1, 3> force;
-      double       magnitude = 0.;
+      Tensor<1, dim> force;
+      double         magnitude = 0.;
       /** Whether it is a load that is zero at the end of every step. */
       bool is_idle = false;
       /** See BoundaryCondition. */
       bool is_tension = false;
-    };
 
-    /** A row to which points are added, on this rank. */
-    class Sums
-    {
-    public:
-      explicit Sums(const std::string &name)
+      AppliedCondition()
       {
-        row.name = name;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            // The box begins empty, so that any point enlarges it, also over
-            // ranks.
-            row.lower[d] = std::numeric_limits<double>::max();
-            row.upper[d] = -row.lower[d];
-          }
-      }
-
-      template <int dim>
-      void
-      add(const Point<dim> &X, const double area)
-      {
-        ++row.points;
-        row.area += area;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            // The index is valid in 2-D as well, where the third component is
-            // 0.
-            const double x =
-              d < dim ? X[std::min<unsigned int>(d, dim - 1)] : 0.;
-            row.lower[d] = std::min(row.lower[d], x);
-            row.upper[d] = std::max(row.upper[d], x);
-          }
-      }
-
-      template <int dim>
-      void
-      add_force(const Tensor<1, dim> &force)
-      {
+        // The box begins empty, so that any point enlarges it, also over ranks.
         for (unsigned int d = 0; d < dim; ++d)
-          row.force[d] += force[d];
-        row.magnitude += force.norm();
-      }
-
-      /** The sums and the box of all ranks. Collective. */
-      AppliedCondition
-      over_all_ranks(const MPI_Comm comm) const
-      {
-        AppliedCondition all = row;
-        all.points           = Utilities::MPI::sum(row.points, comm);
-        all.chosen           = Utilities::MPI::sum(row.chosen, comm);
-        all.area             = Utilities::MPI::sum(row.area, comm);
-        all.magnitude        = Utilities::MPI::sum(row.magnitude, comm);
-        for (unsigned int d = 0; d < 3; ++d)
           {
-            all.lower[d] = Utilities::MPI::min(row.lower[d], comm);
-            all.upper[d] = Utilities::MPI::max(row.upper[d], comm);
-            all.force[d] = Utilities::MPI::sum(row.force[d], comm);
+            lower[d] = std::numeric_limits<double>::max();
+            upper[d] = -lower[d];
           }
-        return all;
       }
 
-      AppliedCondition row;
+      /** Adds a point of this rank. */
+      void
+      add(const Point<dim> &X, const double patch)
+      {
+        ++points;
+        area += patch;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], X[d]);
+            upper[d] = std::max(upper[d], X[d]);
+          }
+      }
+
+      /** Takes the sums and the box of all ranks. Collective. */
+      void
+      gather(const MPI_Comm comm)
+      {
+        points    = Utilities::MPI::sum(points, comm);
+        chosen    = Utilities::MPI::sum(chosen, comm);
+        area      = Utilities::MPI::sum(area, comm);
+        magnitude = Utilities::MPI::sum(magnitude, comm);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = Utilities::MPI::min(lower[d], comm);
+            upper[d] = Utilities::MPI::max(upper[d], comm);
+            force[d] = Utilities::MPI::sum(force[d], comm);
+          }
+      }
     };
 
     /** Whether a load is zero at the ends of all steps, or of many of them
@@ -188,14 +165,15 @@ namespace Morula
   } // namespace
 
 
+  template <int dim>
   std::string
-  vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero)
+  vector_text(const Tensor<1, dim> &v, const double zero)
   {
     // Sums that cancel leave rounding: what is below `zero` is printed as 0.
     std::ostringstream text;
     text.precision(4);
     text << '(';
-    for (unsigned int d = 0; d < scene.dimension; ++d)
+    for (unsigned int d = 0; d < dim; ++d)
       text << (d == 0 ? "" : " ") << (std::abs(v[d]) <= zero ? 0. : v[d]);
     text << ')';
     return text.str();
@@ -218,7 +196,7 @@ namespace Morula
   {
     /** What the conditions on the surface act on. Collective. */
     template <int dim>
-    std::vector<AppliedCondition>
+    std::vector<AppliedCondition<dim>>
     applied_conditions(const TissueModel<dim>    &model,
                        const SurfacePatches<dim> &surface,
                        const MPI_Comm             comm)
@@ -233,48 +211,54 @@ namespace Morula
       const BoundaryConditions<dim> &conditions = model.boundary_conditions;
       const LoadedPoints<dim>        loads  = loaded_at_start(model, surface);
       const auto                    &loaded = loads.points;
-      std::vector<AppliedCondition>  list;
+      std::vector<AppliedCondition<dim>> list;
       for (unsigned int k = 0; k < conditions.list().size(); ++k)
         {
           const auto &[name, condition] = conditions.list()[k];
           if (condition->only_pushes())
             continue; // Obstacles act where they touch, which is not known yet.
-          Sums       sums(name);
+          AppliedCondition<dim> row;
+          row.name           = name;
+          row.is_tension     = condition->is_tension();
           const bool is_load = condition->kind() == SurfaceCondition::loaded;
           // An expression may have no value at a point of one rank; then all
           // ranks must throw.
           everywhere(comm, [&, &condition = condition]() {
             for (std::size_t i = 0; i < surface.positions.size(); ++i)
-              sums.row.chosen +=
+              row.chosen +=
                 condition->acts_on(surface.positions[i], surface.normals[i]);
             for (std::size_t i = 0; !is_load && i < surface.positions.size();
                  ++i)
               if (conditions.winner(surface.positions[i], surface.normals[i]) ==
                   k)
-                sums.add(surface.positions[i], surface.areas[i]);
+                row.add(surface.positions[i], surface.areas[i]);
             for (std::size_t l = 0; is_load && l < loaded.size(); ++l)
               if (condition->acts_on(loaded[l].X, loaded[l].N))
-                sums.add(loaded[l].X, loaded[l].initial_area);
+                row.add(loaded[l].X, loaded[l].initial_area);
             if (const auto forces =
                   forces_at_start(*condition, loads, scene.time.end_time))
               {
-                sums.row.has_force = true;
+                row.has_force = true;
                 for (const Tensor<1, dim> &force : *forces)
-                  sums.add_force(force);
+                  {
+                    row.force += force;
+                    row.magnitude += force.norm();
+                  }
               }
           });
-          list.push_back(sums.over_all_ranks(comm));
-          list.back().is_tension = condition->is_tension();
-          if (sums.row.has_force && list.back().magnitude == 0.)
-            list.back().is_idle = is_idle(scene, loads, *condition, comm);
+          row.gather(comm);
+          row.is_idle = row.has_force && row.magnitude == 0. &&
+                        is_idle(scene, loads, *condition, comm);
+          list.push_back(row);
         }
       return list;
     }
 
     /** E.g. "20 boundary points, 100 um, from (50 -48) to (50 48) um; force (2
      *  0) kPa um at t = 1 day". */
+    template <int dim>
     std::string
-    text_of(const Scene &scene, const AppliedCondition &applied)
+    text_of(const Scene &scene, const AppliedCondition<dim> &applied)
     {
       // A component of the force counts as zero if it is small beside the sum
       // of magnitudes.
@@ -285,14 +269,14 @@ namespace Morula
            << (applied.points == 1 ? " boundary point, " : " boundary points, ")
            << applied.area << (space ? " um^2" : " um");
       if (applied.points > 0)
-        text << ", from " << vector_text(scene, applied.lower, 0.) << " to "
-             << vector_text(scene, applied.upper, 0.) << " um";
+        text << ", from " << vector_text(applied.lower, 0.) << " to "
+             << vector_text(applied.upper, 0.) << " um";
       if (applied.chosen > applied.points)
         text << " (" << applied.chosen - applied.points
              << " more belong to a condition that wins there)";
       if (applied.has_force)
         text << "; force "
-             << vector_text(scene, applied.force, 1e-9 * applied.magnitude)
+             << vector_text(applied.force, 1e-9 * applied.magnitude)
              << (space ? " kPa um^2" : " kPa um") << " in sum, "
              << applied.magnitude
              << " in magnitudes, at t = " << scene.time.end_time
@@ -304,10 +288,11 @@ namespace Morula
     constexpr std::uint64_t fewest_points = 10;
 
     /** The other keys of a condition than that of its place. */
+    template <int dim>
     std::string
-    other_keys(const Scene            &scene,
-               const AppliedCondition &one,
-               const AnyKey           &where)
+    other_keys(const Scene                 &scene,
+               const AppliedCondition<dim> &one,
+               const AnyKey                &where)
     {
       std::string paths;
       for (const AnyKey *key :
@@ -320,11 +305,12 @@ namespace Morula
     }
 
     /** Loads that are none. */
+    template <int dim>
     void
-    review_load(const Scene            &scene,
-                const AppliedCondition &one,
-                const AnyKey           &where,
-                Review                 &review)
+    review_load(const Scene                 &scene,
+                const AppliedCondition<dim> &one,
+                const AnyKey                &where,
+                Review                      &review)
     {
       const std::string keys = other_keys(scene, one, where);
       if (one.points == 0 && one.chosen > 0)
@@ -341,11 +327,12 @@ namespace Morula
                     "Set " + keys + ", or remove the condition.");
     }
 
+    template <int dim>
     void
-    review_points(const Scene            &scene,
-                  const AppliedCondition &one,
-                  const AnyKey           &where,
-                  Review                 &review)
+    review_points(const Scene                 &scene,
+                  const AppliedCondition<dim> &one,
+                  const AnyKey                &where,
+                  Review                      &review)
     {
       if (one.points > 0 && one.points < fewest_points)
         review.warn(where.path(),
@@ -360,13 +347,13 @@ namespace Morula
 
     /** Calls @p action for each condition and the key that says where it acts,
      *  which warnings name; conditions without one are passed over. */
-    template <typename Action>
+    template <int dim, typename Action>
     void
-    for_placed(const Scene                         &scene,
-               const std::vector<AppliedCondition> &applied,
-               const Action                        &action)
+    for_placed(const Scene                              &scene,
+               const std::vector<AppliedCondition<dim>> &applied,
+               const Action                             &action)
     {
-      for (const AppliedCondition &one : applied)
+      for (const auto &one : applied)
         if (const auto *const choice =
               find_choice(scene.catalogue.boundary_conditions, one.name))
           if (const AnyKey *const where = choice->keys().facts().switch_key)
@@ -383,7 +370,7 @@ namespace Morula
   {
     const Scene &scene   = model.scene;
     const auto   applied = applied_conditions(model, tissue.surface, comm);
-    for (const AppliedCondition &one : applied)
+    for (const auto &one : applied)
       if (one.points > 0)
         tissue.applied.emplace_back(one.name, text_of(scene, one));
     Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
@@ -400,4 +387,8 @@ namespace Morula
   MORULA_INSTANTIATE(loaded_at_start);
   MORULA_INSTANTIATE(forces_at_start);
   MORULA_INSTANTIATE(describe_conditions);
+  template std::string
+  vector_text(const Tensor<1, 2> &, const double);
+  template std::string
+  vector_text(const Tensor<1, 3> &, const double);
 } // namespace Morula

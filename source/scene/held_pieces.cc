@@ -33,11 +33,12 @@ namespace Morula
 
     /** What holds a piece of the tissue at t = 0, and which load is left to its
      *  unsupported rigid motions, over all ranks. */
+    template <int dim>
     struct HeldPiece
     {
       std::uint64_t cells = 0;
       /** Centre of its cells' volume, µm. */
-      Point<3> center;
+      Point<dim> center;
       /** Fixed or slip boundary points on it. */
       std::uint64_t held_points = 0;
       /** Whether friction of cells holds it. */
@@ -47,7 +48,8 @@ namespace Morula
       /** Sum of its loads at the end of the run on the configuration of t = 0,
        *  kPa µm^(dim-1), and their moment about the centre, kPa µm^dim; in 2-D
        *  the third component. */
-      Tensor<1, 3> force, moment;
+      Tensor<1, dim> force;
+      Tensor<1, 3>   moment;
       /** Whether a part of the loads acts along a free motion. */
       bool is_unbalanced = false;
     };
@@ -142,10 +144,10 @@ namespace Morula
       }
 
       /** The pieces that hold cells. Collective. */
-      std::vector<HeldPiece>
+      std::vector<HeldPiece<dim>>
       result()
       {
-        std::vector<HeldPiece> list;
+        std::vector<HeldPiece<dim>> list;
         for (unsigned int p = 0; p < sums.size(); ++p)
           {
             PieceSums<dim> &of = sums[p];
@@ -160,7 +162,7 @@ namespace Morula
           }
         std::stable_sort(list.begin(),
                          list.end(),
-                         [](const HeldPiece &a, const HeldPiece &b) {
+                         [](const HeldPiece<dim> &a, const HeldPiece<dim> &b) {
                            return a.cells > b.cells;
                          });
         return list;
@@ -175,13 +177,13 @@ namespace Morula
         return mode.a + mode.B * z;
       }
 
-      HeldPiece
+      HeldPiece<dim>
       piece(const unsigned int p) const
       {
         // A free motion is a combination of the elementary ones: its load is
         // that of them, and so is the scale that this is compared with.
         const PieceSums<dim> &of = sums[p];
-        HeldPiece             result;
+        HeldPiece<dim>        result;
         result.cells        = std::llround(of.cells);
         result.held_points  = std::llround(of.held);
         result.has_friction = of.friction > 0.;
@@ -192,11 +194,9 @@ namespace Morula
           return std::abs(of.load[k]) > 1e-9 * of.magnitude[k] ? of.load[k] :
                                                                  0.;
         };
+        result.center = center(p);
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            result.center[d] = center(p)[d];
-            result.force[d]  = load(d);
-          }
+          result.force[d] = load(d);
         for (unsigned int k = dim; k < n; ++k)
           // The motion k turns the plane of two axes by -1/h about the third.
           result.moment[dim == 2 ? 2 : (k - dim + 2) % 3] = 0. - h * load(k);
@@ -304,17 +304,17 @@ namespace Morula
     }
 
     /** "a force of (1 0) kPa um and a moment of 3 kPa um^2". */
+    template <int dim>
     std::string
-    load_text(const Scene &scene, const HeldPiece &piece)
+    load_text(const HeldPiece<dim> &piece)
     {
-      const bool         space = scene.dimension == 3;
-      const double       zero  = 1e-9 * piece.force.norm();
+      const double       zero = 1e-9 * piece.force.norm();
       std::ostringstream text;
       text.precision(4);
-      text << "a force of " << vector_text(scene, piece.force, zero)
-           << " kPa um" << (space ? "^2" : "") << " and a moment of ";
-      if (space)
-        text << vector_text(scene, piece.moment, 0.) << " kPa um^3";
+      text << "a force of " << vector_text(piece.force, zero) << " kPa um"
+           << (dim == 3 ? "^2" : "") << " and a moment of ";
+      if (dim == 3)
+        text << vector_text(piece.moment, 0.) << " kPa um^3";
       else
         text << piece.moment[2] << " kPa um^2";
       return text.str();
@@ -331,7 +331,7 @@ namespace Morula
 
     /** The pieces that hold cells, largest first. Collective. */
     template <int dim>
-    std::vector<HeldPiece>
+    std::vector<HeldPiece<dim>>
     held_pieces(const TissueModel<dim>    &model,
                 const Founders<dim>       &founders,
                 const SurfacePatches<dim> &surface,
@@ -369,22 +369,22 @@ namespace Morula
 
     /** E.g. "100 cells around (0 0) um: held nowhere", one for each of the
      * first pieces. */
+    template <int dim>
     std::vector<std::string>
-    texts_of(const Scene &scene, const std::vector<HeldPiece> &pieces)
+    texts_of(const Scene &scene, const std::vector<HeldPiece<dim>> &pieces)
     {
       // The largest pieces have a line each: where it is, what holds it, which
       // motions nothing holds, and what balances its loads along these. The
       // rest is counted.
       std::vector<std::string> texts;
-      const unsigned int       all = scene.dimension == 3 ? 6 : 3;
+      const unsigned int       all = RigidModes<dim>::n_modes;
       for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
         {
-          const HeldPiece   &piece = pieces[p];
-          std::ostringstream text;
+          const HeldPiece<dim> &piece = pieces[p];
+          std::ostringstream    text;
           text.precision(4);
           text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
-               << " around " << vector_text(scene, piece.center, 1e-6)
-               << " um: ";
+               << " around " << vector_text(piece.center, 1e-6) << " um: ";
           if (piece.free_motions == all)
             text << "held nowhere";
           else
@@ -398,8 +398,8 @@ namespace Morula
                 text << ", but for " << piece.free_motions << " rigid motions";
             }
           if (piece.is_unbalanced)
-            text << "; loads add up to " << load_text(scene, piece)
-                 << ", which " << balanced_by(scene) << " balances";
+            text << "; loads add up to " << load_text(piece) << ", which "
+                 << balanced_by(scene) << " balances";
           texts.push_back(text.str());
         }
       if (pieces.size() > most_listed)
@@ -408,13 +408,14 @@ namespace Morula
       return texts;
     }
 
+    template <int dim>
     std::vector<std::string>
-    review_held(const Scene &scene, const std::vector<HeldPiece> &pieces)
+    review_held(const Scene &scene, const std::vector<HeldPiece<dim>> &pieces)
     {
       // The first unbalanced piece is told of, with the number of others: all
       // of them stand in the list of pieces.
       Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
-      const auto is_unbalanced = [](const HeldPiece &piece) {
+      const auto is_unbalanced = [](const HeldPiece<dim> &piece) {
         return piece.is_unbalanced;
       };
       const auto first =
@@ -428,12 +429,12 @@ namespace Morula
         piece << "the tissue";
       else
         piece << "the piece of " << first->cells << " cells around "
-              << vector_text(scene, first->center, 1e-6) << " um"
+              << vector_text(first->center, 1e-6) << " um"
               << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
       const bool drags = balanced_by(scene) != "inertia";
       review.warn("Boundary conditions",
                   first->held_points > 0 ? "held in part" : "nothing held",
-                  "the loads add up to " + load_text(scene, *first) +
+                  "the loads add up to " + load_text(*first) +
                     " at the end, and nothing holds " + piece.str() +
                     (drags ? " against them unless an obstacle does: the weak "
                              "drag (4.8f) balances them, and lets it go far in "
@@ -453,7 +454,7 @@ namespace Morula
                   SeededTissue<dim>      &tissue,
                   const MPI_Comm          comm)
   {
-    const std::vector<HeldPiece> pieces =
+    const std::vector<HeldPiece<dim>> pieces =
       held_pieces(model, tissue.founders, tissue.surface, comm);
     tissue.n_pieces = pieces.size();
     tissue.pieces   = texts_of(model.scene, pieces);

@@ -25,11 +25,12 @@
 
 namespace Morula
 {
-  /** The components of a vector in the scene's dimension, e.g. "(1 0)". What is
+  /** The components of a vector, e.g. "(1 0)". What is
    *  not larger than @p zero is printed as 0: sums that cancel leave rounding.
    */
+  template <int dim>
   std::string
-  vector_text(const Scene &scene, const Tensor<1, 3> &v, const double zero);
+  vector_text(const Tensor<1, dim> &v, const double zero);
 
   /** The law, its constants, and what its energy is counted per. */
   std::string

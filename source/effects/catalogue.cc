@@ -2,24 +2,11 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/catalogue.h>
-#include <morula/effects/contact/contact.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/forces/body_force.h>
-#include <morula/effects/forces/friction.h>
-#include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/library_effects.h>
-#include <morula/effects/obstacles/obstacles.h>
-#include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/effects/surface/fixed.h>
-#include <morula/effects/surface/lumen.h>
-#include <morula/effects/surface/pressure.h>
-#include <morula/effects/surface/slip.h>
-#include <morula/effects/surface/surface_tension.h>
-#include <morula/effects/surface/traction.h>
-#include <morula/effects/surface/type_surface_tension.h>
 
 #include <algorithm>
 #include <cctype>
@@ -69,9 +56,6 @@ namespace Morula
       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"};
     const Settings growing   = {"Growth/Law=rate",
                                 "Growth/Rate/Rate=J_e + 0.1*X*Y"};
-    const Settings held      = {"Boundary conditions/Fixed where=X + Y < -2"};
-    const Settings two_types = {"Cell types/Names=a, b",
-                                "Cell types/b/Where=X*Y > 0"};
 
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
@@ -96,68 +80,24 @@ namespace Morula
                      "Fields/signal/Initial=1 + 0.1*X*Y",
                      "Fields/signal/Fixed where=X + Y > 2"});
     add_division_rules(division_rules);
-    add_own<Rearrangement>(step_effects,
-                           "rearrangement",
-                           {"Rearrangement/Diffusion=1"});
+    add_rearrangement(step_effects);
     add_neighbours(step_effects,
                    {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"});
     add_present_depth(step_effects,
                       {"Growth/Law=rate",
                        "Growth/Rate/Rate=0.2*present_depth"});
-    add_own<BodyForce>(forces,
-                       "body force",
-                       with(held,
-                            {"Body force/Force density=0.01*x; 0.01*y; 0"}));
-    add_own<Friction>(forces,
-                      "friction",
-                      with(uneven, {"Friction/Coefficient=0.1"}));
-    add_own<TypeTension>(forces,
-                         "type tension",
-                         with(two_types, {"Cell types/a/Tension/With b=0.1"}));
-    add_own<Fixed>(boundary_conditions,
-                   "fixed",
-                   with(held,
-                        {"Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
-    add_own<Slip>(boundary_conditions,
-                  "slip",
-                  with(uneven,
-                       {"Boundary conditions/Slip where=X + Y < -2",
-                        "Friction/Coefficient=0.1"}));
-    add_own<Traction>(boundary_conditions,
-                      "traction",
-                      with(held,
-                           {"Boundary conditions/Traction where=X + Y > 2",
-                            "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
-    add_own<Pressure>(boundary_conditions,
-                      "pressure",
-                      with(held,
-                           {"Boundary conditions/Pressure where=X + Y > 2",
-                            "Boundary conditions/Pressure=0.1"}));
-    add_own<SurfaceTension>(boundary_conditions,
-                            "surface tension",
-                            {"Boundary conditions/Surface tension=0.1"});
-    add_own<Lumen>(boundary_conditions,
-                   "lumen",
-                   {"Dimension=2",
-                    "Tissue/Radius=5",
-                    "Tissue/Inner radius=3",
-                    "Boundary conditions/Lumen where=X*X + Y*Y < 16",
-                    "Boundary conditions/Lumen volume=1 + 0.01*t"});
-    add_own<Obstacles>(boundary_conditions,
-                       "obstacles",
-                       with(uneven,
-                            {"Obstacles/Names=mould",
-                             "Obstacles/mould/Shape=sphere",
-                             "Obstacles/mould/Side=inside",
-                             "Obstacles/mould/Radius=3.01"}));
-    add_own<TypeSurfaceTension>(
-      boundary_conditions,
-      "type surface tension",
-      with(two_types, {"Cell types/b/Tension/With surface=0.1"}));
-    add_own<Contact>(
-      interactions,
-      "contact",
-      with(uneven, {"Contact/Between=all", "Tissue/Refine surface=true"}));
+    add_body_force(forces);
+    add_friction(forces);
+    add_type_tension(forces);
+    add_fixed(boundary_conditions);
+    add_slip(boundary_conditions);
+    add_traction(boundary_conditions);
+    add_pressure(boundary_conditions);
+    add_surface_tension(boundary_conditions);
+    add_lumen(boundary_conditions);
+    add_obstacles(boundary_conditions);
+    add_type_surface_tension(boundary_conditions);
+    add_contact(interactions);
   }
 
 

@@ -6,13 +6,13 @@
 namespace
 {
   template <int dim>
-  FollowingPressure<dim>
+  std::unique_ptr<Term<dim>>
   random_pressure(std::mt19937 &generator)
   {
-    std::vector<typename FollowingPressure<dim>::Load> loads;
+    std::vector<AreaLoad<dim>> loads;
     for (unsigned int p = 0; p < 3; ++p)
       loads.push_back({1.5 - p, 40. * random_tensor<1, dim>(generator)});
-    return {random_points_in_cell<dim>(generator, 3), loads};
+    return following_pressure(random_points_in_cell<dim>(generator, 3), loads);
   }
 
   /**
@@ -21,13 +21,13 @@ namespace
    * quadrature integrates exactly.
    */
   template <int dim>
-  FollowingPressure<dim>
+  std::unique_ptr<Term<dim>>
   closed_surface(const double pressure, const double h)
   {
-    const double                                       lower = 0.1, side = 0.7;
-    const QGauss<dim - 1>                              quadrature(4);
-    GroupedPoints<dim>                                 points;
-    std::vector<typename FollowingPressure<dim>::Load> loads;
+    const double               lower = 0.1, side = 0.7;
+    const QGauss<dim - 1>      quadrature(4);
+    GroupedPoints<dim>         points;
+    std::vector<AreaLoad<dim>> loads;
     points.h = h;
     for (unsigned int d = 0; d < dim; ++d)
       for (const int sign : {-1, 1})
@@ -45,7 +45,7 @@ namespace
             loads.push_back({pressure, area});
           }
     points.offsets = {0, static_cast<unsigned int>(loads.size())};
-    return {points, loads};
+    return following_pressure(points, loads);
   }
 
   /** Current volume of that box. */
@@ -67,13 +67,13 @@ namespace
   }
 
   template <int dim>
-  SurfaceEnergy<dim>
+  std::unique_ptr<Term<dim>>
   random_tension(std::mt19937 &generator)
   {
-    std::vector<typename SurfaceEnergy<dim>::Load> loads;
+    std::vector<AreaLoad<dim>> loads;
     for (unsigned int p = 0; p < 3; ++p)
       loads.push_back({1.5 * p, 40. * random_tensor<1, dim>(generator)});
-    return {random_points_in_cell<dim>(generator, 3), loads};
+    return surface_energy(random_points_in_cell<dim>(generator, 3), loads);
   }
 } // namespace
 
@@ -88,7 +88,7 @@ TEST_2D_3D(FollowingPressure,
   const auto             field    = random_field<dim>(generator, 0.2);
   const auto             velocity = random_field<dim>(generator, 0.2);
   const auto             residual =
-    TermOnOneCell<dim>(term, GrowthAt::current).residual(field);
+    TermOnOneCell<dim>(*term, GrowthAt::current).residual(field);
   double largest = 0.;
   for (const double force : residual)
     largest = std::max(largest, std::abs(force));
@@ -127,9 +127,9 @@ TEST_2D_3D(SurfaceEnergy, IsThatOfTheAreaGained)
   GroupedPoints<dim> points{{0, 1}, {Point<dim>()}, 50.};
   points.xi[0][0] = 0.3;
   Tensor<1, dim> a;
-  a[0] = area;
-  const SurfaceEnergy<dim> term(points, {{tension, a}});
-  const TermOnOneCell<dim> at(term, GrowthAt::current);
+  a[0]                          = area;
+  const auto               term = surface_energy<dim>(points, {{tension, a}});
+  const TermOnOneCell<dim> at(*term, GrowthAt::current);
   Tensor<2, dim>           A; // stretches of 1.5, 1.2 (and 1.1), a shear
   A[0][0]                 = 0.5;
   A[1][1]                 = 0.2;
@@ -160,7 +160,7 @@ TEST_2D_3D(SurfaceLoads, NoticeInversion)
   for (const auto wanted :
        {LocalSystem<dim>::energy_and_residual, LocalSystem<dim>::tangent})
     for (const Term<dim> *load :
-         std::vector<const Term<dim> *>{&term, &tension})
+         std::vector<const Term<dim> *>{term.get(), tension.get()})
       EXPECT_TRUE(
         TermOnOneCell<dim>(*load, GrowthAt::current)
           .inverted(affine_field(Tensor<1, dim>(), mirror, 50.), wanted));

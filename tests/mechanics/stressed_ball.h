@@ -4,7 +4,7 @@
 #ifndef morula_tests_mechanics_stressed_ball_h
 #define morula_tests_mechanics_stressed_ball_h
 
-#include <morula/effects/surface/following_pressure.h>
+#include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/momentum_balance.h>
@@ -146,11 +146,12 @@ namespace Morula
       add_nitsche(N, on_boundary);
       if (pressure)
         {
-          std::vector<typename FollowingPressure<dim>::Load> loads;
+          std::vector<AreaLoad<dim>> loads;
           for (const unsigned int i : on_boundary.points)
             loads.push_back({0.7, 100. * N[i]});
-          terms.push_back(std::make_unique<FollowingPressure<dim>>(
-            body.grouped(body.boundary, on_boundary), loads));
+          terms.push_back(
+            following_pressure<dim>(body.grouped(body.boundary, on_boundary),
+                                    loads));
         }
       if (lumen)
         add_lumen(on_boundary);

@@ -6,7 +6,7 @@
 #ifndef own_effects_drag_h
 #define own_effects_drag_h
 
-#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/placed_condition.h>
 
 namespace Own

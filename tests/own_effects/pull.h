@@ -8,7 +8,7 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/forces/force.h>
-#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/loads.h>
 
 namespace Own
 {

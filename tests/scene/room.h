@@ -11,10 +11,6 @@
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/surface/fixed.h>
-#include <morula/effects/surface/lumen.h>
-#include <morula/effects/surface/pressure.h>
-#include <morula/effects/surface/slip.h>
-#include <morula/effects/surface/traction.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/scene.h>
 #include <morula/scene/seeded_tissue.h>
@@ -28,5 +24,15 @@
 #include "output/scratch_directory.h"
 
 using namespace Morula;
+
+/** Sets a key of "Boundary conditions". */
+inline void
+set_condition(Scene &scene, const std::string &name, const std::string &value)
+{
+  for (AnyKey *const key : scene.list())
+    if (key->path() == "Boundary conditions/" + name)
+      return key->assign(value);
+  ADD_FAILURE() << "no key " << name;
+}
 
 #endif

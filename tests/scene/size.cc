@@ -94,18 +94,18 @@ TEST(SceneChecks, EvaluateTheExpressionsAtAllCells)
 TEST(SceneChecks, CountTheBoundaryConditions)
 {
   Scene      scene;
-  auto      &fixed    = scene.keys<FixedParameters>();
-  auto      &slip     = scene.keys<SlipParameters>();
-  auto      &pressure = scene.keys<PressureParameters>();
-  const auto check    = [&] {
+  const auto set = [&](const std::string &name, const std::string &value) {
+    set_condition(scene, name, value);
+  };
+  const auto check = [&] {
     return check_at_surface(TissueModel<3>(scene), two_faces(), MPI_COMM_WORLD);
   };
 
-  fixed.where            = "Z < 0";
-  slip.where             = "1";
-  slip.normal            = "0, 0, 2";
-  pressure.where         = "X == 0 && Z > 0";
-  pressure.pressure      = "1/(1 + X)";
+  set("Fixed where", "Z < 0");
+  set("Slip where", "1");
+  set("Slip normal", "0, 0, 2");
+  set("Pressure where", "X == 0 && Z > 0");
+  set("Pressure", "1/(1 + X)");
   ConditionCounts counts = check();
   EXPECT_EQ(counts.points, 2 * number_of_ranks());
   EXPECT_EQ(counts.fixed, number_of_ranks());
@@ -114,19 +114,19 @@ TEST(SceneChecks, CountTheBoundaryConditions)
   EXPECT_EQ(counts.acting.at("traction"), 0u);
   EXPECT_EQ(counts.acting.at("pressure"), 0u);
 
-  slip.where = "Z < 0";
-  counts     = check();
+  set("Slip where", "Z < 0");
+  counts = check();
   EXPECT_EQ(counts.fixed, number_of_ranks());
   EXPECT_EQ(counts.acting.at("slip"), 0u);
   EXPECT_EQ(counts.acting.at("pressure"), 1u);
-  slip.where = "1";
+  set("Slip where", "1");
 
-  slip.normal               = "1, 0, 0";
+  set("Slip normal", "1, 0, 0");
   const std::string message = complaint_of(check);
   expect_parts(message, {"Boundary conditions/Slip where"});
   expect_parts(message, {"boundary point"});
-  slip.where = "";
+  set("Slip where", "");
 
-  fixed.displacement = "1/X; 0; 0";
+  set("Displacement", "1/X; 0; 0");
   expect_parts(complaint_of(check), {"Boundary conditions/Displacement"});
 }

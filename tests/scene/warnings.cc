@@ -168,7 +168,7 @@ TEST(SceneWarnings, OfBoundaryPointsFarApart)
   Scene scene                  = good_scene();
   scene.tissue.boundary_points = 96; // 4 x 4 a face: 25 um apart
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.keys<SlipParameters>().where = "X < -49";
+  set_condition(scene, "Slip where", "X < -49");
   expect_warning(scene, "25 um apart");
   scene.tissue.refine_surface = true;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
@@ -293,8 +293,8 @@ TEST(SceneWarnings, OfStepsThatAreLongForCreep)
   Scene scene                             = good_scene();
   scene.keys<RelaxationParameters>().time = "1 + X/100"; // from 0.55 on
   EXPECT_TRUE(warnings_of<3>(scene).empty());            // nothing pulls
-  scene.keys<TractionParameters>().where    = "Z > 49";
-  scene.keys<TractionParameters>().traction = "0; 0; 0.1";
+  set_condition(scene, "Traction where", "Z > 49");
+  set_condition(scene, "Traction", "0; 0; 0.1");
   expect_warning(scene, "1.81818 of the shortest");
   scene.keys<RelaxationParameters>().time = "1";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
@@ -317,13 +317,13 @@ TEST(SceneWarnings, OfContractionsThatJump)
 
 TEST(SceneWarnings, OfANarrowLumen)
 {
-  Scene scene                          = good_scene();
-  scene.tissue.shape                   = "sphere";
-  scene.tissue.radius                  = 300.;
-  scene.tissue.inner_radius            = 60.;
-  scene.grid.spacing                   = 38.;
-  scene.keys<LumenParameters>().where  = "X^2 + Y^2 + Z^2 < 80^2";
-  scene.keys<LumenParameters>().volume = "1 + t";
+  Scene scene               = good_scene();
+  scene.tissue.shape        = "sphere";
+  scene.tissue.radius       = 300.;
+  scene.tissue.inner_radius = 60.;
+  scene.grid.spacing        = 38.;
+  set_condition(scene, "Lumen where", "X^2 + Y^2 + Z^2 < 80^2");
+  set_condition(scene, "Lumen volume", "1 + t");
   EXPECT_TRUE(warnings_of<3>(scene).empty());
   scene.grid.spacing = 44.;
   expect_warning(scene, "Boundary conditions/Lumen where");

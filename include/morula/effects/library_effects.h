@@ -5,6 +5,10 @@
 #define morula_effects_library_effects_h
 
 #include <morula/effects/catalogue.h>
+#include <morula/effects/forces/force.h>
+#include <morula/effects/interaction.h>
+#include <morula/effects/step_effect.h>
+#include <morula/effects/surface/boundary_condition.h>
 
 namespace Morula
 {
@@ -23,6 +27,35 @@ namespace Morula
 
   void
   add_division_rules(Choices<DivisionRule> &rules);
+
+  add_rearrangement(Choices<StepEffect> &step_effects);
+
+  void
+  add_body_force(Choices<Force> &forces);
+  void
+  add_friction(Choices<Force> &forces);
+  void
+  add_type_tension(Choices<Force> &forces);
+
+  void
+  add_fixed(Choices<BoundaryCondition> &conditions);
+  void
+  add_slip(Choices<BoundaryCondition> &conditions);
+  void
+  add_traction(Choices<BoundaryCondition> &conditions);
+  void
+  add_pressure(Choices<BoundaryCondition> &conditions);
+  void
+  add_surface_tension(Choices<BoundaryCondition> &conditions);
+  void
+  add_lumen(Choices<BoundaryCondition> &conditions);
+  void
+  add_obstacles(Choices<BoundaryCondition> &conditions);
+  void
+  add_type_surface_tension(Choices<BoundaryCondition> &conditions);
+
+  void
+  add_contact(Choices<Interaction> &interactions);
 } // namespace Morula
 
 #endif

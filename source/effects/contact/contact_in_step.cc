@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
-#include <morula/effects/contact/contact_forces.h>
-#include <morula/effects/contact/contact_in_step.h>
+#include <morula/effects/contact/contact_pairs.h>
+#include <morula/effects/interaction.h>
 #include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -40,6 +43,149 @@ namespace Morula
     /** How deep points may be in another body that were no candidates for its
      *  contact, in units of h: rounding. */
     constexpr double no_depth = 1e-3;
+
+
+    /**
+     * The contact in an attempt at a step: its pairs hold positions, normals
+     * and areas fixed in a turn, and take them anew after it. Keeps references
+     * to all that it is given.
+     */
+    template <int dim>
+    class ContactInStep : public InteractionInStep<dim>
+    {
+    public:
+      ContactInStep(const AttemptAtStep<dim> &attempt,
+                    const ContactPoints<dim> &points,
+                    const ContactLaw         &law)
+        : attempt(attempt)
+        , points(points)
+        , law(law)
+        , pairs_(points, law)
+      {}
+
+      PairTerm &
+      pairs() override
+      {
+        return pairs_;
+      }
+
+      /** A weak drag acts from where the cells are in each turn. */
+      void
+      take_drag(Drag<dim> &of_step, const bool is_weak) override
+      {
+        drag      = &of_step;
+        recentres = is_weak;
+      }
+
+      void
+      begin(MomentumBalance<dim> &of_step, const Equilibrium::Vector &) override
+      {
+        balance = &of_step;
+      }
+
+      /** @throws StepFailed where bodies pass through each other, or slide by
+       *          more than a grid spacing */
+      bool
+      renew(const Equilibrium::Vector &u) override
+      {
+        // All ranks get the sums and extremes of all pairs, so that they decide
+        // alike. Where the equilibrium is good enough, the frozen geometry
+        // stays: forces are read from the state that was solved for. Otherwise
+        // the pairs take their new geometry, and the weak drag a new centre.
+        const TimerOutput::Scope section(attempt.timer, "contact");
+        const auto renewal = pairs_.look(balance->relevant_values(u));
+        double     sums[5] = {renewal.normal,
+                              renewal.tangential,
+                              renewal.of_new_pairs,
+                              1. * renewal.has_new_links,
+                              renewal.onward};
+        Utilities::MPI::sum(sums, attempt.comm, sums);
+        const double crossed =
+                       Utilities::MPI::max(renewal.crossed, attempt.comm),
+                     slid = Utilities::MPI::max(renewal.slid, attempt.comm);
+        const DisplacementField<dim> displacement(attempt.space,
+                                                  u,
+                                                  attempt.comm);
+        std::ostringstream           text;
+        if (crossed > 0.)
+          text << "two bodies overlap by " << crossed
+               << " um, so that the step is too long for their contact";
+        else if (slid > points.way())
+          text << "bodies in contact slide by " << slid
+               << " um along each other, more than " << points.way()
+               << " um: the step is too long for their contact";
+        else if (has_crossed_from_afar(
+                   attempt.tissue, points, displacement, law.h))
+          text
+            << "bodies pass through each other, so that the step is too long "
+               "for their contact";
+        if (!text.str().empty())
+          throw StepFailed(text.str());
+
+        const double unit = law.E * std::pow(law.h, dim - 1);
+        if (sums[1] <= small_drag * sums[0] + no_force * unit &&
+            sums[2] <= small_part * sums[0] + no_force * unit)
+          return false;
+        // A soft body slides far against the drag, a little in each turn, if
+        // all of it goes one way: the drag becomes weaker then. Where a surface
+        // is strongly curved the geometry may swing between two states for
+        // ever. So it follows only a part of the way, half as much each time
+        // that less than a fifth of the tangential forces has gone.
+        const bool slides_far = sums[1] > slow * left_over &&
+                                sums[4] > one_way * sums[1] &&
+                                drag_part > least_drag;
+        const double before = left_over;
+        left_over           = sums[1];
+        if (slides_far)
+          {
+            drag_part *= softer;
+            left_over *= softer;
+            pairs_.set_drag(drag_part);
+          }
+        else if (sums[1] > staying * before)
+          part = std::max(0.5 * part, smallest_part);
+        const std::vector<double> values = balance->relevant_values(u);
+        frozen.resize(values.size(), 0.);
+        for (std::size_t i = 0; i < values.size(); ++i)
+          frozen[i] += part * (values[i] - frozen[i]);
+        if (part < 1. || slides_far)
+          sums[3] = pairs_.look(frozen).has_new_links;
+        pairs_.adopt();
+        if (Utilities::MPI::max(sums[3], attempt.comm) > 0.)
+          balance->renew_links();
+        if (recentres)
+          drag->set_centre(displacement.values_at(attempt.tissue.cells()));
+        return true;
+      }
+
+      std::string
+      unfinished() const override
+      {
+        return "the contact of two bodies is still changing after twenty turns";
+      }
+
+      std::vector<ForceBetween<dim>>
+      forces(const Equilibrium::Vector &u) const override
+      {
+        return contact_forces(points,
+                              pairs_.forces(balance->relevant_values(u)),
+                              attempt.comm);
+      }
+
+    private:
+      const AttemptAtStep<dim> &attempt;
+      const ContactPoints<dim> &points;
+      const ContactLaw          law;
+      ContactPairs<dim>         pairs_;
+      Drag<dim>                *drag      = nullptr;
+      MomentumBalance<dim>     *balance   = nullptr;
+      bool                      recentres = false; // the drag
+      /** The relevant unknowns at which the geometry is frozen; empty at t. */
+      std::vector<double> frozen;
+      double              part = 1.; // of the way that the geometry follows
+      double              drag_part = 1.; // of the pairs' drag
+      double              left_over = std::numeric_limits<double>::max();
+    };
   } // namespace
 
 
@@ -111,122 +257,16 @@ namespace Morula
 
 
   template <int dim>
-  ContactInStep<dim>::ContactInStep(const AttemptAtStep<dim> &attempt,
-                                    const ContactPoints<dim> &points,
-                                    const ContactLaw         &law)
-    : attempt(attempt)
-    , points(points)
-    , law(law)
-    , pairs_(points, law)
-  {}
-
-
-  template <int dim>
-  void
-  ContactInStep<dim>::take_drag(Drag<dim> &of_step, const bool is_weak)
+  std::unique_ptr<InteractionInStep<dim>>
+  contact_in_step(const AttemptAtStep<dim> &attempt,
+                  const ContactPoints<dim> &points,
+                  const ContactLaw         &law)
   {
-    drag      = &of_step;
-    recentres = is_weak;
+    return std::make_unique<ContactInStep<dim>>(attempt, points, law);
   }
 
 
-  template <int dim>
-  void
-  ContactInStep<dim>::begin(MomentumBalance<dim> &of_step,
-                            const Equilibrium::Vector &)
-  {
-    balance = &of_step;
-  }
+  MORULA_INSTANTIATE(has_crossed_from_afar);
+  MORULA_INSTANTIATE(contact_in_step);
 
-
-  template <int dim>
-  bool
-  ContactInStep<dim>::renew(const Equilibrium::Vector &u)
-  {
-    // All ranks get the sums and extremes of all pairs, so that they decide
-    // alike. Where the equilibrium is good enough, the frozen geometry stays:
-    // forces are read from the state that was solved for. Otherwise the pairs
-    // take their new geometry, and the weak drag a new centre.
-    const TimerOutput::Scope section(attempt.timer, "contact");
-    const auto               renewal = pairs_.look(balance->relevant_values(u));
-    double                   sums[5] = {renewal.normal,
-                                        renewal.tangential,
-                                        renewal.of_new_pairs,
-                                        1. * renewal.has_new_links,
-                                        renewal.onward};
-    Utilities::MPI::sum(sums, attempt.comm, sums);
-    const double crossed = Utilities::MPI::max(renewal.crossed, attempt.comm),
-                 slid    = Utilities::MPI::max(renewal.slid, attempt.comm);
-    const DisplacementField<dim> displacement(attempt.space, u, attempt.comm);
-    std::ostringstream           text;
-    if (crossed > 0.)
-      text << "two bodies overlap by " << crossed
-           << " um, so that the step is too long for their contact";
-    else if (slid > points.way())
-      text << "bodies in contact slide by " << slid
-           << " um along each other, more than " << points.way()
-           << " um: the step is too long for their contact";
-    else if (has_crossed_from_afar(attempt.tissue, points, displacement, law.h))
-      text << "bodies pass through each other, so that the step is too long "
-              "for their contact";
-    if (!text.str().empty())
-      throw StepFailed(text.str());
-
-    const double unit = law.E * std::pow(law.h, dim - 1);
-    if (sums[1] <= small_drag * sums[0] + no_force * unit &&
-        sums[2] <= small_part * sums[0] + no_force * unit)
-      return false;
-    // A soft body slides far against the drag, a little in each turn, if all of
-    // it goes one way: the drag becomes weaker then. Where a surface is
-    // strongly curved the geometry may swing between two states for ever. So it
-    // follows only a part of the way, half as much each time that less than a
-    // fifth of the tangential forces has gone.
-    const bool slides_far = sums[1] > slow * left_over &&
-                            sums[4] > one_way * sums[1] &&
-                            drag_part > least_drag;
-    const double before = left_over;
-    left_over           = sums[1];
-    if (slides_far)
-      {
-        drag_part *= softer;
-        left_over *= softer;
-        pairs_.set_drag(drag_part);
-      }
-    else if (sums[1] > staying * before)
-      part = std::max(0.5 * part, smallest_part);
-    const std::vector<double> values = balance->relevant_values(u);
-    frozen.resize(values.size(), 0.);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      frozen[i] += part * (values[i] - frozen[i]);
-    if (part < 1. || slides_far)
-      sums[3] = pairs_.look(frozen).has_new_links;
-    pairs_.adopt();
-    if (Utilities::MPI::max(sums[3], attempt.comm) > 0.)
-      balance->renew_links();
-    if (recentres)
-      drag->set_centre(displacement.values_at(attempt.tissue.cells()));
-    return true;
-  }
-
-
-  template <int dim>
-  std::string
-  ContactInStep<dim>::unfinished() const
-  {
-    return "the contact of two bodies is still changing after twenty turns";
-  }
-
-
-  template <int dim>
-  std::vector<ForceBetween<dim>>
-  ContactInStep<dim>::forces(const Equilibrium::Vector &u) const
-  {
-    return contact_forces(points,
-                          pairs_.forces(balance->relevant_values(u)),
-                          attempt.comm);
-  }
-
-
-  template class ContactInStep<2>;
-  template class ContactInStep<3>;
 } // namespace Morula

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/expression_key.h>
 #include <morula/effects/forces/body_force.h>
-#include <morula/effects/forces/placed_force.h>
+#include <morula/effects/forces/force.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/dead_load.h>
+#include <morula/effects/surface/loads.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,94 +16,195 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** Difference of places by which b is differentiated, in grid spacings. */
+    constexpr double part_of_spacing = 1e-5;
+
+    constexpr Variable coordinates[] = {Variable::x, Variable::y, Variable::z};
+  } // namespace
+
+
   template <int dim>
-  BodyForce<dim>::BodyForce(const Parameters         &parameters,
-                            const EffectSetting<dim> &setting)
-    : density(setting.state.use(parameters.force_density))
+  PlacedForce<dim>::PlacedForce(GroupedPoints<dim>    points,
+                                std::vector<Particle> particles,
+                                const Expression     &density)
+    : PointTerm<dim>(std::move(points))
+    , particles(std::move(particles))
+    , density(density)
   {}
 
 
   template <int dim>
-  std::unique_ptr<Term<dim>>
-  BodyForce<dim>::term(const Tissue<dim>        &tissue,
-                       const CellReader<dim>    &reader,
-                       const GroupedPoints<dim> &positions,
-                       const double,
-                       const double t1) const
+  bool
+  PlacedForce<dim>::depends_on_place(const Expression &expression)
   {
-    // The force on cell p is V⁰ b, doc/theory.md (4.7). The state of the cell
-    // is that of the beginning of the step, but the time is that of its end, as
-    // the equilibrium is sought there. A force that depends on the place acts
-    // where the cell comes to stand; all others are dead loads.
-    const Cells<dim> &cells = tissue.cells();
-    if (PlacedForce<dim>::depends_on_place(density))
+    for (const Variable place : coordinates)
+      if (expression.uses(place))
+        return true;
+    return false;
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  PlacedForce<dim>::density_at(const Particle   &particle,
+                               const Point<dim> &x) const
+  {
+    VariableValues values = particle.values;
+    for (unsigned int d = 0; d < dim; ++d)
+      values[static_cast<unsigned int>(coordinates[d])] = x[d];
+    Tensor<1, dim> b;
+    for (unsigned int d = 0; d < dim; ++d)
+      b[d] = density.value(values, d);
+    return b;
+  }
+
+
+  template <int dim>
+  void
+  PlacedForce<dim>::add_point(const unsigned int       p,
+                              const SplineValues<dim> &splines,
+                              const LocalField<dim>   &field,
+                              LocalSystem<dim>        &system) const
+  {
+    const Particle  &particle = particles[p];
+    const Point<dim> x        = particle.x + field.value(splines);
+    Tensor<1, dim>   force;
+    Tensor<2, dim>   stiffness;
+    if (system.wanted != LocalSystem<dim>::tangent)
+      force = -particle.volume * density_at(particle, x);
+    else
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          const double delta = part_of_spacing * this->points.h;
+          Point<dim>   before(x), behind(x);
+          before[j] -= delta;
+          behind[j] += delta;
+          const Tensor<1, dim> change =
+            -particle.volume / (2. * delta) *
+            (density_at(particle, behind) - density_at(particle, before));
+          for (unsigned int i = 0; i < dim; ++i)
+            stiffness[i][j] = change[i];
+        }
+    add_force_at(splines, 0., force, stiffness, system);
+  }
+
+
+  template class PlacedForce<2>;
+  template class PlacedForce<3>;
+
+
+  namespace
+  {
+    /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
+     *  paper. It may depend on the state of cells at the beginning of a step,
+     * and on their place at its end. */
+    template <int dim>
+    class BodyForce : public Force<dim>
+    {
+    public:
+      using Parameters = BodyForceParameters;
+
+      /** @throws InputError for an expression that cannot be parsed */
+      BodyForce(const Parameters &parameters, const EffectSetting<dim> &setting)
+        : density(setting.state.use(parameters.force_density))
+      {}
+
+      std::unique_ptr<Term<dim>>
+      term(const Tissue<dim>        &tissue,
+           const CellReader<dim>    &reader,
+           const GroupedPoints<dim> &positions,
+           const double,
+           const double t1) const override
       {
-        std::vector<typename PlacedForce<dim>::Particle> particles;
+        // The force on cell p is V⁰ b, doc/theory.md (4.7). The state of the
+        // cell is that of the beginning of the step, but the time is that of
+        // its end, as the equilibrium is sought there. A force that depends on
+        // the place acts where the cell comes to stand; all others are dead
+        // loads.
+        const Cells<dim> &cells = tissue.cells();
+        if (PlacedForce<dim>::depends_on_place(density))
+          {
+            std::vector<typename PlacedForce<dim>::Particle> particles;
+            for (unsigned int p = 0; p < cells.size(); ++p)
+              particles.push_back(
+                {cells.position(p),
+                 cells.initial_volume(p),
+                 present_cell(tissue, p, reader).variables(density, t1)});
+            return std::make_unique<PlacedForce<dim>>(positions,
+                                                      std::move(particles),
+                                                      density);
+          }
+        std::vector<Tensor<1, dim>> forces;
         for (unsigned int p = 0; p < cells.size(); ++p)
-          particles.push_back(
-            {cells.position(p),
-             cells.initial_volume(p),
-             present_cell(tissue, p, reader).variables(density, t1)});
-        return std::make_unique<PlacedForce<dim>>(positions,
-                                                  std::move(particles),
-                                                  density);
+          forces.push_back(cells.initial_volume(p) *
+                           present_cell(tissue, p, reader).vector(density, t1));
+        return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
       }
-    std::vector<Tensor<1, dim>> forces;
-    for (unsigned int p = 0; p < cells.size(); ++p)
-      forces.push_back(cells.initial_volume(p) *
-                       present_cell(tissue, p, reader).vector(density, t1));
-    return std::make_unique<DeadLoad<dim>>(positions, std::move(forces));
-  }
+
+      std::optional<Tensor<1, dim>>
+      load_of(const PresentCell<dim> &cell, const double t) const override
+      {
+        return cell.vector(density, t);
+      }
+
+      void
+      check(const Preview<dim> &scene) const override
+      {
+        // An expression of the cells' state has no value before there are
+        // cells; check_cell() evaluates it for each founder.
+        if (density.depends_on_state())
+          return;
+        for (const Point<dim> &X : scene.founders)
+          // An expression of place and time has a value at both ends of the
+          // run, or throws here.
+          for (const double t : {0., scene.keys.time.end_time.value()})
+            density.vector(X, t);
+      }
+
+      void
+      check_cell(const PresentCell<dim> &founder, const double) const override
+      {
+        founder.vector(density, 0.);
+      }
+
+      void
+      review(const Preview<dim> &scene, Review &review) const override
+      {
+        const std::vector<Variable> &used = density.used();
+        const bool                   lags =
+          std::any_of(used.begin(), used.end(), [](const auto v) {
+            return is_field(v) || v == Variable::volume ||
+                   v == Variable::growth || v == Variable::J_e ||
+                   v == Variable::pressure || v == Variable::tension ||
+                   v == Variable::shear || v == Variable::energy;
+          });
+        if (lags)
+          review.warn(
+            density.key(),
+            density.text(),
+            "a force takes the state of its cell, but its place, from "
+            "the beginning of each step: it is late by Time/Step = " +
+              as_text(scene.keys.time.step) +
+              " day, and may swing where it changes that state much in "
+              "a step.",
+            "Repeat the run with half the step, and compare.");
+      }
+
+    private:
+      const Expression density;
+    };
+  } // namespace
 
 
-  template <int dim>
   void
-  BodyForce<dim>::check(const Preview<dim> &scene) const
+  add_body_force(Choices<Force> &forces)
   {
-    // An expression of the cells' state has no value before there are cells;
-    // check_cell() evaluates it for each founder.
-    if (density.depends_on_state())
-      return;
-    for (const Point<dim> &X : scene.founders)
-      // An expression of place and time has a value at both ends of the run, or
-      // throws here.
-      for (const double t : {0., scene.keys.time.end_time.value()})
-        density.vector(X, t);
+    forces.push_back(Choice<Force>::of<BodyForce>(
+      "body force",
+      "",
+      {"Boundary conditions/Fixed where=X + Y < -2",
+       "Body force/Force density=0.01*x; 0.01*y; 0"}));
   }
-
-
-  template <int dim>
-  void
-  BodyForce<dim>::check_cell(const PresentCell<dim> &founder,
-                             const double) const
-  {
-    founder.vector(density, 0.);
-  }
-
-
-  template <int dim>
-  void
-  BodyForce<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    const std::vector<Variable> &used = density.used();
-    const bool lags = std::any_of(used.begin(), used.end(), [](const auto v) {
-      return is_field(v) || v == Variable::volume || v == Variable::growth ||
-             v == Variable::J_e || v == Variable::pressure ||
-             v == Variable::tension || v == Variable::shear ||
-             v == Variable::energy;
-    });
-    if (lags)
-      review.warn(density.key(),
-                  density.text(),
-                  "a force takes the state of its cell, but its place, from "
-                  "the beginning of each step: it is late by Time/Step = " +
-                    as_text(scene.keys.time.step) +
-                    " day, and may swing where it changes that state much in "
-                    "a step.",
-                  "Repeat the run with half the step, and compare.");
-  }
-
-
-  template class BodyForce<2>;
-  template class BodyForce<3>;
 } // namespace Morula

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/friction.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/mechanics/point_term.h>
+#include <morula/base/expression_key.h>
+#include <morula/effects/forces/force.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 
 #include <utility>
@@ -10,77 +13,115 @@
 
 namespace Morula
 {
-  bool
-  FrictionParameters::is_on() const
+  namespace
   {
-    // A type of cells may set the key in its own section and leave the scene's
-    // at its default.
-    return coefficient.is_changed();
-  }
+    /** Section "Friction". */
+    struct FrictionParameters : public EffectKeys
+    {
+      ExpressionKey coefficient{
+        {this, "Friction/Coefficient"},
+        "0",
+        "Friction of cells, also inside of the tissue, with "
+        "surroundings that stand still: the force on a cell per "
+        "initial volume is minus this times its velocity; >= 0. An "
+        "expression. Units: kPa day/um^2.",
+        Evaluated::step,
+        not_negative("kPa day/um^2", "0 is no friction.")};
+
+      bool
+      is_on() const override
+      {
+        // A type of cells may set the key in its own section and leave the
+        // scene's at its default.
+        return coefficient.is_changed();
+      }
+      std::string
+      details() const override
+      {
+        return coefficient.text() + " kPa day/um^2";
+      }
+    };
+
+    /** Friction of cells with surroundings that stand still: doc/theory.md
+     * (4.7a). Its coefficient is that of the cell's state at the beginning of a
+     * step. */
+    template <int dim>
+    class Friction : public Force<dim>
+    {
+    public:
+      using Parameters = FrictionParameters;
+
+      /** @throws InputError for an expression that cannot be parsed */
+      Friction(const Parameters &parameters, const EffectSetting<dim> &setting)
+        : coefficient(setting.state.use(parameters.coefficient))
+      {}
+
+      std::unique_ptr<Term<dim>>
+      term(const Tissue<dim>        &tissue,
+           const CellReader<dim>    &reader,
+           const GroupedPoints<dim> &positions,
+           const double              t0,
+           const double              t1) const override
+      {
+        // The velocity of backward Euler's method is u/Δt, so that friction
+        // acts as a spring of stiffness V⁰ ζ/Δt from where the cell is at the
+        // beginning of the step: doc/theory.md (4.7a).
+        std::vector<double> stiffnesses = friction(tissue, reader, t0);
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
+        return std::make_unique<Drag<dim>>(positions, std::move(stiffnesses));
+      }
+
+      std::vector<double>
+      friction(const Tissue<dim>     &tissue,
+               const CellReader<dim> &reader,
+               const double           t0) const override
+      {
+        // These values also tell the equilibrium which pieces friction holds: a
+        // rigid motion against it is not taken out of the step.
+        std::vector<double> list;
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          list.push_back(*friction_of(present_cell(tissue, p, reader), t0));
+        return list;
+      }
+
+      std::optional<double>
+      friction_of(const PresentCell<dim> &cell, const double t0) const override
+      {
+        return cell.value(coefficient, t0);
+      }
+
+      void
+      check(const Preview<dim> &scene) const override
+      {
+        if (coefficient.depends_on_state())
+          return;
+        // The end time is one sample: a coefficient that falls with time is
+        // smallest there.
+        for (const Point<dim> &X : scene.founders)
+          coefficient.value(X, scene.keys.time.end_time);
+      }
+
+      void
+      check_cell(const PresentCell<dim> &founder, const double) const override
+      {
+        founder.value(coefficient, 0.);
+      }
+
+    private:
+      const Expression coefficient;
+    };
+  } // namespace
 
 
-
-  template <int dim>
-  Friction<dim>::Friction(const Parameters         &parameters,
-                          const EffectSetting<dim> &setting)
-    : coefficient(setting.state.use(parameters.coefficient))
-  {}
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  Friction<dim>::term(const Tissue<dim>        &tissue,
-                      const CellReader<dim>    &reader,
-                      const GroupedPoints<dim> &positions,
-                      const double              t0,
-                      const double              t1) const
-  {
-    // The velocity of backward Euler's method is u/Δt, so that friction acts as
-    // a spring of stiffness V⁰ ζ/Δt from where the cell is at the beginning of
-    // the step: doc/theory.md (4.7a).
-    std::vector<double> stiffnesses = friction(tissue, reader, t0);
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
-    return std::make_unique<Drag<dim>>(positions, std::move(stiffnesses));
-  }
-
-
-  template <int dim>
-  std::vector<double>
-  Friction<dim>::friction(const Tissue<dim>     &tissue,
-                          const CellReader<dim> &reader,
-                          const double           t0) const
-  {
-    // These values also tell the equilibrium which pieces friction holds: a
-    // rigid motion against it is not taken out of the step.
-    std::vector<double> list;
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      list.push_back(*friction_of(present_cell(tissue, p, reader), t0));
-    return list;
-  }
-
-
-  template <int dim>
   void
-  Friction<dim>::check(const Preview<dim> &scene) const
+  add_friction(Choices<Force> &forces)
   {
-    if (coefficient.depends_on_state())
-      return;
-    // The end time is one sample: a coefficient that falls with time is
-    // smallest there.
-    for (const Point<dim> &X : scene.founders)
-      coefficient.value(X, scene.keys.time.end_time);
+    forces.push_back(Choice<Force>::of<Friction>(
+      "friction",
+      "",
+      {"Growth/Law=isotropic",
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+       "Friction/Coefficient=0.1"}));
   }
-
-
-  template <int dim>
-  void
-  Friction<dim>::check_cell(const PresentCell<dim> &founder, const double) const
-  {
-    founder.value(coefficient, 0.);
-  }
-
-
-  template class Friction<2>;
-  template class Friction<3>;
 } // namespace Morula

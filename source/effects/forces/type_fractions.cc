@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/type_fractions.h>
+#include <morula/effects/forces/type_tension.h>
 
 #include <algorithm>
 

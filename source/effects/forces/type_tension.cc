@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/type_fractions.h>
+#include <morula/effects/forces/force.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/rearrangement/rearrangement.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/surface_energy.h>
+#include <morula/effects/surface/loads.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,89 +14,15 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <deque>
 #include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace Morula
 {
-  TypeTensionParameters::TypeTensionParameters()
-  {
-    force.needs({"Rearrangement/Diffusion"});
-  }
-
-
-  bool
-  TypeTensionParameters::any() const
-  {
-    return std::any_of(between.begin(), between.end(), [](const auto &key) {
-      return key != 0.;
-    });
-  }
-
-
-  void
-  TypeTensionParameters::declare_sections(const std::string &,
-                                          const std::vector<std::string> &names)
-  {
-    types = names;
-    for (const std::string &name : names)
-      for (const std::string &other : names)
-        if (other != name)
-          between.emplace_back(
-            "Cell types/" + name + "/Tension/With " + other,
-            0.,
-            "Tension of the interface with cells of type " + other +
-              "; one of the two types may say it. Negative: only for "
-              "Rearrangement. Units: kPa um.");
-  }
-
-
-  std::vector<std::vector<double>>
-  TypeTensionParameters::matrix() const
-  {
-    const std::size_t                n = types.size();
-    std::vector<std::vector<double>> gamma(n, std::vector<double>(n, 0.));
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = a + 1; b < n; ++b)
-        {
-          const Key<double> &one = key(a, b), &other = key(b, a);
-          if (!one.is_default() && !other.is_default() &&
-              one.value() != other.value())
-            other.refuse("the value of " + one.path() + ", " + one.text() +
-                           " kPa um",
-                         "An interface has one tension: remove one of the two "
-                         "keys.");
-          gamma[a][b] = gamma[b][a] =
-            one.is_default() ? other.value() : one.value();
-        }
-    return gamma;
-  }
-
-
-  std::string
-  TypeTensionParameters::details() const
-  {
-    std::string text;
-    for (unsigned int a = 0; a < types.size(); ++a)
-      for (unsigned int b = 0; b < types.size(); ++b)
-        if (a != b && !key(a, b).is_default())
-          text += (text.empty() ? "" : ", ") + types[a] + " with " + types[b] +
-                  " " + key(a, b).text() + " kPa um";
-    return text + "; domains count from 2 h on";
-  }
-
-
-  KeyList
-  TypeTensionParameters::list()
-  {
-    KeyList list{&force};
-    for (Key<double> &key : between)
-      list.push_back(&key);
-    return list;
-  }
-
-
   namespace
   {
     /** A fraction that a type reaches in the middle of a domain 2 h wide. */
@@ -212,102 +138,129 @@ namespace Morula
         }
       return places;
     }
+
+
+    /** Tension of the interfaces between types of cells, from the gradients of
+     *  the types' fractions: doc/theory.md (12.1)-(12.3). */
+    template <int dim>
+    class TypeTension : public Force<dim>
+    {
+    public:
+      using Parameters = TypeTensionParameters;
+
+      /** @throws InputError for a negative tension */
+      TypeTension(const Parameters &parameters, const EffectSetting<dim> &)
+        : tensions(parameters.matrix())
+        , types(parameters.types)
+      {
+        for (const Key<double> &key : parameters.between)
+          if (key < 0.)
+            key.refuse(
+              "a value >= 0 kPa um",
+              "An interface with a negative tension would crumple: set " +
+                parameters.force.path() +
+                " = false, so that only Rearrangement knows it.");
+      }
+
+      std::unique_ptr<Term<dim>>
+      term(const Tissue<dim>        &tissue,
+           const CellReader<dim>    &reader,
+           const GroupedPoints<dim> &positions,
+           const double,
+           const double) const override
+      {
+        // Each point of quadrature with a gradient has V |cof f g| of each
+        // interface that it is in, doc/theory.md (12.2): the term of a surface
+        // whose area is V g. In the middle of a domain there is none, which
+        // costs nothing in the iterations. The smoothing ε is one number per
+        // length, and the volume stands in the tension, with what ε takes from
+        // flat interfaces.
+        const TypeFractions<dim> field =
+          fractions(tissue, reader.columns.type, tensions.size());
+        GroupedPoints<dim> points;
+        points.h       = positions.h;
+        points.offsets = {0};
+        std::vector<AreaLoad<dim>> loads;
+        for (unsigned int c = 0; c + 1 < positions.offsets.size(); ++c)
+          {
+            for (const auto &[x, xi, V] :
+                 quadrature(tissue,
+                            field,
+                            positions,
+                            {positions.offsets[c], positions.offsets[c + 1]}))
+              {
+                const auto at = field.at(x);
+                for (unsigned int a = 0; a < tensions.size(); ++a)
+                  for (unsigned int b = a + 1; b < tensions.size(); ++b)
+                    {
+                      const Tensor<1, dim> g = at.fraction[a] * at.gradient[b] -
+                                               at.fraction[b] * at.gradient[a];
+                      if (tensions[a][b] == 0. || g.norm() * points.h < 1e-10)
+                        continue;
+                      points.xi.push_back(xi);
+                      loads.push_back(
+                        {tensions[a][b] * V / Parameters::left_by_smoothing,
+                         g});
+                    }
+              }
+            points.offsets.push_back(points.xi.size());
+          }
+        return surface_energy<dim>(std::move(points),
+                                   std::move(loads),
+                                   Parameters::smoothing / positions.h);
+      }
+
+      /** Warns of types whose domains are too narrow for their tension to be
+       *  felt, as the founders stand. */
+      void
+      review(const Preview<dim> &scene, Review &review) const override
+      {
+        // Exchanges of places make domains of a mixture, so that the founders
+        // tell nothing there. A type without founders may come later.
+        if (find_choice(scene.keys.catalogue.step_effects, "rearrangement")
+              ->keys()
+              .is_on())
+          return;
+        const auto largest = largest_fractions(scene, tensions.size());
+        for (unsigned int a = 0; a < tensions.size(); ++a)
+          for (unsigned int b = 0; b < tensions.size(); ++b)
+            if (tensions[a][b] > 0. && largest[a] > 0. &&
+                largest[a] < of_a_domain)
+              {
+                std::ostringstream why, value;
+                value << tensions[a][b] << " kPa um";
+                why
+                  << "cells of type " << types[a] << " are at most "
+                  << static_cast<int>(100. * largest[a])
+                  << " % of the cells around a place at t = 0: their domains are "
+                     "narrower than 2 grid spacings, and the tension hardly acts "
+                     "on these (doc/theory.md, section 12.2).";
+                review.warn(
+                  "Cell types/" + types[a] + "/Tension/With " + types[b],
+                  value.str(),
+                  why.str(),
+                  "Take a smaller " + scene.keys.grid.spacing.path() +
+                    ", at least 2.5 cells, or let cells change places "
+                    "(Rearrangement/Diffusion).");
+                break;
+              }
+      }
+
+    private:
+      const std::vector<std::vector<double>> tensions;
+      const std::vector<std::string>         types;
+    };
   } // namespace
 
 
-  template <int dim>
-  TypeTension<dim>::TypeTension(const Parameters &parameters,
-                                const EffectSetting<dim> &)
-    : tensions(parameters.matrix())
-    , types(parameters.types)
-  {
-    for (const Key<double> &key : parameters.between)
-      if (key < 0.)
-        key.refuse("a value >= 0 kPa um",
-                   "An interface with a negative tension would crumple: set " +
-                     parameters.force.path() +
-                     " = false, so that only Rearrangement knows it.");
-  }
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  TypeTension<dim>::term(const Tissue<dim>        &tissue,
-                         const CellReader<dim>    &reader,
-                         const GroupedPoints<dim> &positions,
-                         const double,
-                         const double) const
-  {
-    // Each point of quadrature with a gradient has V |cof f g| of each
-    // interface that it is in, doc/theory.md (12.2): the term of a surface
-    // whose area is V g. In the middle of a domain there is none, which costs
-    // nothing in the iterations. The smoothing ε is one number per length, and
-    // the volume stands in the tension, with what ε takes from flat interfaces.
-    const TypeFractions<dim> field =
-      fractions(tissue, reader.columns.type, tensions.size());
-    GroupedPoints<dim> points;
-    points.h       = positions.h;
-    points.offsets = {0};
-    std::vector<typename AreaTerm<dim>::Load> loads;
-    for (unsigned int c = 0; c + 1 < positions.offsets.size(); ++c)
-      {
-        for (const auto &[x, xi, V] :
-             quadrature(tissue,
-                        field,
-                        positions,
-                        {positions.offsets[c], positions.offsets[c + 1]}))
-          {
-            const auto at = field.at(x);
-            for (unsigned int a = 0; a < tensions.size(); ++a)
-              for (unsigned int b = a + 1; b < tensions.size(); ++b)
-                {
-                  const Tensor<1, dim> g = at.fraction[a] * at.gradient[b] -
-                                           at.fraction[b] * at.gradient[a];
-                  if (tensions[a][b] == 0. || g.norm() * points.h < 1e-10)
-                    continue;
-                  points.xi.push_back(xi);
-                  loads.push_back({tensions[a][b] * V / left_by_smoothing, g});
-                }
-          }
-        points.offsets.push_back(points.xi.size());
-      }
-    return std::make_unique<SurfaceEnergy<dim>>(std::move(points),
-                                                std::move(loads),
-                                                smoothing / positions.h);
-  }
-
-
-  template <int dim>
   void
-  TypeTension<dim>::review(const Preview<dim> &scene, Review &review) const
+  add_type_tension(Choices<Force> &forces)
   {
-    // Exchanges of places make domains of a mixture, so that the founders tell
-    // nothing there. A type without founders may come later.
-    if (scene.keys.template keys<RearrangementParameters>().is_on())
-      return;
-    const auto largest = largest_fractions(scene, tensions.size());
-    for (unsigned int a = 0; a < tensions.size(); ++a)
-      for (unsigned int b = 0; b < tensions.size(); ++b)
-        if (tensions[a][b] > 0. && largest[a] > 0. && largest[a] < of_a_domain)
-          {
-            std::ostringstream why, value;
-            value << tensions[a][b] << " kPa um";
-            why << "cells of type " << types[a] << " are at most "
-                << static_cast<int>(100. * largest[a])
-                << " % of the cells around a place at t = 0: their domains are "
-                   "narrower than 2 grid spacings, and the tension hardly acts "
-                   "on these (doc/theory.md, section 12.2).";
-            review.warn("Cell types/" + types[a] + "/Tension/With " + types[b],
-                        value.str(),
-                        why.str(),
-                        "Take a smaller " + scene.keys.grid.spacing.path() +
-                          ", at least 2.5 cells, or let cells change places "
-                          "(Rearrangement/Diffusion).");
-            break;
-          }
+    forces.push_back(
+      Choice<Force>::of<TypeTension>("type tension",
+                                     "",
+                                     {"Cell types/Names=a, b",
+                                      "Cell types/b/Where=X*Y > 0",
+                                      "Cell types/a/Tension/With b=0.1"}));
   }
-
-
-  template class TypeTension<2>;
-  template class TypeTension<3>;
 } // namespace Morula

@@ -2,24 +2,170 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/name_list.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/effects/obstacles/obstacles.h>
+#include <morula/effects/effect.h>
+#include <morula/effects/library_effects.h>
+#include <morula/effects/obstacles/body.h>
 #include <morula/effects/scene_keys.h>
+#include <morula/effects/surface/boundary_condition.h>
 #include <morula/mechanics/equilibrium.h>
+#include <morula/mechanics/point_term.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <algorithm>
+#include <deque>
 #include <limits>
+#include <memory>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace Morula
 {
   namespace
   {
+    /** Section "Obstacles": names first, then a section for each of them. */
+    struct ObstaclesParameters : public EffectKeys
+    {
+      Key<std::string> names{
+        {this, "Obstacles/Names"},
+        "",
+        "Rigid bodies that the surface of the tissue cannot enter, "
+        "separated by commas. Each has a section of this name. Empty: "
+        "none."};
+      std::deque<ObstacleKeys> obstacles;
+
+      bool
+      is_on() const override
+      {
+        return !obstacles.empty();
+      }
+      std::string
+      details() const override
+      {
+        std::string text;
+        for (const ObstacleKeys &obstacle : obstacles)
+          text += "; " + obstacle.name + ": " + obstacle.shape.value() +
+                  ", tissue " + obstacle.side.value();
+        return text;
+      }
+      EffectFacts
+      facts() const override
+      {
+        EffectFacts facts;
+        facts.names_key = &names;
+        return facts;
+      }
+      void
+      declare_sections(const std::string &text,
+                       const std::vector<std::string> &) override
+      {
+        for (const std::string &name :
+             declared_names(names, text, reason_against_section))
+          obstacles.emplace_back(name);
+      }
+      using Keys::list;
+      KeyList
+      list() override
+      {
+        return keys_of_all(names, obstacles);
+      }
+    };
+
+
+    /**
+     * Contact without friction between boundary points and rigid bodies: the
+     * energy Π = Σ a_t κ φ²/2 of all points with φ < 0, where φ is the distance
+     * to a body, positive on the side of the tissue. Its residual is
+     * a_t κ φ ∇φ N_a, its tangent a_t κ (∇φ⊗∇φ + φ ∇∇φ) N_a N_b:
+     * doc/theory.md (4.8d), (4.8e). Keeps references to the bodies.
+     */
+    template <int dim>
+    class ObstacleContact : public PointTerm<dim>
+    {
+    public:
+      /** A boundary point. */
+      struct BoundaryPoint
+      {
+        /** Position at t, µm. */
+        Point<dim> x;
+        /** a_t, µm^(dim-1). */
+        double area;
+      };
+
+      /** A body during the step. */
+      struct Obstacle
+      {
+        /** The body at t = 0. */
+        const Body<dim> *body;
+        /** Whether the tissue is inside. */
+        bool is_mould;
+        /** Way of the body from t = 0 to the end of the step, µm. */
+        Tensor<1, dim> way;
+        /** κ, kPa/µm. */
+        double stiffness;
+
+        /** How deep @p x (µm) is in the obstacle, µm; negative: not in it. */
+        double
+        depth(const Point<dim> &x) const
+        {
+          const double distance = body->distance(x - way).value;
+          return is_mould ? distance : -distance;
+        }
+      };
+
+      ObstacleContact(GroupedPoints<dim>         points,
+                      std::vector<BoundaryPoint> boundary_points,
+                      std::vector<Obstacle>      obstacles)
+        : PointTerm<dim>(std::move(points))
+        , boundary_points(std::move(boundary_points))
+        , obstacles(std::move(obstacles))
+      {}
+
+    private:
+      void
+      add_point(const unsigned int       p,
+                const SplineValues<dim> &splines,
+                const LocalField<dim>   &field,
+                LocalSystem<dim>        &system) const override
+      {
+        // The place is the one of this evaluation, x_t + u, so Newton's method
+        // finds anew which points touch. The body stays where it is at t = 0
+        // and the place goes back by the body's way, since a body only moves
+        // and never turns.
+        const Point<dim> x = boundary_points[p].x + field.value(splines);
+        for (const Obstacle &obstacle : obstacles)
+          {
+            // For a mould, φ of doc/theory.md (4.8d) is minus the distance to
+            // the body. Energy, force and tangent are all even in φ, so the
+            // sign matters only to which points are in contact.
+            const Distance<dim> phi = obstacle.body->distance(x - obstacle.way);
+            if (obstacle.is_mould ? phi.value <= 0. : phi.value >= 0.)
+              continue;
+            const double k = boundary_points[p].area * obstacle.stiffness;
+            // The energy is that of doc/theory.md (4.8d), the force its
+            // derivative, and the matrix that of (4.8e), with a_t κ in k.
+            // Inside of a round body the term with the curvature is negative
+            // along its surface, as a point there may slide off it.
+            add_force_at(splines,
+                         0.5 * k * phi.value * phi.value,
+                         k * phi.value * phi.gradient,
+                         k * (outer_product(phi.gradient, phi.gradient) +
+                              phi.value * phi.curvature),
+                         system);
+          }
+      }
+
+      const std::vector<BoundaryPoint> boundary_points;
+      const std::vector<Obstacle>      obstacles;
+    };
+
+
     /** The velocity, which may depend on the time alone. @throws InputError */
     Expression
     velocity_of(const ObstacleKeys &keys, const unsigned int dim)
@@ -69,6 +215,7 @@ namespace Morula
         }
       return best;
     }
+
     /** What contact needs of the points. */
     template <int dim>
     std::vector<typename ObstacleContact<dim>::BoundaryPoint>
@@ -79,195 +226,239 @@ namespace Morula
         list.push_back({point.x, point.area.norm()});
       return list;
     }
+
+
+    /** Rigid bodies that the surface of the tissue slides along and cannot
+     *  enter: doc/theory.md (4.8d). */
+    template <int dim>
+    class Obstacles : public BoundaryCondition<dim>
+    {
+    public:
+      using Parameters = ObstaclesParameters;
+
+      /** @throws InputError for bodies that do not exist, and for velocities
+       * that cannot be parsed */
+      explicit Obstacles(const Parameters &parameters)
+      {
+        for (const ObstacleKeys &keys : parameters.obstacles)
+          list.push_back({keys.name,
+                          keys.side == "inside",
+                          make_body<dim>(keys),
+                          keys.stiffness,
+                          velocity_of(keys, dim),
+                          keys.surface_mesh.path(),
+                          keys.shape == "mesh" ? keys.surface_mesh.value() : "",
+                          thickness_of(keys, dim)});
+      }
+
+      SurfaceCondition
+      kind() const override
+      {
+        return SurfaceCondition::loaded;
+      }
+      bool
+      acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
+      {
+        return true;
+      }
+      /** @throws StepFailed if an obstacle moves too far in the step */
+      std::unique_ptr<Term<dim>>
+      term(const LoadedPoints<dim> &points, const double t) const override
+      {
+        // Each obstacle is put where it is at the end of the step, with κ = α
+        // E/h of doc/theory.md (4.8d). Three things would break the contact,
+        // and all ask for a shorter step. A body that moves by more than a grid
+        // spacing may pass thin tissue before any point notices, and a body
+        // that moves by more than half of its own thickness the surface that it
+        // meets. A surface that begins deeper than that may be pushed out on
+        // the wrong side of a thin body. The depth is that of this rank's
+        // points, so the caller makes a failure known to all ranks.
+        const double                                         h = points.h;
+        std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
+        for (const Obstacle &obstacle : list)
+          {
+            obstacles.push_back(obstacle.at(t, points));
+            std::ostringstream text;
+            const double       step =
+              (obstacles.back().way - obstacle.way(points.time)).norm();
+            if (step > h)
+              {
+                text << "the obstacle '" << obstacle.name << "' moves by "
+                     << step << " um in a step, more than a grid spacing";
+                throw StepFailed(text.str());
+              }
+            const auto before = obstacle.at(points.time, points);
+            if (step > 0.5 * obstacle.thickness &&
+                std::any_of(points.points.begin(),
+                            points.points.end(),
+                            [&](const auto &point) {
+                              return before.depth(point.x) > -step;
+                            }))
+              {
+                text << "the obstacle '" << obstacle.name << "' moves by "
+                     << step
+                     << " um in a step, more than half of its thickness, and "
+                        "could pass the surface unnoticed";
+                throw StepFailed(text.str());
+              }
+            const auto [depth, place] =
+              deepest<dim>(obstacles.back(),
+                           points.points,
+                           [](const auto &point) { return point.x; });
+            if (depth > h)
+              {
+                text << "the surface at (" << place << ") um is " << depth
+                     << " um deep in the obstacle '" << obstacle.name
+                     << "', more than a grid spacing";
+                throw StepFailed(text.str());
+              }
+          }
+        return std::make_unique<ObstacleContact<dim>>(
+          points, boundary_points_of(points), std::move(obstacles));
+      }
+      /** One part for each obstacle. */
+      std::vector<typename BoundaryCondition<dim>::Part>
+      parts(const LoadedPoints<dim> &points, const double t) const override
+      {
+        using Bodies = std::vector<typename ObstacleContact<dim>::Obstacle>;
+        std::vector<typename BoundaryCondition<dim>::Part> parts;
+        for (const Obstacle &obstacle : list)
+          parts.push_back({obstacle.name,
+                           std::make_unique<ObstacleContact<dim>>(
+                             points,
+                             boundary_points_of(points),
+                             Bodies{obstacle.at(t, points)}),
+                           true});
+        return parts;
+      }
+      bool
+      only_pushes() const override
+      {
+        return true;
+      }
+      void
+      check(const Preview<dim> &scene) const override
+      {
+        for (const Obstacle &obstacle : list)
+          {
+            // The integral up to the end finds a velocity that has no value at
+            // some time, before any work is done.
+            obstacle.way(scene.keys.time.end_time);
+            const auto [depth, place] = deepest<dim>(
+              {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
+              scene.boundary_points,
+              [](const Point<dim> &X) { return X; });
+            // The surface may begin a little inside, and the contact pushes it
+            // out in the first step. Half a spacing leaves room below the whole
+            // one that term() refuses.
+            if (depth <= 0.5 * scene.keys.grid.spacing)
+              continue;
+            std::ostringstream text;
+            text << "It is " << depth << " um deep in the obstacle at ("
+                 << place
+                 << ") um: move the obstacle or the tissue, or correct Side.";
+            throw InputError("Obstacles/Names",
+                             obstacle.name,
+                             "an obstacle that the surface of the tissue is at "
+                             "most half a grid spacing deep in at t = 0",
+                             text.str());
+          }
+      }
+      void
+      review(const Preview<dim> &scene, Review &review) const override
+      {
+        for (const Obstacle &obstacle : list)
+          {
+            if (!obstacle.mesh.empty())
+              review_mesh(obstacle.mesh_key, obstacle.mesh, review);
+            // Only boundary points feel an obstacle, so cells may stand in one
+            // that is wholly inside of the tissue.
+            const typename ObstacleContact<dim>::Obstacle at_start{
+              obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.};
+            unsigned int n_cells = 0, n_points = 0;
+            for (const Point<dim> &X : scene.founders)
+              n_cells += at_start.depth(X) > 0.;
+            for (const Point<dim> &X : scene.boundary_points)
+              n_points += at_start.depth(X) > 0.;
+            n_cells  = Utilities::MPI::sum(n_cells, scene.comm);
+            n_points = Utilities::MPI::sum(n_points, scene.comm);
+            if (n_cells > 0 && n_points == 0)
+              review.warn(
+                "Obstacles/Names",
+                obstacle.name,
+                std::to_string(n_cells) +
+                  " cells stand in it, and no boundary point does: it "
+                  "lies within the tissue, where nothing feels it.",
+                "Make a hole in the tissue around it, or move it.");
+          }
+      }
+
+    private:
+      struct Obstacle
+      {
+        std::string                      name;
+        bool                             is_mould;
+        std::unique_ptr<const Body<dim>> body;
+        double                           stiffness; // κ h / E
+        Expression                       velocity;  // µm/day
+        std::string                      mesh_key; // that names the mesh's file
+        std::string                      mesh;     // empty without one
+        /** The least thickness of the body, µm; infinite if it has none. */
+        double thickness;
+
+        /** The way of the body from t = 0 to @p t, µm. */
+        Tensor<1, dim>
+        way(const double t) const
+        {
+          // The velocity depends on the time alone, so its integral needs no
+          // steps of the simulation and is the same after a resumed start. A
+          // constant velocity needs no quadrature. Otherwise each component is
+          // integrated with the 15 points of Gauss and Kronrod, and intervals
+          // are halved up to 12 times until the estimated error is below 1e-10
+          // of the integral, so that also a velocity with jumps gives the way
+          // to much less than a grid spacing.
+          const Point<dim> nowhere;
+          if (velocity.is_constant())
+            return t * velocity.vector(nowhere, t);
+          Tensor<1, dim> result;
+          for (unsigned int d = 0; d < dim && t > 0.; ++d)
+            result[d] =
+              boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
+                [&](const double s) { return velocity.value(nowhere, s, d); },
+                0.,
+                t,
+                12,
+                1e-10);
+          return result;
+        }
+
+        /** The obstacle at @p t (day) against these points. */
+        typename ObstacleContact<dim>::Obstacle
+        at(const double t, const LoadedPoints<dim> &points) const
+        {
+          return {body.get(),
+                  is_mould,
+                  way(t),
+                  stiffness * points.youngs_modulus / points.h};
+        }
+      };
+
+      std::vector<Obstacle> list;
+    };
   } // namespace
 
 
-  template <int dim>
-  Obstacles<dim>::Obstacles(const Parameters &parameters)
-  {
-    for (const ObstacleKeys &keys : parameters.obstacles)
-      list.push_back({keys.name,
-                      keys.side == "inside",
-                      make_body<dim>(keys),
-                      keys.stiffness,
-                      velocity_of(keys, dim),
-                      keys.surface_mesh.path(),
-                      keys.shape == "mesh" ? keys.surface_mesh.value() : "",
-                      thickness_of(keys, dim)});
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  Obstacles<dim>::Obstacle::way(const double t) const
-  {
-    // The velocity depends on the time alone, so its integral needs no steps of
-    // the simulation and is the same after a resumed start. A constant velocity
-    // needs no quadrature. Otherwise each component is integrated with the 15
-    // points of Gauss and Kronrod, and intervals are halved up to 12 times
-    // until the estimated error is below 1e-10 of the integral, so that also a
-    // velocity with jumps gives the way to much less than a grid spacing.
-    const Point<dim> nowhere;
-    if (velocity.is_constant())
-      return t * velocity.vector(nowhere, t);
-    Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim && t > 0.; ++d)
-      result[d] = boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-        [&](const double s) { return velocity.value(nowhere, s, d); },
-        0.,
-        t,
-        12,
-        1e-10);
-    return result;
-  }
-
-
-  template <int dim>
-  typename ObstacleContact<dim>::Obstacle
-  Obstacles<dim>::Obstacle::at(const double             t,
-                               const LoadedPoints<dim> &points) const
-  {
-    return {body.get(),
-            is_mould,
-            way(t),
-            stiffness * points.youngs_modulus / points.h};
-  }
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  Obstacles<dim>::term(const LoadedPoints<dim> &points, const double t) const
-  {
-    // Each obstacle is put where it is at the end of the step, with κ = α E/h
-    // of doc/theory.md (4.8d). Three things would break the contact, and all
-    // ask for a shorter step. A body that moves by more than a grid spacing may
-    // pass thin tissue before any point notices, and a body that moves by more
-    // than half of its own thickness the surface that it meets. A surface that
-    // begins deeper than that may be pushed out on the wrong side of a thin
-    // body. The depth is that of this rank's points, so the caller makes a
-    // failure known to all ranks.
-    const double                                         h = points.h;
-    std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
-    for (const Obstacle &obstacle : list)
-      {
-        obstacles.push_back(obstacle.at(t, points));
-        std::ostringstream text;
-        const double       step =
-          (obstacles.back().way - obstacle.way(points.time)).norm();
-        if (step > h)
-          {
-            text << "the obstacle '" << obstacle.name << "' moves by " << step
-                 << " um in a step, more than a grid spacing";
-            throw StepFailed(text.str());
-          }
-        const auto before = obstacle.at(points.time, points);
-        if (step > 0.5 * obstacle.thickness &&
-            std::any_of(points.points.begin(),
-                        points.points.end(),
-                        [&](const auto &point) {
-                          return before.depth(point.x) > -step;
-                        }))
-          {
-            text << "the obstacle '" << obstacle.name << "' moves by " << step
-                 << " um in a step, more than half of its thickness, and "
-                    "could pass the surface unnoticed";
-            throw StepFailed(text.str());
-          }
-        const auto [depth, place] =
-          deepest<dim>(obstacles.back(), points.points, [](const auto &point) {
-            return point.x;
-          });
-        if (depth > h)
-          {
-            text << "the surface at (" << place << ") um is " << depth
-                 << " um deep in the obstacle '" << obstacle.name
-                 << "', more than a grid spacing";
-            throw StepFailed(text.str());
-          }
-      }
-    return std::make_unique<ObstacleContact<dim>>(points,
-                                                  boundary_points_of(points),
-                                                  std::move(obstacles));
-  }
-
-
-  template <int dim>
-  std::vector<typename BoundaryCondition<dim>::Part>
-  Obstacles<dim>::parts(const LoadedPoints<dim> &points, const double t) const
-  {
-    using Bodies = std::vector<typename ObstacleContact<dim>::Obstacle>;
-    std::vector<typename BoundaryCondition<dim>::Part> parts;
-    for (const Obstacle &obstacle : list)
-      parts.push_back(
-        {obstacle.name,
-         std::make_unique<ObstacleContact<dim>>(points,
-                                                boundary_points_of(points),
-                                                Bodies{obstacle.at(t, points)}),
-         true});
-    return parts;
-  }
-
-
-  template <int dim>
   void
-  Obstacles<dim>::check(const Preview<dim> &scene) const
+  add_obstacles(Choices<BoundaryCondition> &conditions)
   {
-    for (const Obstacle &obstacle : list)
-      {
-        // The integral up to the end finds a velocity that has no value at some
-        // time, before any work is done.
-        obstacle.way(scene.keys.time.end_time);
-        const auto [depth, place] = deepest<dim>(
-          {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
-          scene.boundary_points,
-          [](const Point<dim> &X) { return X; });
-        // The surface may begin a little inside, and the contact pushes it out
-        // in the first step. Half a spacing leaves room below the whole one
-        // that term() refuses.
-        if (depth <= 0.5 * scene.keys.grid.spacing)
-          continue;
-        std::ostringstream text;
-        text << "It is " << depth << " um deep in the obstacle at (" << place
-             << ") um: move the obstacle or the tissue, or correct Side.";
-        throw InputError("Obstacles/Names",
-                         obstacle.name,
-                         "an obstacle that the surface of the tissue is at "
-                         "most half a grid spacing deep in at t = 0",
-                         text.str());
-      }
+    conditions.push_back(Choice<BoundaryCondition>::of<Obstacles>(
+      "obstacles",
+      "",
+      {"Growth/Law=isotropic",
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+       "Obstacles/Names=mould",
+       "Obstacles/mould/Shape=sphere",
+       "Obstacles/mould/Side=inside",
+       "Obstacles/mould/Radius=3.01"}));
   }
-
-
-  template <int dim>
-  void
-  Obstacles<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    for (const Obstacle &obstacle : list)
-      {
-        if (!obstacle.mesh.empty())
-          review_mesh(obstacle.mesh_key, obstacle.mesh, review);
-        // Only boundary points feel an obstacle, so cells may stand in one that
-        // is wholly inside of the tissue.
-        const typename ObstacleContact<dim>::Obstacle at_start{
-          obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.};
-        unsigned int n_cells = 0, n_points = 0;
-        for (const Point<dim> &X : scene.founders)
-          n_cells += at_start.depth(X) > 0.;
-        for (const Point<dim> &X : scene.boundary_points)
-          n_points += at_start.depth(X) > 0.;
-        n_cells  = Utilities::MPI::sum(n_cells, scene.comm);
-        n_points = Utilities::MPI::sum(n_points, scene.comm);
-        if (n_cells > 0 && n_points == 0)
-          review.warn("Obstacles/Names",
-                      obstacle.name,
-                      std::to_string(n_cells) +
-                        " cells stand in it, and no boundary point does: it "
-                        "lies within the tissue, where nothing feels it.",
-                      "Make a hole in the tissue around it, or move it.");
-      }
-  }
-
-
-  template class Obstacles<2>;
-  template class Obstacles<3>;
 } // namespace Morula

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/rearrangement/exchange.h>
+#include <morula/effects/rearrangement/rearrangement.h>
 
 #include <Random123/philox.h>
 

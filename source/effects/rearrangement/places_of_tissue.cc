@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/send_records.h>
-#include <morula/effects/rearrangement/places_of_tissue.h>
+#include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>

@@ -3,8 +3,9 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/part_of_step.h>
+#include <morula/effects/surface/boundary_condition.h>
 #include <morula/effects/surface/boundary_conditions.h>
-#include <morula/effects/surface/held_traction.h>
+#include <morula/effects/surface/boundary_terms.h>
 
 #include <deal.II/base/exceptions.h>
 
@@ -13,6 +14,150 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** Least penalty of the forms with an energy, in units of (λ + 2μ)/h, and
+     *  what is added for squeezed tissue, in units of the stiffness beyond that
+     *  at rest by h: doc/theory.md (4.6). Less leaves the symmetric form
+     *  indefinite; in the bounded one evenly squeezed tissue becomes uneven. */
+    constexpr double least_penalty    = NitscheParameters::least_penalty;
+    constexpr double squeezed_penalty = 100.;
+
+    NitscheForm
+    form_called(const std::string &name)
+    {
+      return name == "symmetric"   ? NitscheForm::symmetric :
+             name == "unsymmetric" ? NitscheForm::unsymmetric :
+                                     NitscheForm::bounded;
+    }
+  } // namespace
+
+
+  std::vector<std::string>
+  NitscheParameters::held_by()
+  {
+    return {"Boundary conditions/Fixed where",
+            "Boundary conditions/Slip where"};
+  }
+
+
+  NitscheParameters::NitscheParameters()
+  {
+    penalty.with("paper", "1000");
+    form.with("paper", "symmetric");
+    for (AnyKey *const key : list())
+      key->needs(held_by());
+  }
+
+
+  void
+  NitscheParameters::review(const MaterialParameters &material,
+                            const bool                all_is_fixed,
+                            Review                   &review) const
+  {
+    // The warnings concern values that do nothing, or that hold tissue too
+    // softly.
+    const double least = NitschePenalty::least(
+      material.poissons_ratio.largest_number(3).value_or(0.));
+    if (material.volumetric_form() == VolumetricStrain::pointwise &&
+        form == "symmetric" && review.has_set(penalty) && penalty < least)
+      review.warn(penalty.path(),
+                  as_text(penalty) + " E/h",
+                  "the symmetric form never uses less than " +
+                    as_text(least_penalty) + " (lambda + 2 mu)/h, here " +
+                    as_text(least) +
+                    " E/h, so that this value has no effect "
+                    "(doc/theory.md, section 4.2).",
+                  "Raise it, or set " + form.path() + " = unsymmetric.");
+    // A small penalty gives way under pressure, as where tissue grows between
+    // its clamps.
+    if (all_is_fixed && form == "unsymmetric" && penalty < 100.)
+      review.warn(
+        penalty.path(),
+        as_text(penalty) + " E/h",
+        "all of the surface is fixed, and gives way where tissue is pressed "
+        "against it: in a ball that grows to 1.1 in all directions the "
+        "energy is 9 % low at a penalty of 20 (doc/accuracy-and-cost.md, "
+        "which method).",
+        "Set " + form.path() + " = bounded, or raise the penalty to 1000.");
+  }
+
+
+  NitschePenalty::NitschePenalty(const NitscheParameters &parameters)
+    : relative(parameters.penalty)
+    , form_(form_called(parameters.form))
+  {}
+
+
+  double
+  NitschePenalty::penalty(const double           E,
+                          const Lame            &lame,
+                          const double           stiffness,
+                          const VolumetricStrain volumetric_form,
+                          const double           h) const
+  {
+    // This is doc/theory.md (4.6), and section 2.4 where the pressure is the
+    // grid cell's.
+    const double at_rest = lame.lambda + 2. * lame.mu;
+    if (form_ != NitscheForm::bounded &&
+        volumetric_form != VolumetricStrain::pointwise)
+      return relative * at_rest / h;
+    const double least =
+      form_ == NitscheForm::unsymmetric ?
+        0. :
+        least_penalty * at_rest +
+          squeezed_penalty * std::max(0., stiffness - at_rest);
+    return std::max(relative * E, least) / h;
+  }
+
+
+  double
+  NitschePenalty::least(const double nu)
+  {
+    const Lame unit = lame(1., nu);
+    return least_penalty * (unit.lambda + 2. * unit.mu);
+  }
+
+
+  template <int dim>
+  Tensor<1, dim>
+  BoundaryCondition<dim>::displacement(const Point<dim> &, const double) const
+  {
+    return Tensor<1, dim>();
+  }
+
+
+  template <int dim>
+  std::vector<typename BoundaryCondition<dim>::Part>
+  BoundaryCondition<dim>::parts(const LoadedPoints<dim> &points,
+                                const double             t) const
+  {
+    std::vector<Part> list;
+    if (auto whole = term(points, t))
+      list.push_back({"", std::move(whole)});
+    return list;
+  }
+
+
+  // Here, as a null pointer to an unknown class could not be deleted.
+  template <int dim>
+  std::unique_ptr<PartOfStep<dim>>
+  BoundaryCondition<dim>::part_of_step(const AttemptAtStep<dim> &) const
+  {
+    return nullptr;
+  }
+
+
+  template <int dim>
+  bool
+  BoundaryCondition<dim>::moves() const
+  {
+    // A load moves tissue from rest; what holds points does so only if it is
+    // prescribed to move.
+    return kind() == SurfaceCondition::loaded;
+  }
+
+
   template <int dim>
   BoundaryConditions<dim>::BoundaryConditions(
     std::vector<Named> list, const NitscheParameters &parameters)
@@ -120,9 +265,8 @@ namespace Morula
     if (has_dirichlet() && nitsche_.form() == NitscheForm::bounded)
       {
         const TimerOutput::Scope section(attempt.timer, "nitsche");
-        everywhere(attempt.comm, [&]() {
-          parts.push_back(std::make_unique<HeldTraction<dim>>(*this, attempt));
-        });
+        everywhere(attempt.comm,
+                   [&]() { parts.push_back(held_traction(*this, attempt)); });
       }
     for (const Named &named : list_)
       if (auto part = named.condition->part_of_step(attempt))
@@ -131,6 +275,8 @@ namespace Morula
   }
 
 
+  template class BoundaryCondition<2>;
+  template class BoundaryCondition<3>;
   template class BoundaryConditions<2>;
   template class BoundaryConditions<3>;
 } // namespace Morula

@@ -4,7 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/effects/surface/nitsche_bounded.h>
+#include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>
 

@@ -1,42 +1,59 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/library_effects.h>
 #include <morula/effects/surface/fixed.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
-  std::string
-  FixedParameters::details() const
+  namespace
   {
-    return "; displacement " + displacement.text() + " um";
-  }
+    /** Points that are held in all directions, at a prescribed displacement. */
+    template <int dim>
+    class Fixed : public PlacedCondition<dim>
+    {
+    public:
+      using Parameters = FixedParameters;
+
+      /** @throws InputError for expressions that cannot be parsed */
+      explicit Fixed(const Parameters &parameters)
+        : PlacedCondition<dim>(SurfaceCondition::fixed, parameters)
+        , displacement_(parameters.displacement.expression(dim))
+      {}
+
+      Tensor<1, dim>
+      displacement(const Point<dim> &X, const double t) const override
+      {
+        return displacement_.vector(X, t);
+      }
+      bool
+      moves() const override
+      {
+        // A clamp at rest does not move the tissue; one that is prescribed may.
+        return !displacement_.is_always(0., dim);
+      }
+
+    private:
+      void
+      check_at(const Point<dim> &X, const double t) const override
+      {
+        // To evaluate it is the check: an expression without a value throws.
+        displacement_.vector(X, t);
+      }
+
+      const Expression displacement_;
+    };
+  } // namespace
 
 
-  template <int dim>
-  Fixed<dim>::Fixed(const Parameters &parameters)
-    : PlacedCondition<dim>(SurfaceCondition::fixed, parameters)
-    , displacement_(parameters.displacement.expression(dim))
-  {}
-
-
-  template <int dim>
-  bool
-  Fixed<dim>::moves() const
-  {
-    // A clamp at rest does not move the tissue; one that is prescribed may.
-    return !displacement_.is_always(0., dim);
-  }
-
-
-  template <int dim>
   void
-  Fixed<dim>::check_at(const Point<dim> &X, const double t) const
+  add_fixed(Choices<BoundaryCondition> &conditions)
   {
-    // To evaluate it is the check: an expression without a value throws.
-    displacement_.vector(X, t);
+    conditions.push_back(Choice<BoundaryCondition>::of<Fixed>(
+      "fixed",
+      "",
+      {"Boundary conditions/Fixed where=X + Y < -2",
+       "Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
   }
-
-
-  template class Fixed<2>;
-  template class Fixed<3>;
 } // namespace Morula

@@ -2,24 +2,34 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
+#include <morula/base/instantiate.h>
+#include <morula/effects/part_of_step.h>
 #include <morula/effects/step_points.h>
+#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/effects/surface/held_traction.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/particles/detached_points.h>
+#include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace Morula
 {
   namespace
   {
+    /** The gap at which the penalty has doubled, g₀ in (4.6a), in grid
+     *  spacings. A penalty that rises with the gap does not let squeezed tissue
+     *  slip through a clamp that is soft at its edge. */
+    constexpr double stiffening_gap = 0.2;
+
     /** The largest change of the traction, relative to it, that needs no
      * further turn. The second limit is in units of Solver/Newton tolerance, so
      * that a user who asks for more accuracy gets it. */
@@ -67,201 +77,300 @@ namespace Morula
       return (attempt.material.per_grown_volume() ? determinant(F_g) : 1.) /
              determinant(cell.F());
     }
+
+
+    /**
+     * The traction T of this rank's fixed and slip points from the stress of
+     * the cells around them, doc/theory.md (4.6b), and the stiffness of these
+     * cells, which the points' term needs as well. T is constant while an
+     * equilibrium is found, and is taken anew from it. Turns go on until T
+     * changes by less than one per cent (or ten thousand times Solver/Newton
+     * tolerance, if that is less). Where T is changed in parts it need not
+     * settle: then tissue is crushed at an edge, and stays as far from where it
+     * is held as the last T lets it. The step's check of gaps judges that. The
+     * object keeps references to all that it is given.
+     */
+    template <int dim>
+    class HeldTraction : public PartOfStep<dim>
+    {
+    public:
+      /** The traction is zero until begin() sets it. Collective. */
+      HeldTraction(const BoundaryConditions<dim> &conditions,
+                   const AttemptAtStep<dim>      &attempt)
+        : conditions(conditions)
+        , attempt(attempt)
+        , tissue(attempt.tissue)
+        , points(held_groups(tissue, attempt.space).points)
+        , surroundings(tissue.boundary_points().positions_of(points),
+                       tissue,
+                       tissue.boundary_points().sides_of(points))
+      {
+        // All lists here have the order of held_groups(): this rank's held
+        // points by active grid cell. Normals and areas are those at t, as the
+        // terms integrate over that configuration. Points away from the cells
+        // lose their traction (4.13).
+        const std::vector<double> attached =
+          attachment(tissue.boundary_points().positions_of(points),
+                     tissue,
+                     tissue.boundary_points().sides_of(points));
+        for (std::size_t k = 0; k < points.size(); ++k)
+          {
+            const BoundaryView<dim> point = tissue.boundary_points()[points[k]];
+            const Tensor<1, dim>    area  = point.area_vector();
+            held.push_back({projection(point),
+                            area / area.norm(),
+                            area.norm(),
+                            attached[k]});
+          }
+        T.resize(held.size());
+      }
+
+      /** Nitsche's term with the traction, to which it keeps a reference. */
+      std::unique_ptr<Term<dim>>
+      term() override
+      {
+        const TimerOutput::Scope   section(attempt.timer, "nitsche");
+        std::unique_ptr<Term<dim>> term;
+        everywhere(attempt.comm, [&]() {
+          term = bounded_nitsche_term(conditions,
+                                      attempt.material,
+                                      tissue,
+                                      attempt.space,
+                                      attempt.growth,
+                                      attempt.t_next,
+                                      stiffnesses(),
+                                      T);
+        });
+        return term;
+      }
+
+      /** Sets the traction with which a step begins: that of the increment @p u
+       *  of its start, µm, with the growth at t + dt. Tissue that cannot move
+       * has it at the end. Collective. */
+      void
+      begin(MomentumBalance<dim> &, const Equilibrium::Vector &u) override
+      {
+        T = tractions_of(u);
+      }
+
+      bool
+      renew(const Equilibrium::Vector &u) override
+      {
+        // The change is a mean over the held area of all ranks, so that all
+        // decide alike. Three outcomes end the turns or go on: the traction has
+        // settled; it does not settle although it was changed in parts; or it
+        // is taken over, as a whole or in part, for the next turn
+        // (doc/theory.md, section 4.2).
+        const std::vector<Tensor<1, dim>> now = tractions_of(u);
+        double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
+        for (std::size_t k = 0; k < held.size(); ++k)
+          {
+            sums[0] += held[k].area * (now[k] - T[k]).norm_square();
+            sums[1] += held[k].area * now[k].norm_square();
+            sums[2] += held[k].area;
+          }
+        double totals[3];
+        Utilities::MPI::sum(sums, tissue.communicator(), totals);
+        // Held points whose cells are all gone have no traction.
+        if (totals[2] == 0.)
+          return false;
+        const double least  = least_traction * attempt.typical_stiffness;
+        const double before = change;
+        change =
+          std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
+        if (change <=
+            std::min(largest_change,
+                     largest_in_tolerances * attempt.newton_tolerance))
+          return false;
+        // The traction need not settle where it is changed in parts. The forces
+        // are balanced all the same, with a gap that the step's check of gaps
+        // judges.
+        if (attempt.jumps && ++n_turns >= patient_turns &&
+            change > settling * before)
+          return false;
+        // The values are changed in place, as the term keeps a reference to the
+        // list.
+        const double part =
+          attempt.jumps ? std::min(1., largest_step / change) : 1.;
+        for (std::size_t k = 0; k < held.size(); ++k)
+          T[k] += part * (now[k] - T[k]);
+        return true;
+      }
+
+      std::string
+      unfinished() const override
+      {
+        std::ostringstream text;
+        text
+          << "the traction of held points does not settle: it still changes by "
+          << change << " of itself";
+        return text.str();
+      }
+
+    private:
+      /** A held point. */
+      struct Held
+      {
+        Tensor<2, dim> projection; // M
+        Tensor<1, dim> normal;     // n_t
+        double         area;       // a_t, µm^(dim-1)
+        double         fraction;   // of the traction that counts
+      };
+
+      /** The tractions of the state after an increment u, with the growth at
+       *  t + dt. */
+      std::vector<Tensor<1, dim>>
+      tractions_of(const Equilibrium::Vector &u) const
+      {
+        // This computes doc/theory.md (4.6b): the stress of each cell after the
+        // increment u, as a nominal stress per area of the configuration at t,
+        // is averaged around each held point by moving least squares and
+        // multiplied by its normal. The motions of this rank's cells are found
+        // first, many at once by the kernel. surroundings.values() then sends
+        // stresses to the ranks that have held points nearby. Collective.
+        const std::string           &kernel = attempt.kernel;
+        const DisplacementField<dim> displacement(attempt.space,
+                                                  u,
+                                                  tissue.communicator());
+        // Where the volumetric strain is a mean over grid cells, it makes the
+        // pressure. The vector is empty otherwise.
+        const std::vector<double>           volumes = elastic_volumes(tissue,
+                                                            attempt.space,
+                                                            attempt.growth,
+                                                            attempt.material,
+                                                            kernel,
+                                                            displacement);
+        const std::vector<PointMotion<dim>> motions =
+          point_motions(tissue.cells(),
+                        displacement,
+                        motion_kernel<dim>(attempt.material.material(),
+                                           kernel));
+        // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t +
+        // dt.
+        const auto P = surroundings.values([&](const unsigned int p) {
+          const auto           cell = tissue.cells()[p];
+          const Tensor<2, dim> F_g =
+            attempt.growth.present ? attempt.growth.current[p] : cell.growth();
+          const Tensor<2, dim> &f   = motions[p].f;
+          const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
+          const double          theta =
+            std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
+          const ElasticPoint<dim> point(F_e,
+                                        lame_of(attempt, cell, p),
+                                        attempt.material.material(),
+                                        &theta);
+          return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
+                                Tensor<2, dim>(point.kirchhoff_stress()) *
+                                transpose(invert(f)));
+        });
+        std::vector<Tensor<1, dim>> list;
+        for (std::size_t k = 0; k < held.size(); ++k)
+          list.push_back(held[k].fraction *
+                         (held[k].projection * (P[k] * held[k].normal)));
+        return list;
+      }
+      /** Stiffnesses of a stretch along the normals with the growth at t, kPa,
+       * by held_groups(): k in doc/theory.md (4.6); ten times as much where the
+       *  traction is changed in parts. Collective. */
+      std::vector<double>
+      stiffnesses() const
+      {
+        // This is the k of doc/theory.md (4.6). The tensor K of each cell is
+        // averaged first, so that k = n·K n for any normal n. For laws with a C
+        // that is not exact but an upper bound, which only makes the penalty
+        // larger. The growth is that at t, as F is.
+        const auto          K = surroundings.values([&](const unsigned int p) {
+          const auto           cell = tissue.cells()[p];
+          const Tensor<2, dim> F_g =
+            attempt.growth.present ? attempt.growth.previous[p] : cell.growth();
+          const ElasticPoint<dim> point(cell.F() * invert(F_g),
+                                        lame_of(attempt, cell, p),
+                                        attempt.material.material());
+          const auto             &r = point.response();
+          const Tensor<2, dim>    b(point.b()), I(unit_symmetric_tensor<dim>());
+          return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
+                                ((r.total_A() + r.alpha - r.total_gamma()) * I +
+                                 (r.alpha + 2. * r.B) * b + r.C * (b * b)));
+        });
+        std::vector<double> list;
+        for (std::size_t k = 0; k < held.size(); ++k)
+          list.push_back((attempt.jumps ? stiffening_of_jump : 1.) *
+                         (held[k].normal * (K[k] * held[k].normal)));
+        return list;
+      }
+
+      const BoundaryConditions<dim>  &conditions;
+      const AttemptAtStep<dim>       &attempt;
+      const Tissue<dim>              &tissue;
+      const std::vector<unsigned int> points; // held ones, as held_groups()
+      std::vector<Held>               held;
+      const Surroundings<dim>         surroundings;
+      std::vector<Tensor<1, dim>>     T;
+      double                          change = 0.; // relative, by the last turn
+      unsigned int                    n_turns = 0;
+    };
   } // namespace
 
 
   template <int dim>
-  HeldTraction<dim>::HeldTraction(const BoundaryConditions<dim> &conditions,
-                                  const AttemptAtStep<dim>      &attempt)
-    : conditions(conditions)
-    , attempt(attempt)
-    , tissue(attempt.tissue)
-    , points(held_groups(tissue, attempt.space).points)
-    , surroundings(tissue.boundary_points().positions_of(points),
-                   tissue,
-                   tissue.boundary_points().sides_of(points))
-  {
-    // All lists here have the order of held_groups(): this rank's held points
-    // by active grid cell. Normals and areas are those at t, as the terms
-    // integrate over that configuration. Points away from the cells lose their
-    // traction (4.13).
-    const std::vector<double> attached =
-      attachment(tissue.boundary_points().positions_of(points),
-                 tissue,
-                 tissue.boundary_points().sides_of(points));
-    for (std::size_t k = 0; k < points.size(); ++k)
-      {
-        const BoundaryView<dim> point = tissue.boundary_points()[points[k]];
-        const Tensor<1, dim>    area  = point.area_vector();
-        held.push_back(
-          {projection(point), area / area.norm(), area.norm(), attached[k]});
-      }
-    T.resize(held.size());
-  }
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  HeldTraction<dim>::term()
-  {
-    const TimerOutput::Scope   section(attempt.timer, "nitsche");
-    std::unique_ptr<Term<dim>> term;
-    everywhere(attempt.comm, [&]() {
-      term = bounded_nitsche_term(conditions,
-                                  attempt.material,
-                                  tissue,
-                                  attempt.space,
-                                  attempt.growth,
-                                  attempt.t_next,
-                                  stiffnesses(),
-                                  T);
-    });
-    return term;
-  }
+  BoundedNitsche<dim>::BoundedNitsche(
+    GroupedPoints<dim>                 points,
+    std::vector<HeldPoint>             held_points,
+    const std::vector<Tensor<1, dim>> &tractions)
+    : PointTerm<dim>(std::move(points))
+    , held_points(std::move(held_points))
+    , tractions(tractions)
+  {}
 
 
   template <int dim>
   void
-  HeldTraction<dim>::begin(MomentumBalance<dim> &, const Equilibrium::Vector &u)
+  BoundedNitsche<dim>::add_point(const unsigned int       p,
+                                 const SplineValues<dim> &splines,
+                                 const LocalField<dim>   &field,
+                                 LocalSystem<dim>        &system) const
   {
-    T = tractions_of(u);
+    // These are energy, force and stiffness of doc/theory.md (4.6a). The
+    // deformation of the point does not enter, so there is nothing to be
+    // inverted.
+    const HeldPoint      &held = held_points[p];
+    const double          a_t = held.area, beta = held.penalty;
+    const Tensor<1, dim>  gap = held.gap_with(field, splines);
+    const Tensor<1, dim> &T   = tractions[p];
+    system.note_gap(gap.norm(), this->points.xi[p]);
+    const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
+    const double   more  = std::pow(ratio, 4); // of the penalty, at this gap
+    Tensor<2, dim> stiffness = (1. + more) * held.projection;
+    if (more > 0.)
+      // This is the derivative of the penalty along the gap. At a gap of 0 it
+      // vanishes, and the quotient has no value.
+      stiffness += 4. * more / gap.norm_square() * outer_product(gap, gap);
+    add_force_at(splines,
+                 a_t * (0.5 * beta * (1. + more / 3.) * gap.norm_square() -
+                        T * gap),
+                 a_t * (beta * (1. + more) * gap - T),
+                 a_t * beta * stiffness,
+                 system);
+    // The gap is the difference of two positions, whose rounding counts.
+    if (system.wanted == LocalSystem<dim>::rounding)
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          system.magnitude[i * BSpline<dim>::n + a] +=
+            a_t * beta * held.position_scale * splines.value[a];
   }
 
 
   template <int dim>
-  std::vector<double>
-  HeldTraction<dim>::stiffnesses() const
+  std::unique_ptr<PartOfStep<dim>>
+  held_traction(const BoundaryConditions<dim> &conditions,
+                const AttemptAtStep<dim>      &attempt)
   {
-    // This is the k of doc/theory.md (4.6). The tensor K of each cell is
-    // averaged first, so that k = n·K n for any normal n. For laws with a C
-    // that is not exact but an upper bound, which only makes the penalty
-    // larger. The growth is that at t, as F is.
-    const auto          K = surroundings.values([&](const unsigned int p) {
-      const auto           cell = tissue.cells()[p];
-      const Tensor<2, dim> F_g =
-        attempt.growth.present ? attempt.growth.previous[p] : cell.growth();
-      const ElasticPoint<dim> point(cell.F() * invert(F_g),
-                                    lame_of(attempt, cell, p),
-                                    attempt.material.material());
-      const auto             &r = point.response();
-      const Tensor<2, dim>    b(point.b()), I(unit_symmetric_tensor<dim>());
-      return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
-                            ((r.total_A() + r.alpha - r.total_gamma()) * I +
-                             (r.alpha + 2. * r.B) * b + r.C * (b * b)));
-    });
-    std::vector<double> list;
-    for (std::size_t k = 0; k < held.size(); ++k)
-      list.push_back((attempt.jumps ? stiffening_of_jump : 1.) *
-                     (held[k].normal * (K[k] * held[k].normal)));
-    return list;
+    return std::make_unique<HeldTraction<dim>>(conditions, attempt);
   }
 
 
-  template <int dim>
-  std::vector<Tensor<1, dim>>
-  HeldTraction<dim>::tractions_of(const Equilibrium::Vector &u) const
-  {
-    // This computes doc/theory.md (4.6b): the stress of each cell after the
-    // increment u, as a nominal stress per area of the configuration at t, is
-    // averaged around each held point by moving least squares and multiplied by
-    // its normal. The motions of this rank's cells are found first, many at
-    // once by the kernel. surroundings.values() then sends stresses to the
-    // ranks that have held points nearby. Collective.
-    const std::string           &kernel = attempt.kernel;
-    const DisplacementField<dim> displacement(attempt.space,
-                                              u,
-                                              tissue.communicator());
-    // Where the volumetric strain is a mean over grid cells, it makes the
-    // pressure. The vector is empty otherwise.
-    const std::vector<double>           volumes = elastic_volumes(tissue,
-                                                        attempt.space,
-                                                        attempt.growth,
-                                                        attempt.material,
-                                                        kernel,
-                                                        displacement);
-    const std::vector<PointMotion<dim>> motions =
-      point_motions(tissue.cells(),
-                    displacement,
-                    motion_kernel<dim>(attempt.material.material(), kernel));
-    // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t + dt.
-    const auto P = surroundings.values([&](const unsigned int p) {
-      const auto           cell = tissue.cells()[p];
-      const Tensor<2, dim> F_g =
-        attempt.growth.present ? attempt.growth.current[p] : cell.growth();
-      const Tensor<2, dim> &f   = motions[p].f;
-      const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
-      const double          theta =
-        std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
-      const ElasticPoint<dim> point(F_e,
-                                    lame_of(attempt, cell, p),
-                                    attempt.material.material(),
-                                    &theta);
-      return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
-                            Tensor<2, dim>(point.kirchhoff_stress()) *
-                            transpose(invert(f)));
-    });
-    std::vector<Tensor<1, dim>> list;
-    for (std::size_t k = 0; k < held.size(); ++k)
-      list.push_back(held[k].fraction *
-                     (held[k].projection * (P[k] * held[k].normal)));
-    return list;
-  }
+  template class BoundedNitsche<2>;
+  template class BoundedNitsche<3>;
+  MORULA_INSTANTIATE(held_traction);
 
-
-  template <int dim>
-  bool
-  HeldTraction<dim>::renew(const Equilibrium::Vector &u)
-  {
-    // The change is a mean over the held area of all ranks, so that all decide
-    // alike. Three outcomes end the turns or go on: the traction has settled;
-    // it does not settle although it was changed in parts; or it is taken over,
-    // as a whole or in part, for the next turn (doc/theory.md, section 4.2).
-    const std::vector<Tensor<1, dim>> now = tractions_of(u);
-    double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
-    for (std::size_t k = 0; k < held.size(); ++k)
-      {
-        sums[0] += held[k].area * (now[k] - T[k]).norm_square();
-        sums[1] += held[k].area * now[k].norm_square();
-        sums[2] += held[k].area;
-      }
-    double totals[3];
-    Utilities::MPI::sum(sums, tissue.communicator(), totals);
-    // Held points whose cells are all gone have no traction.
-    if (totals[2] == 0.)
-      return false;
-    const double least  = least_traction * attempt.typical_stiffness;
-    const double before = change;
-    change =
-      std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
-    if (change <= std::min(largest_change,
-                           largest_in_tolerances * attempt.newton_tolerance))
-      return false;
-    // The traction need not settle where it is changed in parts. The forces are
-    // balanced all the same, with a gap that the step's check of gaps judges.
-    if (attempt.jumps && ++n_turns >= patient_turns &&
-        change > settling * before)
-      return false;
-    // The values are changed in place, as the term keeps a reference to the
-    // list.
-    const double part =
-      attempt.jumps ? std::min(1., largest_step / change) : 1.;
-    for (std::size_t k = 0; k < held.size(); ++k)
-      T[k] += part * (now[k] - T[k]);
-    return true;
-  }
-
-
-  template <int dim>
-  std::string
-  HeldTraction<dim>::unfinished() const
-  {
-    std::ostringstream text;
-    text << "the traction of held points does not settle: it still changes by "
-         << change << " of itself";
-    return text.str();
-  }
-
-
-  template class HeldTraction<2>;
-  template class HeldTraction<3>;
 } // namespace Morula

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/lumen_pressure.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <sstream>
@@ -12,77 +13,59 @@
 
 namespace Morula
 {
-  namespace
+  template <int dim>
+  SurfaceSums<dim>
+  sums_of(const std::vector<LumenPatch<dim>> &patches, const MPI_Comm comm)
   {
-    /** The relative error of the lumen's volume at which turns end. What is
-     * left after a turn also depends on Solver/Newton tolerance. */
-    constexpr double volume_tolerance = 1e-8;
+    // All sums take one reduction.
+    std::vector<double> mine(2 * dim + 1, 0.);
+    for (const LumenPatch<dim> &patch : patches)
+      {
+        const double a = patch.area.norm();
+        mine[2 * dim] += a;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            mine[d] += patch.area[d];
+            mine[dim + d] += a * patch.x[d];
+          }
+      }
+    std::vector<double> all(2 * dim + 1);
+    Utilities::MPI::sum(mine, comm, all);
+    SurfaceSums<dim> result;
+    result.area = all[2 * dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.area_vector[d] = all[d];
+        result.center[d] = result.area > 0. ? all[dim + d] / result.area : 0.;
+      }
+    return result;
+  }
 
-    /** Compression modulus of the content whose pressure is being found, over
-     *  Young's modulus of the tissue: doc/theory.md (4.8j). */
-    constexpr double relative_modulus = 100.;
 
-    /** The boundary points of this rank around the lumen, held ones as well, at
-     *  the beginning of the step, and its volume then. Collective. */
-    template <int dim>
-    Enclosure<dim>
-    enclosure_of(const Lumen<dim> &lumen, const AttemptAtStep<dim> &attempt)
-    {
-      const BoundaryPoints<dim> &store = attempt.tissue.boundary_points();
-      // Held points are around the lumen as well: they do not move freely, but
-      // they enclose it.
-      const PointGroups groups =
-        group_points(store, attempt.space, [&](const unsigned int p) {
-          return lumen.acts_on(store[p].seed_position(),
-                               store[p].initial_normal());
-        });
-      std::vector<Tensor<1, dim>> areas;
-      for (const unsigned int p : groups.points)
-        areas.push_back(store[p].area_vector());
-      return {SweptVolume<dim>(grouped_places(store, attempt.space, groups),
-                               std::move(areas)),
-              enclosed_volume(lumen_patches(lumen, attempt.tissue),
-                              attempt.comm),
-              EnclosedContent()};
-    }
-
-    /** The lumen's content before the pressure of the step is known.
-     *  @param volume at its beginning, µm^dim
-     *  @throws InputError */
-    template <int dim>
-    EnclosedContent
-    content_of(const Lumen<dim>         &lumen,
-               const AttemptAtStep<dim> &attempt,
-               const double              volume)
-    {
-      // A gas has p = p₀V₀/V, which needs only the product. Where the volume is
-      // given the content is that of a compressible fluid, doc/theory.md
-      // (4.8j), which begins with the pressure of the step before: a good guess
-      // saves turns.
-      const double    at_start = attempt.kept.at("lumen_at_start");
-      EnclosedContent content;
-      if (!lumen.keeps_volume())
-        {
-          content.gas = lumen.pressure(attempt.t_next) * at_start;
-          return content;
-        }
-      content.target             = lumen.volume(attempt.t_next, at_start);
-      content.pressure_at_target = attempt.kept.at("lumen_pressure");
-      content.stiffness_at_target =
-        relative_modulus * attempt.typical_stiffness / volume;
-      return content;
-    }
-  } // namespace
+  template <int dim>
+  double
+  enclosed_volume(const std::vector<LumenPatch<dim>> &patches,
+                  const MPI_Comm                      comm)
+  {
+    // This is doc/theory.md (4.8g): seen from its middle, the volume does not
+    // change where the lumen moves as a whole, though patches may leave small
+    // gaps.
+    const Point<dim> center = sums_of(patches, comm).center;
+    double           volume = 0.;
+    for (const LumenPatch<dim> &patch : patches)
+      volume -= (patch.x - center) * patch.area / dim;
+    return Utilities::MPI::sum(volume, comm);
+  }
 
 
   template <int dim>
   std::vector<LumenPatch<dim>>
-  lumen_patches(const Lumen<dim>             &lumen,
+  lumen_patches(const BoundaryCondition<dim> &lumen,
                 const Tissue<dim>            &tissue,
                 const DisplacementField<dim> *displacement)
   {
-    // The same function serves the beginning of the step, with u = 0 and f = I,
-    // and a displacement. Areas change by Nanson's formula, doc/theory.md
+    // The same function serves the beginning of the step, with u = 0 and f =
+    // I, and a displacement. Areas change by Nanson's formula, doc/theory.md
     // (1.2).
     const BoundaryPoints<dim>   &store = tissue.boundary_points();
     std::vector<LumenPatch<dim>> list;
@@ -111,97 +94,154 @@ namespace Morula
   }
 
 
-  template <int dim>
-  LumenPressure<dim>::LumenPressure(const Lumen<dim>         &lumen,
-                                    const AttemptAtStep<dim> &attempt)
-    : lumen(lumen)
-    , attempt(attempt)
-    , space(enclosure_of(lumen, attempt))
+  namespace
   {
-    // All ranks have found the volume together. The content may need
-    // expressions, which can fail on one rank.
-    everywhere(attempt.comm, [&]() {
-      space.content = content_of(lumen, attempt, space.volume);
-    });
-    wanted = space.content.target;
+    /** The relative error of the lumen's volume at which turns end. What is
+     * left after a turn also depends on Solver/Newton tolerance. */
+    constexpr double volume_tolerance = 1e-8;
+
+    /** The boundary points of this rank around the lumen, held ones as well, at
+     *  the beginning of the step. */
+    template <int dim>
+    SweptVolume<dim>
+    swept_volume(const BoundaryCondition<dim> &lumen,
+                 const AttemptAtStep<dim>     &attempt)
+    {
+      const BoundaryPoints<dim> &store = attempt.tissue.boundary_points();
+      // Held points are around the lumen as well: they do not move freely, but
+      // they enclose it.
+      const PointGroups groups =
+        group_points(store, attempt.space, [&](const unsigned int p) {
+          return lumen.acts_on(store[p].seed_position(),
+                               store[p].initial_normal());
+        });
+      std::vector<Tensor<1, dim>> areas;
+      for (const unsigned int p : groups.points)
+        areas.push_back(store[p].area_vector());
+      return SweptVolume<dim>(grouped_places(store, attempt.space, groups),
+                              std::move(areas));
+    }
+
+    /** See lumen_pressure(). */
+    template <int dim>
+    class LumenPressure : public PartOfStep<dim>
+    {
+    public:
+      LumenPressure(const BoundaryCondition<dim> &lumen,
+                    const AttemptAtStep<dim>     &attempt,
+                    const double                  volume,
+                    const EnclosedContent        &content)
+        : lumen(lumen)
+        , attempt(attempt)
+        , space{swept_volume(lumen, attempt), volume, content}
+        , wanted(content.target)
+      {}
+
+      Enclosure<dim> *
+      enclosure() override
+      {
+        return &space;
+      }
+
+      void
+      begin(MomentumBalance<dim> &of_step, const Equilibrium::Vector &) override
+      {
+        balance = &of_step;
+      }
+
+      bool
+      renew(const Equilibrium::Vector &u) override
+      {
+        // Two volumes are at hand: V, which the energy of the step counts, and
+        // that of the moved points (4.8g), which has to be the wanted one. Both
+        // are sums over all ranks. A gas needs no second turn, as its pressure
+        // follows from V at once.
+        const TimerOutput::Scope section(attempt.timer, "lumen");
+        const double             V = balance->enclosed_volume(u);
+        pressure                   = space.content.pressure(V);
+        if (wanted == 0.)
+          return false;
+        const DisplacementField<dim> displacement(attempt.space,
+                                                  u,
+                                                  attempt.comm);
+        const double                 after =
+          enclosed_volume(lumen_patches(lumen, attempt.tissue, &displacement),
+                          attempt.comm);
+        error = after / wanted - 1.;
+        if (std::abs(error) <= volume_tolerance)
+          return false;
+        // The next turn begins at the pressure of this one. Its target is a
+        // volume V, so that the difference between the two volumes is taken off
+        // what is wanted: doc/theory.md (4.8j).
+        space.content.pressure_at_target = pressure;
+        space.content.target             = wanted - (after - V);
+        return true;
+      }
+
+      std::string
+      unfinished() const override
+      {
+        std::ostringstream text;
+        text << "the lumen does not get its volume: it still differs by "
+             << error << " times " << wanted << (dim == 3 ? " um^3" : " um^2");
+        return text.str();
+      }
+
+      bool
+      is_exact() const override
+      {
+        return true;
+      }
+
+      std::optional<ForceOnPoints<dim>>
+      force() const override
+      {
+        // The term is the gain of volume as if that were an energy; its forces
+        // times minus the pressure are those of doc/theory.md (4.8i).
+        return ForceOnPoints<dim>{
+          "lumen",
+          "lumen",
+          [this](const BoundaryView<dim> &point) {
+            return lumen.acts_on(point.seed_position(), point.initial_normal());
+          },
+          &space.gain,
+          -pressure};
+      }
+
+      void
+      keep(NamedNumbers &numbers) const override
+      {
+        numbers["lumen_pressure"] = pressure;
+      }
+
+    private:
+      const BoundaryCondition<dim> &lumen;
+      const AttemptAtStep<dim>     &attempt;
+      Enclosure<dim>                space;
+      const double                  wanted; // volume, µm^dim; 0: any
+      const MomentumBalance<dim>   *balance = nullptr;
+      double pressure = 0.; // at the last equilibrium, kPa
+      double error    = 0.; // of the volume, relative
+    };
+  } // namespace
+
+
+  template <int dim>
+  std::unique_ptr<PartOfStep<dim>>
+  lumen_pressure(const BoundaryCondition<dim> &lumen,
+                 const AttemptAtStep<dim>     &attempt,
+                 const double                  volume,
+                 const EnclosedContent        &content)
+  {
+    return std::make_unique<LumenPressure<dim>>(lumen,
+                                                attempt,
+                                                volume,
+                                                content);
   }
 
 
-  template <int dim>
-  void
-  LumenPressure<dim>::begin(MomentumBalance<dim> &of_step,
-                            const Equilibrium::Vector &)
-  {
-    balance = &of_step;
-  }
-
-
-  template <int dim>
-  bool
-  LumenPressure<dim>::renew(const Equilibrium::Vector &u)
-  {
-    // Two volumes are at hand: V, which the energy of the step counts, and that
-    // of the moved points (4.8g), which has to be the wanted one. Both are sums
-    // over all ranks. A gas needs no second turn, as its pressure follows from
-    // V at once.
-    const TimerOutput::Scope section(attempt.timer, "lumen");
-    const double             V = balance->enclosed_volume(u);
-    pressure                   = space.content.pressure(V);
-    if (!lumen.keeps_volume())
-      return false;
-    const DisplacementField<dim> displacement(attempt.space, u, attempt.comm);
-    const double                 after =
-      enclosed_volume(lumen_patches(lumen, attempt.tissue, &displacement),
-                      attempt.comm);
-    error = after / wanted - 1.;
-    if (std::abs(error) <= volume_tolerance)
-      return false;
-    // The next turn begins at the pressure of this one. Its target is a volume
-    // V, so that the difference between the two volumes is taken off what is
-    // wanted: doc/theory.md (4.8j).
-    space.content.pressure_at_target = pressure;
-    space.content.target             = wanted - (after - V);
-    return true;
-  }
-
-
-  template <int dim>
-  std::string
-  LumenPressure<dim>::unfinished() const
-  {
-    std::ostringstream text;
-    text << "the lumen does not get its volume: it still differs by " << error
-         << " times " << wanted << (dim == 3 ? " um^3" : " um^2");
-    return text.str();
-  }
-
-
-  template <int dim>
-  std::optional<ForceOnPoints<dim>>
-  LumenPressure<dim>::force() const
-  {
-    // The term is the gain of volume as if that were an energy; its forces
-    // times minus the pressure are those of doc/theory.md (4.8i).
-    return ForceOnPoints<dim>{"lumen",
-                              "lumen",
-                              [this](const BoundaryView<dim> &point) {
-                                return lumen.acts_on(point.seed_position(),
-                                                     point.initial_normal());
-                              },
-                              &space.gain,
-                              -pressure};
-  }
-
-
-  template <int dim>
-  void
-  LumenPressure<dim>::keep(NamedNumbers &numbers) const
-  {
-    numbers["lumen_pressure"] = pressure;
-  }
-
-
+  MORULA_INSTANTIATE(sums_of);
+  MORULA_INSTANTIATE(enclosed_volume);
   MORULA_INSTANTIATE(lumen_patches);
-  template class LumenPressure<2>;
-  template class LumenPressure<3>;
+  MORULA_INSTANTIATE(lumen_pressure);
 } // namespace Morula

@@ -1,49 +1,81 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/following_pressure.h>
-#include <morula/effects/surface/pressure.h>
+#include <morula/effects/library_effects.h>
+#include <morula/effects/surface/loads.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
-  std::string
-  PressureParameters::details() const
+  namespace
   {
-    return "; " + pressure.text() + " kPa";
-  }
+    /** The keys of the pressure, in section "Boundary conditions". */
+    struct PressureParameters : public ConditionKeys
+    {
+      PressureParameters()
+        : ConditionKeys("Boundary conditions/Pressure where",
+                        "Expression of X, Y, Z: pressure acts where it is > 0; "
+                        "empty: nowhere.")
+      {}
+
+      ExpressionKey pressure{{this, "Boundary conditions/Pressure"},
+                             "0",
+                             "Pressure that follows the surface, a function of "
+                             "X, Y, Z, t; positive pushes inward. Units: kPa.",
+                             Evaluated::place};
+      std::string
+      details() const override
+      {
+        return "; " + pressure.text() + " kPa";
+      }
+    };
+
+    /** Pressure that follows the surface: doc/theory.md (4.8). */
+    template <int dim>
+    class Pressure : public PlacedCondition<dim>
+    {
+    public:
+      using Parameters = PressureParameters;
+
+      /** @throws InputError for expressions that cannot be parsed */
+      explicit Pressure(const Parameters &parameters)
+        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
+        , pressure(parameters.pressure.expression(dim))
+      {}
+
+      std::unique_ptr<Term<dim>>
+      term(const LoadedPoints<dim> &points, const double t) const override
+      {
+        return following_pressure<dim>(
+          // The value is that at the end of the step, at the point's own X;
+          // whether it acts, its seed decides.
+          points,
+          this->template loads<AreaLoad<dim>>(points, [&](const auto &point) {
+            return AreaLoad<dim>{pressure.value(point.X, t), point.area};
+          }));
+      }
+
+    private:
+      void
+      check_at(const Point<dim> &X, const double t) const override
+      {
+        // To evaluate it is the check: an expression without a value throws.
+        pressure.value(X, t);
+      }
+
+      const Expression pressure;
+    };
+  } // namespace
 
 
-  template <int dim>
-  Pressure<dim>::Pressure(const Parameters &parameters)
-    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-    , pressure(parameters.pressure.expression(dim))
-  {}
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  Pressure<dim>::term(const LoadedPoints<dim> &points, const double t) const
-  {
-    using Load = typename AreaTerm<dim>::Load;
-    return std::make_unique<FollowingPressure<dim>>(
-      // The value is that at the end of the step, at the point's own X; whether
-      // it acts, its seed decides.
-      points,
-      this->template loads<Load>(points, [&](const auto &point) {
-        return Load{pressure.value(point.X, t), point.area};
-      }));
-  }
-
-
-  template <int dim>
   void
-  Pressure<dim>::check_at(const Point<dim> &X, const double t) const
+  add_pressure(Choices<BoundaryCondition> &conditions)
   {
-    // To evaluate it is the check: an expression without a value throws.
-    pressure.value(X, t);
+    conditions.push_back(Choice<BoundaryCondition>::of<Pressure>(
+      "pressure",
+      "",
+      {"Boundary conditions/Fixed where=X + Y < -2",
+       "Boundary conditions/Pressure where=X + Y > 2",
+       "Boundary conditions/Pressure=0.1"}));
   }
-
-
-  template class Pressure<2>;
-  template class Pressure<3>;
 } // namespace Morula

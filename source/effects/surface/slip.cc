@@ -1,32 +1,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/slip.h>
+#include <morula/base/unit_vector.h>
+#include <morula/effects/library_effects.h>
+#include <morula/effects/surface/placed_condition.h>
 
 #include <cmath>
+#include <optional>
 
 namespace Morula
 {
-  template <int dim>
-  Slip<dim>::Slip(const Parameters &parameters)
-    : PlacedCondition<dim>(SurfaceCondition::slip, parameters)
+  namespace
   {
-    if (!parameters.normal->empty())
-      normal = unit_vector<dim>(parameters.normal.path(), parameters.normal);
-  }
+    /** The keys of slip points, in section "Boundary conditions". */
+    struct SlipParameters : public ConditionKeys
+    {
+      SlipParameters()
+        : ConditionKeys(
+            "Boundary conditions/Slip where",
+            "Expression of X, Y, Z: the displacement along the normal "
+            "is zero where it is > 0; empty: nowhere. Slip wins over "
+            "traction.")
+      {}
+
+      DirectionKey normal{
+        {this, "Boundary conditions/Slip normal"},
+        "",
+        "Direction, e.g. 0, 0, 1: only points whose initial "
+        "normal N is along it, |N.normal| > 0.9, slip; empty: "
+        "all, each along its own normal."};
+      EffectFacts
+      facts() const override
+      {
+        EffectFacts facts = ConditionKeys::facts();
+        facts.topic       = "slip (Nitsche)";
+        return facts;
+      }
+    };
+
+    /** Points that are held along their own initial normal. */
+    template <int dim>
+    class Slip : public PlacedCondition<dim>
+    {
+    public:
+      using Parameters = SlipParameters;
+
+      /** @throws InputError for an expression or a direction that cannot be
+       *  parsed */
+      explicit Slip(const Parameters &parameters)
+        : PlacedCondition<dim>(SurfaceCondition::slip, parameters)
+      {
+        if (!parameters.normal->empty())
+          normal =
+            unit_vector<dim>(parameters.normal.path(), parameters.normal);
+      }
+
+      bool
+      acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const override
+      {
+        // 0.9 is the cosine of 26 degrees: points of one flat side have the
+        // same normal, those of its neighbours another.
+        return PlacedCondition<dim>::acts_on(X, N) &&
+               (!normal || std::abs(N * *normal) > 0.9);
+      }
+
+    private:
+      std::optional<Tensor<1, dim>> normal; // of the points that slip
+    };
+  } // namespace
 
 
-  template <int dim>
-  bool
-  Slip<dim>::acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const
+  void
+  add_slip(Choices<BoundaryCondition> &conditions)
   {
-    // 0.9 is the cosine of 26 degrees: points of one flat side have the same
-    // normal, those of its neighbours another.
-    return PlacedCondition<dim>::acts_on(X, N) &&
-           (!normal || std::abs(N * *normal) > 0.9);
+    conditions.push_back(Choice<BoundaryCondition>::of<Slip>(
+      "slip",
+      "",
+      {"Growth/Law=isotropic",
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+       "Boundary conditions/Slip where=X + Y < -2",
+       "Friction/Coefficient=0.1"}));
   }
-
-
-  template class Slip<2>;
-  template class Slip<3>;
 } // namespace Morula

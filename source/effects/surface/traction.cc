@@ -1,47 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/surface/dead_load.h>
-#include <morula/effects/surface/traction.h>
+#include <morula/effects/library_effects.h>
+#include <morula/effects/surface/loads.h>
+#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {
-  std::string
-  TractionParameters::details() const
+  namespace
   {
-    return "; " + traction.text() + " kPa";
-  }
+    /** The keys of the traction, in section "Boundary conditions". */
+    struct TractionParameters : public ConditionKeys
+    {
+      TractionParameters()
+        : ConditionKeys("Boundary conditions/Traction where",
+                        "Expression of X, Y, Z: traction acts where it is > 0; "
+                        "empty: nowhere.")
+      {}
+
+      ExpressionKey traction{
+        {this, "Boundary conditions/Traction"},
+        "0; 0; 0",
+        "Traction per initial area (dead load): functions of "
+        "X, Y, Z, t separated by ';'. Units: kPa.",
+        Evaluated::place,
+        3};
+      std::string
+      details() const override
+      {
+        return "; " + traction.text() + " kPa";
+      }
+    };
+
+    /** Dead traction: doc/theory.md (4.7). */
+    template <int dim>
+    class Traction : public PlacedCondition<dim>
+    {
+    public:
+      using Parameters = TractionParameters;
+
+      /** @throws InputError for expressions that cannot be parsed */
+      explicit Traction(const Parameters &parameters)
+        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
+        , traction(parameters.traction.expression(dim))
+      {}
+
+      std::unique_ptr<Term<dim>>
+      term(const LoadedPoints<dim> &points, const double t) const override
+      {
+        return std::make_unique<DeadLoad<dim>>(
+          points,
+          // The area is the initial one: a dead load.
+          this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
+            return point.initial_area * traction.vector(point.X, t);
+          }));
+      }
+
+    private:
+      void
+      check_at(const Point<dim> &X, const double t) const override
+      {
+        // To evaluate it is the check: an expression without a value throws.
+        traction.vector(X, t);
+      }
+
+      const Expression traction;
+    };
+  } // namespace
 
 
-  template <int dim>
-  Traction<dim>::Traction(const Parameters &parameters)
-    : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-    , traction(parameters.traction.expression(dim))
-  {}
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  Traction<dim>::term(const LoadedPoints<dim> &points, const double t) const
-  {
-    return std::make_unique<DeadLoad<dim>>(
-      points,
-      // The area is the initial one: a dead load.
-      this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
-        return point.initial_area * traction.vector(point.X, t);
-      }));
-  }
-
-
-  template <int dim>
   void
-  Traction<dim>::check_at(const Point<dim> &X, const double t) const
+  add_traction(Choices<BoundaryCondition> &conditions)
   {
-    // To evaluate it is the check: an expression without a value throws.
-    traction.vector(X, t);
+    conditions.push_back(Choice<BoundaryCondition>::of<Traction>(
+      "traction",
+      "",
+      {"Boundary conditions/Fixed where=X + Y < -2",
+       "Boundary conditions/Traction where=X + Y > 2",
+       "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
   }
-
-
-  template class Traction<2>;
-  template class Traction<3>;
 } // namespace Morula

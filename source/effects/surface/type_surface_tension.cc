@@ -2,115 +2,168 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/forces/type_tension.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/surface_energy.h>
-#include <morula/effects/surface/type_surface_tension.h>
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/loads.h>
 #include <morula/particles/nearest.h>
 
 #include <algorithm>
+#include <deque>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace Morula
 {
-  void
-  TypeSurfaceTensionParameters::declare_sections(
-    const std::string &, const std::vector<std::string> &names)
+  namespace
   {
-    types = names;
-    // A type may be called "surface"; the tension with it has this path then.
-    if (std::find(names.begin(), names.end(), "surface") == names.end())
-      for (const std::string &name : names)
-        tensions.emplace_back(
-          "Cell types/" + name + "/Tension/With surface",
-          0.,
-          "Tension of the free surface where cells of this type are nearest. "
-          "Units: kPa um.");
-  }
+    /** Keys "Cell types/NAME/Tension/With surface". */
+    struct TypeSurfaceTensionParameters : public EffectKeys
+    {
+      /** γ_a0 by type, kPa µm. */
+      std::deque<Key<double>>  tensions;
+      std::vector<std::string> types;
+      /** Whether the tensions pull: `Tension/Force`. */
+      bool pulls = true;
 
-
-  void
-  TypeSurfaceTensionParameters::see(const SceneKeys &scene,
-                                    const std::vector<ExpressionKey *> &)
-  {
-    pulls = scene.keys<TypeTensionParameters>().force;
-  }
-
-
-  bool
-  TypeSurfaceTensionParameters::is_on() const
-  {
-    return pulls && std::any_of(tensions.begin(),
-                                tensions.end(),
-                                [](const auto &key) { return key != 0.; });
-  }
-
-
-  std::string
-  TypeSurfaceTensionParameters::details() const
-  {
-    std::string text;
-    for (unsigned int a = 0; a < tensions.size(); ++a)
-      text += "; " + types[a] + " " + tensions[a].text() + " kPa um";
-    return text;
-  }
-
-
-  KeyList
-  TypeSurfaceTensionParameters::list()
-  {
-    KeyList list;
-    for (Key<double> &key : tensions)
-      list.push_back(&key);
-    return list;
-  }
-
-
-  template <int dim>
-  TypeSurfaceTension<dim>::TypeSurfaceTension(const Parameters &parameters,
-                                              const EffectSetting<dim> &setting)
-    : type(setting.columns.template find<unsigned int>("type"))
-  {
-    for (const Key<double> &key : parameters.tensions)
+      bool
+      is_on() const override
       {
-        if (key < 0.)
-          key.refuse("a value >= 0 kPa um",
-                     "A surface with a negative tension would crumple: set "
-                     "Tension/Force = false, so that only Rearrangement knows "
-                     "it.");
-        tensions.push_back(key);
+        return pulls && std::any_of(tensions.begin(),
+                                    tensions.end(),
+                                    [](const auto &key) { return key != 0.; });
       }
-  }
-
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  TypeSurfaceTension<dim>::term(const LoadedPoints<dim> &points,
-                                const double) const
-  {
-    // Before the run there are no cells to ask, and a tension adds up to no
-    // force anyway.
-    std::vector<double> of_points(points.points.size(), 0.);
-    if (points.tissue != nullptr)
+      EffectFacts
+      facts() const override
       {
-        const Cells<dim>       &cells = points.tissue->cells();
-        std::vector<Point<dim>> places;
-        for (const auto &point : points.points)
-          places.push_back(point.x);
-        of_points = nearest_values(
-          places,
-          cells,
-          [&](const unsigned int p) { return tensions[cells.get(type, p)]; },
-          Ties::mean,
-          points.tissue->grid(),
-          points.sides);
+        EffectFacts facts;
+        facts.topic = "surfaces of types";
+        return facts;
       }
-    std::vector<typename AreaTerm<dim>::Load> loads;
-    for (std::size_t k = 0; k < of_points.size(); ++k)
-      loads.push_back({of_points[k], points.points[k].area});
-    return std::make_unique<SurfaceEnergy<dim>>(points, std::move(loads));
+      std::string
+      details() const override
+      {
+        std::string text;
+        for (unsigned int a = 0; a < tensions.size(); ++a)
+          text += "; " + types[a] + " " + tensions[a].text() + " kPa um";
+        return text;
+      }
+      void
+      declare_sections(const std::string &,
+                       const std::vector<std::string> &names) override
+      {
+        types = names;
+        // A type may be called "surface"; the tension with it has this path
+        // then.
+        if (std::find(names.begin(), names.end(), "surface") == names.end())
+          for (const std::string &name : names)
+            tensions.emplace_back(
+              "Cell types/" + name + "/Tension/With surface",
+              0.,
+              "Tension of the free surface where cells of this type are nearest. "
+              "Units: kPa um.");
+      }
+      void
+      see(const SceneKeys &scene, const std::vector<ExpressionKey *> &) override
+      {
+        pulls = scene.keys<TypeTensionParameters>().force;
+      }
+      using Keys::list;
+      KeyList
+      list() override
+      {
+        KeyList list;
+        for (Key<double> &key : tensions)
+          list.push_back(&key);
+        return list;
+      }
+    };
+
+    /** Tension of the free surface by the type of the cell there, with the
+     * energy of doc/theory.md (4.8a): a boundary point has that of the nearest
+     * cell. */
+    template <int dim>
+    class TypeSurfaceTension : public BoundaryCondition<dim>
+    {
+    public:
+      using Parameters = TypeSurfaceTensionParameters;
+
+      /** @throws InputError for a negative tension */
+      TypeSurfaceTension(const Parameters         &parameters,
+                         const EffectSetting<dim> &setting)
+        : type(setting.columns.template find<unsigned int>("type"))
+      {
+        for (const Key<double> &key : parameters.tensions)
+          {
+            if (key < 0.)
+              key.refuse(
+                "a value >= 0 kPa um",
+                "A surface with a negative tension would crumple: set "
+                "Tension/Force = false, so that only Rearrangement knows "
+                "it.");
+            tensions.push_back(key);
+          }
+      }
+
+      SurfaceCondition
+      kind() const override
+      {
+        return SurfaceCondition::loaded;
+      }
+      bool
+      is_tension() const override
+      {
+        return true;
+      }
+      bool
+      acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
+      {
+        return true;
+      }
+      std::unique_ptr<Term<dim>>
+      term(const LoadedPoints<dim> &points, const double) const override
+      {
+        // Before the run there are no cells to ask, and a tension adds up to no
+        // force anyway.
+        std::vector<double> of_points(points.points.size(), 0.);
+        if (points.tissue != nullptr)
+          {
+            const Cells<dim>       &cells = points.tissue->cells();
+            std::vector<Point<dim>> places;
+            for (const auto &point : points.points)
+              places.push_back(point.x);
+            of_points = nearest_values(
+              places,
+              cells,
+              [&](const unsigned int p) {
+                return tensions[cells.get(type, p)];
+              },
+              Ties::mean,
+              points.tissue->grid(),
+              points.sides);
+          }
+        std::vector<AreaLoad<dim>> loads;
+        for (std::size_t k = 0; k < of_points.size(); ++k)
+          loads.push_back({of_points[k], points.points[k].area});
+        return surface_energy<dim>(points, std::move(loads));
+      }
+
+    private:
+      std::vector<double>  tensions; // by type
+      Column<unsigned int> type;
+    };
+  } // namespace
+
+
+  void
+  add_type_surface_tension(Choices<BoundaryCondition> &conditions)
+  {
+    conditions.push_back(Choice<BoundaryCondition>::of<TypeSurfaceTension>(
+      "type surface tension",
+      "",
+      {"Cell types/Names=a, b",
+       "Cell types/b/Where=X*Y > 0",
+       "Cell types/b/Tension/With surface=0.1"}));
   }
-
-
-  template class TypeSurfaceTension<2>;
-  template class TypeSurfaceTension<3>;
 } // namespace Morula

@@ -98,9 +98,9 @@ TEST(TypeTension, OfAFlatInterfaceIsTheSameInAllDirections)
 TEST(TypeTension, MakesUpForWhatSmoothingTakes)
 {
   for (const double angle : {0., 0.2, 0.4, 0.7854})
-    EXPECT_NEAR(part_of_tension<2>(angle, TypeTension<2>::smoothing) /
+    EXPECT_NEAR(part_of_tension<2>(angle, TypeTensionParameters::smoothing) /
                   part_of_tension<2>(angle),
-                TypeTension<2>::left_by_smoothing,
+                TypeTensionParameters::left_by_smoothing,
                 0.005)
       << angle;
 }

@@ -7,23 +7,22 @@ namespace
 {
   using Values = std::map<std::string, std::string>;
 
-  /** One obstacle with these values of its keys. */
-  ObstaclesParameters
+  /** The keys of an obstacle with these values. */
+  ObstacleKeys
   one_obstacle(const Values &values)
   {
-    ObstaclesParameters parameters;
-    parameters.declare_sections("wall", {});
-    for (AnyKey *key : parameters.obstacles.front().list())
+    ObstacleKeys keys("wall");
+    for (AnyKey *key : keys.list())
       if (values.count(key->short_name()) > 0)
         key->assign(values.at(key->short_name()));
-    return parameters;
+    return keys;
   }
 
   template <int dim>
   std::unique_ptr<const Body<dim>>
   body(const Values &values)
   {
-    return make_body<dim>(one_obstacle(values).obstacles.front());
+    return make_body<dim>(one_obstacle(values));
   }
 
   /** All shapes, about the grid cell [0, 50]^dim. */
@@ -48,9 +47,13 @@ namespace
   double
   depth_after(const std::string &velocity, const double t, const double x)
   {
-    const Obstacles<2> obstacles(one_obstacle(
-      {{"Shape", "plane"}, {"Normal", "1, 0"}, {"Velocity", velocity}}));
-    LoadedPoints<2>    points;
+    const SceneEffects<2> effects =
+      effects_of<2>(scene_of({"Dimension=2",
+                              "Obstacles/Names=wall",
+                              "Obstacles/wall/Shape=plane",
+                              "Obstacles/wall/Normal=1, 0",
+                              "Obstacles/wall/Velocity=" + velocity}));
+    LoadedPoints<2> points;
     points.offsets        = {0, 1};
     points.xi             = {Point<2>(x / 50., 0.5)};
     points.h              = 50.;
@@ -58,7 +61,7 @@ namespace
     points.youngs_modulus = 2.;
     points.points.push_back(
       {{}, {}, {}, Point<2>(x, 25.), 1., Tensor<1, 2>({0., 1.})});
-    const auto term = obstacles.term(points, t);
+    const auto term = effects.conditions.at(0).condition->term(points, t);
     return std::sqrt(
       TermOnOneCell<2>(*term, GrowthAt::current).energy(LocalField<2>{}) / 2.);
   }

@@ -22,30 +22,27 @@ namespace
     return TissueMaterial(parameters);
   }
 
-  /** The keys of the conditions. */
+  /** Keys of the conditions, and how stiffly these hold. */
   struct Given
   {
-    FixedParameters    fixed;
-    SlipParameters     slip;
-    TractionParameters traction;
-    NitscheParameters  nitsche;
+    std::vector<std::string> settings;
+    NitscheParameters        nitsche;
+
+    void
+    set(const std::string &name, const std::string &value)
+    {
+      settings.push_back("Boundary conditions/" + name + "=" + value);
+    }
   };
 
   template <int dim>
   BoundaryConditions<dim>
   conditions_of(const Given &given)
   {
-    std::vector<typename BoundaryConditions<dim>::Named> list;
-    if (given.traction.is_on())
-      list.push_back(
-        {"traction", std::make_unique<Traction<dim>>(given.traction)});
-    if (given.slip.is_on())
-      list.push_back({"slip", std::make_unique<Slip<dim>>(given.slip)});
-    if (given.fixed.is_on())
-      list.push_back({"fixed", std::make_unique<Fixed<dim>>(given.fixed)});
     NitscheParameters nitsche = given.nitsche;
     nitsche.form              = "symmetric"; // of all tests here
-    return {std::move(list), nitsche};
+    return {std::move(effects_of<dim>(scene_of(given.settings)).conditions),
+            nitsche};
   }
 
   /**
@@ -159,9 +156,9 @@ namespace
 TEST_2D_3D(BoundaryTerms, PenaltyFollowsStiffnessAndSpacing)
 {
   Given parameters;
-  parameters.fixed.where        = at_top;
-  parameters.fixed.displacement = "2*t; -t; 0";
-  parameters.nitsche.penalty    = 1e3;
+  parameters.set("Fixed where", at_top);
+  parameters.set("Displacement", "2*t; -t; 0");
+  parameters.nitsche.penalty = 1e3;
   const Problem<dim> problem(parameters, CellDevelopment<dim>({}, {}));
   Tensor<1, dim>     U;
   U[0] = 1.;
@@ -188,7 +185,7 @@ TEST_2D_3D(BoundaryTerms, PenaltyFollowsStiffnessAndSpacing)
 TEST_2D_3D(BoundaryTerms, PenaltyFollowsTheSqueeze)
 {
   Given parameters;
-  parameters.fixed.where     = at_top;
+  parameters.set("Fixed where", at_top);
   parameters.nitsche.penalty = 10.;
   const Lame   constants     = lame(1., 0.4);
   const double squeeze = 0.4, J = std::pow(squeeze, dim);
@@ -223,10 +220,10 @@ TEST_2D_3D(BoundaryTerms, TractionHasNoVolumetricPartWhereThatIsTheGridCells)
 {
   Given parameters;
   parameters.nitsche.penalty = 1e3;
-  parameters.fixed.where     = at_top;
-  const Lame     constants   = lame(1., 0.4999);
-  const double   b           = 1.01 * 1.01 - 1.;
-  const double   penalty = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
+  parameters.set("Fixed where", at_top);
+  const Lame     constants = lame(1., 0.4999);
+  const double   b         = 1.01 * 1.01 - 1.;
+  const double   penalty   = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
   Tensor<1, dim> moved;
   moved[0] = 1e-3;
   const Problem<dim> problem(parameters,
@@ -252,10 +249,10 @@ TEST_2D_3D(BoundaryTerms, TractionHasNoVolumetricPartWhereThatIsTheGridCells)
 TEST_2D_3D(BoundaryTerms, TheTotalPositionIsHeld)
 {
   Given parameters;
-  parameters.nitsche.penalty    = 1e3;
-  parameters.fixed.where        = at_top;
-  parameters.fixed.displacement = "1; 2; 0";
-  parameters.slip.where         = "Y > 80";
+  parameters.nitsche.penalty = 1e3;
+  parameters.set("Fixed where", at_top);
+  parameters.set("Displacement", "1; 2; 0");
+  parameters.set("Slip where", "Y > 80");
   Tensor<1, dim> moved;
   moved[0] = 0.7;
   moved[1] = -0.4;
@@ -277,10 +274,10 @@ TEST_2D_3D(BoundaryTerms, TheTotalPositionIsHeld)
 TEST_2D_3D(BoundaryTerms, TractionOfTheNearestCellsGrowth)
 {
   Given parameters;
-  parameters.fixed.where = at_top;
-  Tensor<2, dim> F       = unit_tensor<dim>();
-  F[0][0]                = 1.1;
-  F[0][1]                = 0.2;
+  parameters.set("Fixed where", at_top);
+  Tensor<2, dim> F = unit_tensor<dim>();
+  F[0][0]          = 1.1;
+  F[0][1]          = 0.2;
   Tensor<1, dim> N;
   N[0] = 1.;
   const Problem<dim> problem(
@@ -322,8 +319,8 @@ TEST_2D_3D(BoundaryTerms, ExtrapolatedTractionDoesNotCount)
   for (const double distance : {0., 16., 200.})
     {
       Given parameters;
-      parameters.fixed.where        = at_top;
-      parameters.fixed.displacement = std::to_string(distance) + "; 0; 0";
+      parameters.set("Fixed where", at_top);
+      parameters.set("Displacement", std::to_string(distance) + "; 0; 0");
       Tensor<1, dim> moved;
       moved[0] = distance;
       const Problem<dim> problem(parameters,
@@ -344,9 +341,9 @@ TEST_2D_3D(BoundaryTerms, ExtrapolatedTractionDoesNotCount)
 TEST_2D_3D(BoundaryTerms, SupportsAreFixedAndSlipPoints)
 {
   Given parameters;
-  parameters.fixed.where    = at_top;
-  parameters.slip.where     = "Y > 80 || Y < -80";
-  parameters.traction.where = "X < -80";
+  parameters.set("Fixed where", at_top);
+  parameters.set("Slip where", "Y > 80 || Y < -80");
+  parameters.set("Traction where", "X < -80");
   const Problem<dim> problem(parameters, CellDevelopment<dim>({}, {}));
   const auto         list =
     supports(problem.conditions, problem.tissue, *problem.space);

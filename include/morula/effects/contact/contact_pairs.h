@@ -8,6 +8,7 @@
 #include <morula/effects/interaction.h>
 
 #include <map>
+#include <memory>
 #include <vector>
 
 namespace Morula
@@ -167,6 +168,29 @@ namespace Morula
     /** How far pairs have slid between the last two renewals, and since, µm. */
     std::map<ContactPair, Tensor<1, dim>> slides, seen_slides;
   };
+
+  /**
+   * Whether boundary points that were too far apart at t to be candidates have
+   * passed through another body, or into one. Collective.
+   * @param h grid spacing, µm
+   */
+  template <int dim>
+  bool
+  has_crossed_from_afar(const Tissue<dim>            &tissue,
+                        const ContactPoints<dim>     &points,
+                        const DisplacementField<dim> &displacement,
+                        const double                  h);
+
+  /**
+   * The contact in an attempt at a step: its pairs hold positions, normals and
+   * areas fixed in a turn, and take them anew after it. Keeps references to all
+   * that it is given.
+   */
+  template <int dim>
+  std::unique_ptr<InteractionInStep<dim>>
+  contact_in_step(const AttemptAtStep<dim> &attempt,
+                  const ContactPoints<dim> &points,
+                  const ContactLaw         &law);
 } // namespace Morula
 
 #endif

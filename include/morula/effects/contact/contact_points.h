@@ -4,6 +4,7 @@
 #ifndef morula_effects_contact_contact_points_h
 #define morula_effects_contact_contact_points_h
 
+#include <morula/effects/interaction.h>
 #include <morula/particles/tissue.h>
 
 #include <deal.II/base/point.h>
@@ -134,6 +135,18 @@ namespace Morula
     double                         largest_spacing_ = 0.;
     double                         way_;
   };
+
+  /**
+   * The forces of pairs on this rank's boundary points, also of pairs of other
+   * ranks: one for each point and body that touches it, or all but does, in the
+   * order of the store; p is the position there. Collective.
+   * @param of_pairs on points with these numbers in @p points
+   */
+  template <int dim>
+  std::vector<ForceBetween<dim>>
+  contact_forces(const ContactPoints<dim>             &points,
+                 const std::vector<ForceBetween<dim>> &of_pairs,
+                 const MPI_Comm                        comm);
 } // namespace Morula
 
 #endif

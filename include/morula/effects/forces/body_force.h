@@ -4,8 +4,12 @@
 #ifndef morula_effects_forces_body_force_h
 #define morula_effects_forces_body_force_h
 
+#include <morula/base/expression.h>
 #include <morula/base/expression_key.h>
-#include <morula/effects/forces/force.h>
+#include <morula/effects/effect.h>
+#include <morula/mechanics/point_term.h>
+
+#include <vector>
 
 namespace Morula
 {
@@ -32,43 +36,54 @@ namespace Morula
     }
   };
 
-  /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
-   *  paper. It may depend on the state of cells at the beginning of a step, and
-   * on their place at its end. */
+  /**
+   * Forces on particles that depend on where these are at the end of the step,
+   * V⁰ b(x + u): doc/theory.md (4.7b). It has no energy. Its tangent
+   * -V⁰ ∂b/∂x N_a N_b comes from differences of b.
+   */
   template <int dim>
-  class BodyForce : public Force<dim>
+  class PlacedForce : public PointTerm<dim>
   {
   public:
-    using Parameters = BodyForceParameters;
-
-    /** @throws InputError for an expression that cannot be parsed */
-    BodyForce(const Parameters &parameters, const EffectSetting<dim> &setting);
-
-    std::unique_ptr<Term<dim>>
-    term(const Tissue<dim>        &tissue,
-         const CellReader<dim>    &reader,
-         const GroupedPoints<dim> &positions,
-         const double              t0,
-         const double              t1) const override;
-
-    std::optional<Tensor<1, dim>>
-    load_of(const PresentCell<dim> &cell, const double t) const override
+    /** A particle. */
+    struct Particle
     {
-      return cell.vector(density, t);
+      /** Position at the beginning of the step, µm. */
+      Point<dim> x;
+      /** V⁰, µm^dim. */
+      double volume;
+      /** Of the other variables of b. */
+      VariableValues values;
+    };
+
+    /** @param density b, kPa/µm; a reference is kept */
+    PlacedForce(GroupedPoints<dim>    points,
+                std::vector<Particle> particles,
+                const Expression     &density);
+
+    bool
+    is_conservative() const override
+    {
+      return false;
     }
 
-    void
-    check(const Preview<dim> &scene) const override;
-
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
+    /** Whether an expression depends on the present place. */
+    static bool
+    depends_on_place(const Expression &expression);
 
   private:
-    const Expression density;
+    void
+    add_point(const unsigned int       p,
+              const SplineValues<dim> &splines,
+              const LocalField<dim>   &field,
+              LocalSystem<dim>        &system) const override;
+
+    /** b of a particle at a place, kPa/µm. */
+    Tensor<1, dim>
+    density_at(const Particle &particle, const Point<dim> &x) const;
+
+    const std::vector<Particle> particles;
+    const Expression           &density;
   };
 } // namespace Morula
 

@@ -4,15 +4,89 @@
 #ifndef morula_effects_obstacles_body_h
 #define morula_effects_obstacles_body_h
 
-#include <morula/effects/obstacles/obstacle_parameters.h>
+#include <morula/base/expression_key.h>
+#include <morula/base/name_list.h>
+#include <morula/base/unit_vector.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace Morula
 {
+  /** Section "Obstacles/NAME". */
+  struct ObstacleKeys : public Keys
+  {
+    /** @param name of the obstacle */
+    explicit ObstacleKeys(const std::string &name)
+      : name(name)
+    {
+      place_in(list(), "Obstacles/" + name);
+      surface_mesh.of_file();
+    }
+
+    std::string      name;
+    Key<std::string> shape{
+      {this, "Shape"},
+      "",
+      "plane, sphere (2-D: a disc), cylinder (without ends), box (its "
+      "edges along the axes) or mesh.",
+      {"|plane|sphere|cylinder|box|mesh"}};
+
+    Key<std::string> side{
+      {this, "Side"},
+      "outside",
+      "outside: the tissue is outside of the body, in front of the plane; "
+      "inside: the tissue is inside, as in a mould.",
+      {"outside|inside"}};
+
+    Key<std::vector<double>> center{
+      {this, "Center"},
+      {0., 0., 0.},
+      "Center of the body, a point of the plane, or where the origin of the "
+      "mesh's file is, at t = 0. Units: um."};
+
+    Key<double> radius{{this, "Radius"},
+                       0.,
+                       "Of a sphere or cylinder; > 0. Units: um."};
+
+    DirectionKey normal{
+      {this, "Normal"},
+      "",
+      "Of a plane; it points to the tissue if Side = outside."};
+
+    Key<std::vector<double>> size{{this, "Size"},
+                                  {},
+                                  "Full edge lengths of a box. Units: um."};
+
+    DirectionKey axis{{this, "Axis"}, "", "Of a cylinder."};
+
+    Key<std::string> surface_mesh{
+      {this, "Surface mesh"},
+      "",
+      "Of a mesh: closed surface in um, as an STL, OFF, PLY or "
+      "OBJ file."};
+
+    Key<double> stiffness{
+      {this, "Stiffness"},
+      100.,
+      "Pressure on the tissue over its depth in the obstacle; > 0. E "
+      "is that of the stiffest cell. Units: E/h.",
+      {},
+      positive("E/h", "100 lets tissue under the pressure E go in by h/100.")};
+
+    ExpressionKey velocity{
+      {this, "Velocity"},
+      "0; 0; 0",
+      "Velocity of the obstacle: functions of t separated by ';'. "
+      "Units: um/day.",
+      Evaluated::place,
+      3};
+  };
+
   /** Distance of a place to the surface of a body, with its derivatives. */
   template <int dim>
   struct Distance

@@ -4,122 +4,237 @@
 #ifndef morula_effects_rearrangement_rearrangement_h
 #define morula_effects_rearrangement_rearrangement_h
 
-#include <morula/base/expression_key.h>
-#include <morula/effects/rearrangement/exchange.h>
-#include <morula/effects/step_effect.h>
+#include <morula/effects/effect.h>
 #include <morula/particles/neighbours.h>
+#include <morula/particles/tissue.h>
 
-#include <optional>
-#include <string>
+#include <array>
+#include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace Morula
 {
-  /** Section "Rearrangement". */
-  struct RearrangementParameters : public EffectKeys
+  /** A cell, as far as exchanges of places ask for it. */
+  struct Occupant
   {
-    ExpressionKey diffusion{
-      {this, "Rearrangement/Diffusion"},
-      "0",
-      "Diffusion coefficient of a cell among equal ones, which "
-      "exchanges its place with neighbours; of two that differ the "
-      "harmonic mean counts. An expression; 0: the cell keeps its "
-      "place. Units: um^2/day.",
-      Evaluated::step,
-      not_negative("um^2/day", "0 lets the cell keep its place.")};
-
-    Key<double> energy{
-      {this, "Rearrangement/Fluctuation energy"},
-      0.,
-      "T in the probability 1/(1 + exp(E/T)) that an exchange is made "
-      "which changes the energy of adhesion (Cell types/NAME/Tension) "
-      "by E; 0: never one that raises it. In 3-D times um. Units: kPa "
-      "um^2.",
-      {0.}};
-
-    /** q */
-    Key<double> shear_released{
-      {this, "Rearrangement/Shear released"},
-      1.,
-      "Part of the elastic shear that each exchange takes from "
-      "both places: 1 is a liquid as long as cells exchange "
-      "places.",
-      {0.},
-      {[](const double q) { return q <= 1.; },
-       "a number from 0 to 1",
-       "1 releases all shear at the two places."}};
-
-    ExpressionKey drive{
-      {this, "Rearrangement/Drive"},
-      "0; 0; 0",
-      "Force with which a cell looks for exchanges along it; none acts on "
-      "the tissue. An expression. In 3-D times um. Units: kPa um.",
-      Evaluated::step,
-      3};
-
-    bool
-    is_on() const override
-    {
-      return !diffusion.is_default() || diffusion.differs_by_type();
-    }
-    EffectFacts
-    facts() const override
-    {
-      return {&diffusion};
-    }
-    void
-    check(const SceneKeys &scene, Review &review) const override;
+    /** Its lineage key. */
+    std::uint64_t key;
+    unsigned int  type;
+    /** D, µm²/day; 0: it keeps its place. */
+    double diffusion;
+    /** f, kPa µm^dim/µm. */
+    std::array<double, 3> drive;
+    /** The rank of the cell, and its place there. */
+    unsigned int rank, number;
   };
 
-  /** Cells exchange their places with neighbours: doc/theory.md, section 12.3.
-   */
-  template <int dim>
-  class Rearrangement : public StepEffect<dim>
+  /** Places of cells and their neighbourhood, which stay as they are while
+   *  cells exchange them. */
+  struct Places
+  {
+    /** A neighbouring place. */
+    struct Edge
+    {
+      unsigned int other;
+      /** S, µm^(dim-1). */
+      double area;
+      /** S/(l V̄), with its cap, per µm². */
+      double rate;
+    };
+
+    /** Lineage keys of the cells that are there at the beginning. */
+    std::vector<std::uint64_t>         keys;
+    std::vector<std::array<double, 3>> positions; // µm
+    std::vector<double>                free;      // free surface, µm^(dim-1)
+    /** Edges of place p: [offsets[p], offsets[p + 1]), by the others' keys. */
+    std::vector<unsigned int> offsets;
+    std::vector<Edge>         edges;
+    /** Whether events of a place are run here, rather than told by others. */
+    std::vector<bool> own;
+
+    std::size_t
+    size() const
+    {
+      return keys.size();
+    }
+
+    /** Sorts the edges of each place. To be called when all are there. */
+    void
+    sort_edges();
+  };
+
+  /** The energy E = Σ γ S of the contacts between cells and of their free
+   *  surface, and its changes: doc/theory.md (12.5). */
+  class AdhesionEnergy
   {
   public:
-    using Parameters = RearrangementParameters;
+    /** @param temperature T, kPa µm^dim */
+    AdhesionEnergy(const TypeTensions &tensions, const double temperature);
 
-    /** @throws InputError for expressions that cannot be parsed */
-    Rearrangement(const Parameters         &parameters,
-                  const EffectSetting<dim> &setting);
+    /** ΔE if the cells at two neighbouring places change them. */
+    double
+    change(const Places                &places,
+           const std::vector<Occupant> &occupants,
+           const unsigned int           p,
+           const unsigned int           q) const;
 
-    void
-    declare(Tables<dim> &tables) const override;
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
-    void
-    settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override;
-    void
-    rearrange(Tissue<dim>            &tissue,
-              const MomentOfRun<dim> &moment) const override;
+    /** Whether an exchange that changes the energy so is accepted; @p u is
+     *  uniform in (0, 1]. */
+    bool
+    accepts(const double change, const double u) const;
+
+    /** γ between two types. */
+    double
+    between(const unsigned int a, const unsigned int b) const
+    {
+      return tensions.between.empty() ? 0. : tensions.between[a][b];
+    }
+
+    /** γ of the free surface of a type. */
+    double
+    with_surface(const unsigned int a) const
+    {
+      return tensions.with_surface.empty() ? 0. : tensions.with_surface[a];
+    }
 
   private:
-    /** The cells of this rank as occupants of places. @throws InputError */
-    std::vector<Occupant>
-    cells_of(const Tissue<dim> &tissue, const CellReader<dim> &reader) const;
-
-    /** Writes the numbers of the step. Collective. */
-    void
-    tell(const MomentOfRun<dim>      &moment,
-         const Places                &places,
-         const std::vector<Occupant> &occupants,
-         const double                 n_exchanges,
-         const MPI_Comm               comm) const;
-
-    /** Evens the places out as fast as cells exchange them. Collective. */
-    void
-    spread(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const;
-
-    const Expression      diffusion, drive;
-    const AdhesionEnergy  energy;
-    const double          shear_released;
-    const std::uint64_t   random_seed;
-    const Column<double>  death_time;
-    const NeighbourSearch neighbours;
+    const TypeTensions tensions;
+    const double       temperature;
   };
+
+  /** An attempt of two cells to exchange their places. */
+  struct Attempt
+  {
+    /** When, from the beginning of the step, day. */
+    double time;
+    /** Which decides about acceptance. */
+    double u;
+    /** Places, that with the lower key first. */
+    unsigned int p, q;
+    /** Number among those of this pair. */
+    unsigned int n;
+  };
+
+  /**
+   * All attempts in a step of length @p dt (day), in the order of time: a
+   * Poisson process for each edge, from the keys of the cells that stand there
+   * at the beginning. doc/theory.md (12.4)
+   * @param t of the step, which makes its draws its own
+   */
+  std::vector<Attempt>
+  attempts(const Places                &places,
+           const std::vector<Occupant> &occupants,
+           const std::uint64_t          seed,
+           const double                 t,
+           const double                 dt);
+
+  /** What became of an attempt. */
+  struct ExchangeResult
+  {
+    std::uint64_t p, q; // keys of the places
+    unsigned int  n;
+    bool          accepted;
+    Occupant      at_p, at_q; // afterwards
+  };
+
+  /**
+   * Runs attempts. An event of the places (p, q) reads the cells at them and
+   * around them. It can run as soon as it is the first one that is left at each
+   * of these places, so that all that can run at once do not disturb each
+   * other: a round. The result is that in the order of time.
+   */
+  class ExchangeRounds
+  {
+  public:
+    ExchangeRounds(const Places         &places,
+                   std::vector<Occupant> occupants,
+                   std::vector<Attempt>  attempts,
+                   const AdhesionEnergy &energy);
+
+    /** Runs everything in the order of time; all places must be own. */
+    void
+    run_in_order();
+
+    /** Runs those attempts of own places that can run now. */
+    std::vector<ExchangeResult>
+    run_round();
+
+    /** Takes what another rank has run. */
+    void
+    take(const ExchangeResult &result);
+
+    /** How many attempts are left that are to be run here. */
+    std::size_t
+    n_left() const
+    {
+      return left;
+    }
+
+    /** Who is where. */
+    const std::vector<Occupant> &
+    occupants() const
+    {
+      return occupants_;
+    }
+
+    /** How often places have changed their cell. */
+    const std::vector<unsigned int> &
+    n_exchanges() const
+    {
+      return n_exchanges_;
+    }
+
+  private:
+    bool
+    is_before(const Attempt &a, const Attempt &b) const;
+    /** The first attempt that is left at a place, or null. */
+    const Attempt *
+    first_at(const unsigned int place);
+    bool
+    can_run(const Attempt &attempt);
+    bool
+    run(const Attempt &attempt);
+
+    const Places             &places;
+    std::vector<Occupant>     occupants_;
+    std::vector<Attempt>      list;
+    const AdhesionEnergy     &energy;
+    std::vector<unsigned int> n_exchanges_;
+    std::vector<bool>         done;
+    std::size_t               left = 0;
+    /** Attempts of each place in the order of time, and the first that may be
+     *  left. */
+    std::vector<std::vector<std::size_t>> of_place;
+    std::vector<std::size_t>              heads;
+    /** Places by their keys, if others tell of them. */
+    std::unordered_map<std::uint64_t, unsigned int> place_of;
+  };
+
+  /** The places of a rank's cells, and those of others that its events can
+   *  feel: three edges around. */
+  struct PlacesOfTissue
+  {
+    /** Those of this rank's cells first, in their order. */
+    Places                places;
+    std::vector<Occupant> occupants;
+    /** Ranks that must be told of the events of an own place. */
+    std::vector<std::vector<unsigned int>> listeners;
+  };
+
+  /** @param cells  of this rank
+   *  @param search how far neighbours can be. Collective. */
+  template <int dim>
+  PlacesOfTissue
+  places_of(const Tissue<dim>           &tissue,
+            const std::vector<Occupant> &cells,
+            NeighbourSearch              search = {});
+
+  /** Runs all attempts, on all ranks together. Collective. */
+  void
+  run(ExchangeRounds       &rounds,
+      const PlacesOfTissue &around,
+      const MPI_Comm        comm);
 
   /**
    * F of a cell that comes to a place: doc/theory.md (12.6). The place keeps

@@ -5,7 +5,7 @@
 #define morula_effects_surface_boundary_conditions_h
 
 #include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/nitsche_penalty.h>
+#include <morula/effects/surface/nitsche.h>
 #include <morula/particles/boundary_state.h>
 
 #include <memory>

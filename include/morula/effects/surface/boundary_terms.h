@@ -52,6 +52,16 @@ namespace Morula
                        const std::vector<double>         &stiffnesses,
                        const std::vector<Tensor<1, dim>> &tractions);
 
+  /**
+   * The part of bounded_nitsche_term() in an attempt at a step: the traction
+   * of this rank's held points, which is zero until it begins. Keeps references
+   * to all that it is given. Collective.
+   */
+  template <int dim>
+  std::unique_ptr<PartOfStep<dim>>
+  held_traction(const BoundaryConditions<dim> &conditions,
+                const AttemptAtStep<dim>      &attempt);
+
   /** The boundary points of this rank that conditions load. */
   template <int dim>
   LoadedPoints<dim>

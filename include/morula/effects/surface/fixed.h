@@ -32,32 +32,10 @@ namespace Morula
       return facts;
     }
     std::string
-    details() const override;
-  };
-
-  /** Points that are held in all directions, at a prescribed displacement. */
-  template <int dim>
-  class Fixed : public PlacedCondition<dim>
-  {
-  public:
-    using Parameters = FixedParameters;
-
-    /** @throws InputError for expressions that cannot be parsed */
-    explicit Fixed(const Parameters &parameters);
-
-    Tensor<1, dim>
-    displacement(const Point<dim> &X, const double t) const override
+    details() const override
     {
-      return displacement_.vector(X, t);
+      return "; displacement " + displacement.text() + " um";
     }
-    bool
-    moves() const override;
-
-  private:
-    void
-    check_at(const Point<dim> &X, const double t) const override;
-
-    const Expression displacement_;
   };
 } // namespace Morula
 

@@ -4,11 +4,16 @@
 #ifndef morula_effects_surface_nitsche_h
 #define morula_effects_surface_nitsche_h
 
+#include <morula/base/key.h>
+#include <morula/base/review.h>
+#include <morula/mechanics/material.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/plain_kernels.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/mechanics/term.h>
 
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -113,6 +118,116 @@ namespace Morula
     const std::vector<ElasticState<dim>> current;
     const std::vector<ElasticState<dim>> previous;
     const AddProducts<dim>               add_products;
+  };
+
+  /**
+   * Prescribed positions of boundary points by Nitsche's method with a traction
+   * that does not change while an equilibrium is found, doc/theory.md (4.6a):
+   *
+   *   Π = Σ a_t [β/2 g·g (1 + (|g|/g₀)⁴/3) - T·g], g = M (x_t + u - x̄).
+   *
+   * It is a convex function of u with a lower bound, whatever T and the
+   * deformation of the point. Who owns T takes it anew at the equilibrium that
+   * was found, and has another one found from there. g₀ is a fifth of the grid
+   * spacing: far smaller gaps meet the penalty β alone, larger ones ever more,
+   * so that tissue does not slip through a clamp that is soft at its edge.
+   */
+  template <int dim>
+  class BoundedNitsche : public PointTerm<dim>
+  {
+  public:
+    using HeldPoint = typename Nitsche<dim>::HeldPoint;
+
+    /** @param tractions M T of the points, kPa; a reference is kept */
+    BoundedNitsche(GroupedPoints<dim>                 points,
+                   std::vector<HeldPoint>             held_points,
+                   const std::vector<Tensor<1, dim>> &tractions);
+
+  private:
+    void
+    add_point(const unsigned int       p,
+              const SplineValues<dim> &splines,
+              const LocalField<dim>   &field,
+              LocalSystem<dim>        &system) const override;
+
+    const std::vector<HeldPoint>       held_points;
+    const std::vector<Tensor<1, dim>> &tractions;
+  };
+
+  /** The keys of Nitsche's term, in section "Boundary conditions". */
+  struct NitscheParameters : public Keys
+  {
+    NitscheParameters();
+
+    /** Least penalty of the forms with an energy, (λ + 2μ)/h. */
+    static constexpr double least_penalty = 20.;
+
+    Key<double> penalty{
+      {this, "Boundary conditions/Nitsche penalty"},
+      20.,
+      "Penalty of fixed and slip points; > 0. "
+      "The symmetric and the bounded form use at least " +
+        as_text(least_penalty) + " (lambda + 2 mu)/h. Units: E/h.",
+      {},
+      positive("E/h",
+               "1e3 is a good choice for the symmetric Nitsche form, 20 "
+               "for the others.")};
+
+    Key<std::string> form{
+      {this, "Boundary conditions/Nitsche form"},
+      "bounded",
+      "symmetric: the paper's, for large penalties. unsymmetric: stable for "
+      "any penalty, but without an energy. bounded: the traction of held "
+      "points comes from the cells around them, is constant in a solve and "
+      "renewed after it; its energy has a lower bound, and with Nitsche "
+      "penalty = 20 it is much more accurate beside the edge of a fixed "
+      "surface.",
+      {"symmetric|unsymmetric|bounded"}};
+
+    /** Full paths of the keys that hold points. */
+    static std::vector<std::string>
+    held_by();
+
+    /** Warns of penalties that have no effect, or that are too low if
+     *  @p all_is_fixed (all of the surface). For scenes that hold points. */
+    void
+    review(const MaterialParameters &material,
+           const bool                all_is_fixed,
+           Review                   &review) const;
+  };
+
+  /** How stiffly fixed and slip points are held. */
+  class NitschePenalty
+  {
+  public:
+    /** Takes the values of the keys. */
+    explicit NitschePenalty(const NitscheParameters &parameters);
+
+    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
+     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
+     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
+    double
+    penalty(const double           E,
+            const Lame            &lame,
+            const double           stiffness,
+            const VolumetricStrain volumetric_form,
+            const double           h) const;
+
+    /** The least penalty of the symmetric form for tissue at rest, in units of
+     *  E/h, with Poisson's ratio @p nu. */
+    static double
+    least(const double nu);
+
+    /** Which of Nitsche's terms. */
+    NitscheForm
+    form() const
+    {
+      return form_;
+    }
+
+  private:
+    double      relative; // β h / E
+    NitscheForm form_;
   };
 } // namespace Morula
 

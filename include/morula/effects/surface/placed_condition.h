@@ -4,13 +4,47 @@
 #ifndef morula_effects_surface_placed_condition_h
 #define morula_effects_surface_placed_condition_h
 
+#include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/condition_keys.h>
 
+#include <string>
 #include <vector>
 
 namespace Morula
 {
+  /** The keys of a condition that acts where an expression is positive. */
+  struct ConditionKeys : public EffectKeys
+  {
+    /**
+     * @param path     of the key that says where it acts; without text: nowhere
+     * @param anywhere its text if the scene does not set it
+     */
+    ConditionKeys(const std::string &path,
+                  const std::string &documentation,
+                  const std::string &anywhere = "")
+      : where({this, path}, anywhere, documentation, Evaluated::founder)
+    {}
+
+    ExpressionKey where;
+
+    bool
+    is_on() const override
+    {
+      return !where.empty();
+    }
+    EffectFacts
+    facts() const override
+    {
+      return {&where};
+    }
+    std::string
+    details() const override
+    {
+      return "";
+    }
+  };
+
   /** A condition that acts where an expression of the place is positive. */
   template <int dim>
   class PlacedCondition : public BoundaryCondition<dim>
@@ -27,11 +61,22 @@ namespace Morula
       return holds(X);
     }
     void
-    check(const Preview<dim> &scene) const override;
+    check(const Preview<dim> &scene) const override
+    {
+      // Each point on which the condition acts is tried at both ends of the
+      // run.
+      for (const Point<dim> &X : scene.boundary_points)
+        if (holds(X))
+          for (const double t : {0., scene.keys.time.end_time.value()})
+            check_at(X, t);
+    }
 
   protected:
     /** @throws InputError for an expression that cannot be parsed */
-    PlacedCondition(const SurfaceCondition kind, const ConditionKeys &keys);
+    PlacedCondition(const SurfaceCondition kind, const ConditionKeys &keys)
+      : kind_(kind)
+      , where(keys.where.expression(dim))
+    {}
 
     /** Refuses what the condition cannot do at a point @p X (µm) on which it
      *  acts, at @p t (day). @throws InputError */
@@ -52,7 +97,11 @@ namespace Morula
 
   private:
     bool
-    holds(const Point<dim> &X) const;
+    holds(const Point<dim> &X) const
+    {
+      // Conditions are decided at t = 0, for the whole run.
+      return where.value(X, 0.) > 0.;
+    }
 
     const SurfaceCondition kind_;
     const Expression       where;

@@ -224,14 +224,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::vector<UnknownLink> &
-  ContactPairs<dim>::links() const
-  {
-    return links_;
-  }
-
-
-  template <int dim>
   double
   ContactPairs<dim>::gap(const Pair                        &pair,
                          const std::vector<Tensor<1, dim>> &u) const

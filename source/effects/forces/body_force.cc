@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression_key.h>
 #include <morula/effects/forces/body_force.h>
-#include <morula/effects/forces/force.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
-
-#include <deal.II/base/mpi.h>
+#include <morula/mechanics/point_term.h>
 
 #include <algorithm>
 #include <utility>
@@ -22,81 +19,98 @@ namespace Morula
     constexpr double part_of_spacing = 1e-5;
 
     constexpr Variable coordinates[] = {Variable::x, Variable::y, Variable::z};
-  } // namespace
 
+    /**
+     * Forces on particles that depend on where these are at the end of the
+     * step, V⁰ b(x + u): doc/theory.md (4.7b). It has no energy. Its tangent
+     * -V⁰ ∂b/∂x N_a N_b comes from differences of b.
+     */
+    template <int dim>
+    class PlacedForce : public PointTerm<dim>
+    {
+    public:
+      /** A particle. */
+      struct Particle
+      {
+        /** Position at the beginning of the step, µm. */
+        Point<dim> x;
+        /** V⁰, µm^dim. */
+        double volume;
+        /** Of the other variables of b. */
+        VariableValues values;
+      };
 
-  template <int dim>
-  PlacedForce<dim>::PlacedForce(GroupedPoints<dim>    points,
-                                std::vector<Particle> particles,
-                                const Expression     &density)
-    : PointTerm<dim>(std::move(points))
-    , particles(std::move(particles))
-    , density(density)
-  {}
+      /** @param density b, kPa/µm; a reference is kept */
+      PlacedForce(GroupedPoints<dim>    points,
+                  std::vector<Particle> particles,
+                  const Expression     &density)
+        : PointTerm<dim>(std::move(points))
+        , particles(std::move(particles))
+        , density(density)
+      {}
 
+      bool
+      is_conservative() const override
+      {
+        return false;
+      }
 
-  template <int dim>
-  bool
-  PlacedForce<dim>::depends_on_place(const Expression &expression)
-  {
-    for (const Variable place : coordinates)
-      if (expression.uses(place))
-        return true;
-    return false;
-  }
+      /** Whether an expression depends on the present place. */
+      static bool
+      depends_on_place(const Expression &expression)
+      {
+        for (const Variable place : coordinates)
+          if (expression.uses(place))
+            return true;
+        return false;
+      }
 
+    private:
+      void
+      add_point(const unsigned int       p,
+                const SplineValues<dim> &splines,
+                const LocalField<dim>   &field,
+                LocalSystem<dim>        &system) const override
+      {
+        const Particle  &particle = particles[p];
+        const Point<dim> x        = particle.x + field.value(splines);
+        Tensor<1, dim>   force;
+        Tensor<2, dim>   stiffness;
+        if (system.wanted != LocalSystem<dim>::tangent)
+          force = -particle.volume * density_at(particle, x);
+        else
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              const double delta = part_of_spacing * this->points.h;
+              Point<dim>   before(x), behind(x);
+              before[j] -= delta;
+              behind[j] += delta;
+              const Tensor<1, dim> change =
+                -particle.volume / (2. * delta) *
+                (density_at(particle, behind) - density_at(particle, before));
+              for (unsigned int i = 0; i < dim; ++i)
+                stiffness[i][j] = change[i];
+            }
+        add_force_at(splines, 0., force, stiffness, system);
+      }
 
-  template <int dim>
-  Tensor<1, dim>
-  PlacedForce<dim>::density_at(const Particle   &particle,
-                               const Point<dim> &x) const
-  {
-    VariableValues values = particle.values;
-    for (unsigned int d = 0; d < dim; ++d)
-      values[static_cast<unsigned int>(coordinates[d])] = x[d];
-    Tensor<1, dim> b;
-    for (unsigned int d = 0; d < dim; ++d)
-      b[d] = density.value(values, d);
-    return b;
-  }
+      /** b of a particle at a place, kPa/µm. */
+      Tensor<1, dim>
+      density_at(const Particle &particle, const Point<dim> &x) const
+      {
+        VariableValues values = particle.values;
+        for (unsigned int d = 0; d < dim; ++d)
+          values[static_cast<unsigned int>(coordinates[d])] = x[d];
+        Tensor<1, dim> b;
+        for (unsigned int d = 0; d < dim; ++d)
+          b[d] = density.value(values, d);
+        return b;
+      }
 
+      const std::vector<Particle> particles;
+      const Expression           &density;
+    };
 
-  template <int dim>
-  void
-  PlacedForce<dim>::add_point(const unsigned int       p,
-                              const SplineValues<dim> &splines,
-                              const LocalField<dim>   &field,
-                              LocalSystem<dim>        &system) const
-  {
-    const Particle  &particle = particles[p];
-    const Point<dim> x        = particle.x + field.value(splines);
-    Tensor<1, dim>   force;
-    Tensor<2, dim>   stiffness;
-    if (system.wanted != LocalSystem<dim>::tangent)
-      force = -particle.volume * density_at(particle, x);
-    else
-      for (unsigned int j = 0; j < dim; ++j)
-        {
-          const double delta = part_of_spacing * this->points.h;
-          Point<dim>   before(x), behind(x);
-          before[j] -= delta;
-          behind[j] += delta;
-          const Tensor<1, dim> change =
-            -particle.volume / (2. * delta) *
-            (density_at(particle, behind) - density_at(particle, before));
-          for (unsigned int i = 0; i < dim; ++i)
-            stiffness[i][j] = change[i];
-        }
-    add_force_at(splines, 0., force, stiffness, system);
-  }
-
-
-  template class PlacedForce<2>;
-  template class PlacedForce<3>;
-
-
-  namespace
-  {
     /** A force per initial volume: doc/theory.md (4.7), equation (4) of the
      *  paper. It may depend on the state of cells at the beginning of a step,
      * and on their place at its end. */

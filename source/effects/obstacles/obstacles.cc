@@ -89,15 +89,6 @@ namespace Morula
     class ObstacleContact : public PointTerm<dim>
     {
     public:
-      /** A boundary point. */
-      struct BoundaryPoint
-      {
-        /** Position at t, µm. */
-        Point<dim> x;
-        /** a_t, µm^(dim-1). */
-        double area;
-      };
-
       /** A body during the step. */
       struct Obstacle
       {
@@ -119,11 +110,10 @@ namespace Morula
         }
       };
 
-      ObstacleContact(GroupedPoints<dim>         points,
-                      std::vector<BoundaryPoint> boundary_points,
-                      std::vector<Obstacle>      obstacles)
-        : PointTerm<dim>(std::move(points))
-        , boundary_points(std::move(boundary_points))
+      ObstacleContact(const LoadedPoints<dim> &points,
+                      std::vector<Obstacle>    obstacles)
+        : PointTerm<dim>(points)
+        , boundary_points(points.points)
         , obstacles(std::move(obstacles))
       {}
 
@@ -147,7 +137,8 @@ namespace Morula
             const Distance<dim> phi = obstacle.body->distance(x - obstacle.way);
             if (obstacle.is_mould ? phi.value <= 0. : phi.value >= 0.)
               continue;
-            const double k = boundary_points[p].area * obstacle.stiffness;
+            const double k =
+              boundary_points[p].area.norm() * obstacle.stiffness;
             // The energy is that of doc/theory.md (4.8d), the force its
             // derivative, and the matrix that of (4.8e), with a_t κ in k.
             // Inside of a round body the term with the curvature is negative
@@ -161,8 +152,8 @@ namespace Morula
           }
       }
 
-      const std::vector<BoundaryPoint> boundary_points;
-      const std::vector<Obstacle>      obstacles;
+      const std::vector<typename LoadedPoints<dim>::Point> boundary_points;
+      const std::vector<Obstacle>                          obstacles;
     };
 
 
@@ -197,34 +188,18 @@ namespace Morula
       return least;
     }
 
-    /** Deepest point in an obstacle. */
-    template <int dim, typename Points, typename Position>
+    /** How deep the deepest of some places of this rank is in an obstacle, and
+     *  which it is; 0 if none is in it. */
+    template <int dim>
     std::pair<double, Point<dim>>
     deepest(const typename ObstacleContact<dim>::Obstacle &obstacle,
-            const Points                                  &points,
-            const Position                                &position)
+            const std::vector<Point<dim>>                 &places)
     {
-      // These are the points of this rank alone. Only points that are in the
-      // obstacle count, so the depth is 0 if there are none.
       std::pair<double, Point<dim>> best(0., Point<dim>());
-      for (const auto &point : points)
-        {
-          const double depth = obstacle.depth(position(point));
-          if (depth > best.first)
-            best = {depth, position(point)};
-        }
+      for (const Point<dim> &place : places)
+        if (const double depth = obstacle.depth(place); depth > best.first)
+          best = {depth, place};
       return best;
-    }
-
-    /** What contact needs of the points. */
-    template <int dim>
-    std::vector<typename ObstacleContact<dim>::BoundaryPoint>
-    boundary_points_of(const LoadedPoints<dim> &points)
-    {
-      std::vector<typename ObstacleContact<dim>::BoundaryPoint> list;
-      for (const auto &point : points.points)
-        list.push_back({point.x, point.area.norm()});
-      return list;
     }
 
 
@@ -251,16 +226,6 @@ namespace Morula
                           thickness_of(keys, dim)});
       }
 
-      SurfaceCondition
-      kind() const override
-      {
-        return SurfaceCondition::loaded;
-      }
-      bool
-      acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
-      {
-        return true;
-      }
       /** @throws StepFailed if an obstacle moves too far in the step */
       std::unique_ptr<Term<dim>>
       term(const LoadedPoints<dim> &points, const double t) const override
@@ -273,7 +238,10 @@ namespace Morula
         // meets. A surface that begins deeper than that may be pushed out on
         // the wrong side of a thin body. The depth is that of this rank's
         // points, so the caller makes a failure known to all ranks.
-        const double                                         h = points.h;
+        const double            h = points.h;
+        std::vector<Point<dim>> places;
+        for (const auto &point : points.points)
+          places.push_back(point.x);
         std::vector<typename ObstacleContact<dim>::Obstacle> obstacles;
         for (const Obstacle &obstacle : list)
           {
@@ -289,11 +257,9 @@ namespace Morula
               }
             const auto before = obstacle.at(points.time, points);
             if (step > 0.5 * obstacle.thickness &&
-                std::any_of(points.points.begin(),
-                            points.points.end(),
-                            [&](const auto &point) {
-                              return before.depth(point.x) > -step;
-                            }))
+                std::any_of(places.begin(), places.end(), [&](const auto &x) {
+                  return before.depth(x) > -step;
+                }))
               {
                 text << "the obstacle '" << obstacle.name << "' moves by "
                      << step
@@ -301,10 +267,7 @@ namespace Morula
                         "could pass the surface unnoticed";
                 throw StepFailed(text.str());
               }
-            const auto [depth, place] =
-              deepest<dim>(obstacles.back(),
-                           points.points,
-                           [](const auto &point) { return point.x; });
+            const auto [depth, place] = deepest<dim>(obstacles.back(), places);
             if (depth > h)
               {
                 text << "the surface at (" << place << ") um is " << depth
@@ -313,8 +276,8 @@ namespace Morula
                 throw StepFailed(text.str());
               }
           }
-        return std::make_unique<ObstacleContact<dim>>(
-          points, boundary_points_of(points), std::move(obstacles));
+        return std::make_unique<ObstacleContact<dim>>(points,
+                                                      std::move(obstacles));
       }
       /** One part for each obstacle. */
       std::vector<typename BoundaryCondition<dim>::Part>
@@ -325,9 +288,7 @@ namespace Morula
         for (const Obstacle &obstacle : list)
           parts.push_back({obstacle.name,
                            std::make_unique<ObstacleContact<dim>>(
-                             points,
-                             boundary_points_of(points),
-                             Bodies{obstacle.at(t, points)}),
+                             points, Bodies{obstacle.at(t, points)}),
                            true});
         return parts;
       }
@@ -346,8 +307,7 @@ namespace Morula
             obstacle.way(scene.keys.time.end_time);
             const auto [depth, place] = deepest<dim>(
               {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
-              scene.boundary_points,
-              [](const Point<dim> &X) { return X; });
+              scene.boundary_points);
             // The surface may begin a little inside, and the contact pushes it
             // out in the first step. Half a spacing leaves room below the whole
             // one that term() refuses.

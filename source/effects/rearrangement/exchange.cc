@@ -75,13 +75,6 @@ namespace Morula
   }
 
 
-  AdhesionEnergy::AdhesionEnergy(const TypeTensions &tensions,
-                                 const double        temperature)
-    : tensions(tensions)
-    , temperature(temperature)
-  {}
-
-
   double
   AdhesionEnergy::change(const Places                &places,
                          const std::vector<Occupant> &occupants,
@@ -212,14 +205,6 @@ namespace Morula
     done[&attempt - list.data()] = true;
     --left;
     return accepted;
-  }
-
-
-  void
-  ExchangeRounds::run_in_order()
-  {
-    for (const Attempt &attempt : list)
-      run(attempt);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/particles/point_exchange.h>
@@ -30,7 +31,6 @@ namespace Morula
 
     /** What ranks tell each other of a cell at its place: key, type, D, f, free
      *  surface, rank and number. */
-    template <int dim>
     using Told = std::tuple<std::uint64_t,
                             unsigned int,
                             double,
@@ -45,49 +45,14 @@ namespace Morula
       types::particle_index place, other; // ids
       double                area, distance;
     };
-
-    template <int dim>
-    Told<dim>
-    told_of(const Occupant &cell, const double free)
-    {
-      Tensor<1, 3> drive;
-      for (unsigned int d = 0; d < 3; ++d)
-        drive[d] = cell.drive[d];
-      return Told<dim>(cell.key,
-                       cell.type,
-                       cell.diffusion,
-                       drive,
-                       free,
-                       cell.rank,
-                       cell.number);
-    }
-
-    template <int dim>
-    void
-    add_place(const Told<dim>  &told,
-              const Point<dim> &x,
-              const bool        own,
-              PlacesOfTissue   &around)
-    {
-      const auto &[key, type, D, f, free, rank, number] = told;
-      Occupant cell{key, type, D, {{f[0], f[1], f[2]}}, rank, number};
-      around.occupants.push_back(cell);
-      around.places.keys.push_back(key);
-      std::array<double, 3> place = {{0., 0., 0.}};
-      for (unsigned int d = 0; d < dim; ++d)
-        place[d] = x[d];
-      around.places.positions.push_back(place);
-      around.places.free.push_back(free);
-      around.places.own.push_back(own);
-    }
   } // namespace
 
 
   template <int dim>
-  PlacesOfTissue
-  places_of(const Tissue<dim>           &tissue,
-            const std::vector<Occupant> &cells,
-            NeighbourSearch              search)
+  Places
+  places_of(const Tissue<dim>     &tissue,
+            std::vector<Occupant> &cells,
+            NeighbourSearch        search)
   {
     // First each rank finds the edges of its own places. Then it gets the
     // places of others around, and asks their owners for the edges of these:
@@ -95,11 +60,17 @@ namespace Morula
     // is not known here is left out: no event here can feel it.
     const MPI_Comm            comm = tissue.communicator();
     const std::vector<double> free = free_surfaces(tissue);
-    PointList<dim>            list(Flat<Told<dim>>::n);
+    PointList<dim>            list(Flat<Told>::n);
     for (unsigned int p = 0; p < cells.size(); ++p)
       list.add_value(tissue.cells().id(p),
                      tissue.cells().position(p),
-                     told_of<dim>(cells[p], free[p]));
+                     Told(cells[p].key,
+                          cells[p].type,
+                          cells[p].diffusion,
+                          cells[p].drive,
+                          free[p],
+                          cells[p].rank,
+                          cells[p].number));
     search.least_part               = least_part;
     const NeighbourGraph<dim> graph = neighbours(tissue, list, search);
     const double              a     = graph.spacing;
@@ -107,20 +78,26 @@ namespace Morula
       halo(list, tissue.grid(), n_edges * graph.longest);
 
     const std::array<const PointList<dim> *, 2> parts = {{&list, &ghosts}};
-    PlacesOfTissue                              around;
+    const std::size_t                           n_own = cells.size();
+    Places                                      around;
     std::map<unsigned int, std::vector<unsigned int>> wanted; // by rank
     for (const PointList<dim> *part : parts)
       for (std::size_t i = 0; i < part->size(); ++i)
         {
-          add_place<dim>(part->template value<Told<dim>>(i),
-                         part->positions[i],
-                         part == &list,
-                         around);
-          const Occupant &cell = around.occupants.back();
-          if (part == &ghosts)
-            wanted[cell.rank].push_back(cell.number);
+          const auto [key, type, D, f, free_area, rank, number] =
+            part->template value<Told>(i);
+          around.keys.push_back(key);
+          around.positions.emplace_back();
+          for (unsigned int d = 0; d < dim; ++d)
+            around.positions.back()[d] = part->positions[i][d];
+          around.free.push_back(free_area);
+          around.own.push_back(part == &list);
+          if (part == &list)
+            continue;
+          cells.push_back({key, type, D, f, rank, number});
+          wanted[rank].push_back(number);
         }
-    around.listeners.resize(cells.size());
+    around.listeners.resize(n_own);
     std::map<unsigned int, std::vector<EdgeRecord>> edges_to;
     for (const auto &[rank, numbers] : send_records(wanted, comm))
       for (const unsigned int p : numbers)
@@ -132,7 +109,7 @@ namespace Morula
           });
         }
     std::vector<EdgeRecord> edges;
-    for (unsigned int p = 0; p < cells.size(); ++p)
+    for (unsigned int p = 0; p < n_own; ++p)
       graph.for_neighbours(p, [&](const auto &e) {
         edges.push_back(
           {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
@@ -144,7 +121,7 @@ namespace Morula
     for (const PointList<dim> *part : parts)
       for (const auto id : part->ids)
         place_of.emplace(id, place_of.size());
-    std::vector<std::vector<Places::Edge>> of_place(around.places.size());
+    std::vector<std::vector<Places::Edge>> of_place(around.size());
     const double                           V = std::pow(a, dim);
     const double cap = largest_ratio * std::pow(a, dim - 2);
     for (const EdgeRecord &edge : edges)
@@ -153,21 +130,19 @@ namespace Morula
           {other->second,
            edge.area,
            std::min(edge.area / edge.distance, cap) / V});
-    around.places.offsets.push_back(0);
+    around.offsets.push_back(0);
     for (const auto &of_one : of_place)
       {
-        around.places.edges.insert(around.places.edges.end(),
-                                   of_one.begin(),
-                                   of_one.end());
-        around.places.offsets.push_back(around.places.edges.size());
+        around.edges.insert(around.edges.end(), of_one.begin(), of_one.end());
+        around.offsets.push_back(around.edges.size());
       }
-    around.places.sort_edges();
+    around.sort_edges();
     return around;
   }
 
 
   void
-  run(ExchangeRounds &rounds, const PlacesOfTissue &around, const MPI_Comm comm)
+  run(ExchangeRounds &rounds, const Places &places, const MPI_Comm comm)
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       {
@@ -177,13 +152,13 @@ namespace Morula
     // After each round the ranks tell each other what they have run. The owner
     // of a place knows who listens to it.
     std::unordered_map<std::uint64_t, unsigned int> own;
-    for (unsigned int p = 0; p < around.listeners.size(); ++p)
-      own[around.places.keys[p]] = p;
+    for (unsigned int p = 0; p < places.listeners.size(); ++p)
+      own[places.keys[p]] = p;
     while (Utilities::MPI::sum(rounds.n_left(), comm) > 0)
       {
         std::map<unsigned int, std::vector<ExchangeResult>> results_to;
         for (const ExchangeResult &result : rounds.run_round())
-          for (const unsigned int rank : around.listeners[own.at(result.p)])
+          for (const unsigned int rank : places.listeners[own.at(result.p)])
             results_to[rank].push_back(result);
         for (const auto &[rank, results] : send_records(results_to, comm))
           for (const ExchangeResult &result : results)
@@ -192,8 +167,5 @@ namespace Morula
   }
 
 
-  template PlacesOfTissue
-  places_of(const Tissue<2> &, const std::vector<Occupant> &, NeighbourSearch);
-  template PlacesOfTissue
-  places_of(const Tissue<3> &, const std::vector<Occupant> &, NeighbourSearch);
+  MORULA_INSTANTIATE(places_of);
 } // namespace Morula

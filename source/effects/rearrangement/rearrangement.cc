@@ -197,9 +197,8 @@ namespace Morula
         std::vector<Occupant> cells;
         everywhere(tissue.communicator(),
                    [&]() { cells = cells_of(tissue, moment.reader); });
-        const PlacesOfTissue around = places_of(tissue, cells, neighbours);
-        tell(
-          moment, around.places, around.occupants, 0., tissue.communicator());
+        const Places places = places_of(tissue, cells, neighbours);
+        tell(moment, places, cells, 0., tissue.communicator());
       }
       void
       rearrange(Tissue<dim>            &tissue,
@@ -217,20 +216,18 @@ namespace Morula
         const CellColumns<dim>  &of_cell = tissue.cells().columns();
         std::vector<Occupant>    cells;
         everywhere(comm, [&]() { cells = cells_of(tissue, moment.reader); });
-        const PlacesOfTissue around = places_of(tissue, cells, neighbours);
-        ExchangeRounds       rounds(around.places,
-                              around.occupants,
-                              attempts(around.places,
-                                       around.occupants,
-                                       random_seed,
-                                       moment.t,
-                                       moment.dt),
-                              energy);
-        run(rounds, around, comm);
+        const std::size_t n_own  = cells.size();
+        const Places      places = places_of(tissue, cells, neighbours);
+        ExchangeRounds    rounds(
+          places,
+          cells,
+          attempts(places, cells, random_seed, moment.t, moment.dt),
+          energy);
+        run(rounds, places, comm);
 
         std::map<unsigned int, std::vector<double>> sent;
         double                                      n_exchanges = 0.;
-        for (unsigned int p = 0; p < cells.size(); ++p)
+        for (unsigned int p = 0; p < n_own; ++p)
           {
             const unsigned int n = rounds.n_exchanges()[p];
             n_exchanges += 0.5 * n;
@@ -273,7 +270,7 @@ namespace Morula
                            next[2 + dim + dim * dim + k]);
             }
         tissue.move(positions, tissue.boundary_points().positions());
-        tell(moment, around.places, rounds.occupants(), n_exchanges, comm);
+        tell(moment, places, rounds.occupants(), n_exchanges, comm);
         spread(tissue, moment);
       }
 
@@ -292,13 +289,14 @@ namespace Morula
             const bool is_dead =
               death_time.exists() && cell.cell().get(death_time) >= 0.;
             const Tensor<1, dim> f = cell.vector(drive, reader.time);
-            Occupant             one{cell.lineage_key(),
-                         cell.type(),
-                         is_dead ? 0. : cell.value(diffusion, reader.time),
-                                     {{f[0], f[1], dim == 3 ? f[dim - 1] : 0.}},
-                         rank,
-                         p};
-            list.push_back(one);
+            list.push_back({cell.lineage_key(),
+                            cell.type(),
+                            is_dead ? 0. : cell.value(diffusion, reader.time),
+                            {},
+                            rank,
+                            p});
+            for (unsigned int d = 0; d < dim; ++d)
+              list.back().drive[d] = f[d];
           }
         return list;
       }

@@ -7,8 +7,6 @@
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/effects/surface/boundary_terms.h>
 
-#include <deal.II/base/exceptions.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -120,140 +118,6 @@ namespace Morula
 
 
   template <int dim>
-  Tensor<1, dim>
-  BoundaryCondition<dim>::displacement(const Point<dim> &, const double) const
-  {
-    return Tensor<1, dim>();
-  }
-
-
-  template <int dim>
-  std::vector<typename BoundaryCondition<dim>::Part>
-  BoundaryCondition<dim>::parts(const LoadedPoints<dim> &points,
-                                const double             t) const
-  {
-    std::vector<Part> list;
-    if (auto whole = term(points, t))
-      list.push_back({"", std::move(whole)});
-    return list;
-  }
-
-
-  // Here, as a null pointer to an unknown class could not be deleted.
-  template <int dim>
-  std::unique_ptr<PartOfStep<dim>>
-  BoundaryCondition<dim>::part_of_step(const AttemptAtStep<dim> &) const
-  {
-    return nullptr;
-  }
-
-
-  template <int dim>
-  bool
-  BoundaryCondition<dim>::moves() const
-  {
-    // A load moves tissue from rest; what holds points does so only if it is
-    // prescribed to move.
-    return kind() == SurfaceCondition::loaded;
-  }
-
-
-  template <int dim>
-  BoundaryConditions<dim>::BoundaryConditions(
-    std::vector<Named> list, const NitscheParameters &parameters)
-    : list_(std::move(list))
-    , nitsche_(parameters)
-  {
-    // The kinds are numbered in the order in which they win, so sorting by kind
-    // puts the winner first. Conditions of one kind stay in the order in which
-    // they were added.
-    static_assert(SurfaceCondition::fixed < SurfaceCondition::slip &&
-                  SurfaceCondition::slip < SurfaceCondition::loaded);
-    std::stable_sort(list_.begin(),
-                     list_.end(),
-                     [](const Named &a, const Named &b) {
-                       return a.condition->kind() < b.condition->kind();
-                     });
-  }
-
-
-  template <int dim>
-  SurfaceCondition
-  BoundaryConditions<dim>::condition(const Point<dim>     &X,
-                                     const Tensor<1, dim> &N) const
-  {
-    const unsigned int k = winner(X, N);
-    return k < list_.size() ? list_[k].condition->kind() :
-                              SurfaceCondition::free;
-  }
-
-
-  template <int dim>
-  unsigned int
-  BoundaryConditions<dim>::winner(const Point<dim>     &X,
-                                  const Tensor<1, dim> &N) const
-  {
-    unsigned int k = 0;
-    while (k < list_.size() && !list_[k].condition->acts_on(X, N))
-      ++k;
-    return k;
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  BoundaryConditions<dim>::displacement(const Point<dim>     &X_seed,
-                                        const Tensor<1, dim> &N,
-                                        const Point<dim>     &X,
-                                        const double          t) const
-  {
-    // With one condition that fixes it is clear which one moves the point.
-    const bool only_one =
-      list_.size() < 2 || list_[1].condition->kind() != SurfaceCondition::fixed;
-    const unsigned int k = only_one ? 0 : winner(X_seed, N);
-    AssertIndexRange(k, list_.size());
-    return list_[k].condition->displacement(X, t);
-  }
-
-
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::alike(const BoundaryView<dim> &a,
-                                 const BoundaryView<dim> &b) const
-  {
-    // Points may merge if each condition acts on both or on neither:
-    // doc/theory.md, section 4.5.
-    return std::all_of(list_.begin(), list_.end(), [&](const Named &named) {
-      const auto acts_on = [&named](const BoundaryView<dim> &point) {
-        return named.condition->acts_on(point.seed_position(),
-                                        point.initial_normal());
-      };
-      return acts_on(a) == acts_on(b);
-    });
-  }
-
-
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::has(const SurfaceCondition kind) const
-  {
-    return std::any_of(list_.begin(), list_.end(), [kind](const Named &named) {
-      return named.condition->kind() == kind;
-    });
-  }
-
-
-  template <int dim>
-  bool
-  BoundaryConditions<dim>::has_pushing() const
-  {
-    return std::any_of(list_.begin(), list_.end(), [](const Named &named) {
-      return named.condition->only_pushes();
-    });
-  }
-
-
-  template <int dim>
   std::vector<std::unique_ptr<PartOfStep<dim>>>
   BoundaryConditions<dim>::parts_of_step(
     const AttemptAtStep<dim> &attempt) const
@@ -275,8 +139,6 @@ namespace Morula
   }
 
 
-  template class BoundaryCondition<2>;
-  template class BoundaryCondition<3>;
   template class BoundaryConditions<2>;
   template class BoundaryConditions<3>;
 } // namespace Morula

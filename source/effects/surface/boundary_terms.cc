@@ -14,19 +14,6 @@ namespace Morula
 {
   namespace
   {
-    /** Prescribed displacement of a fixed point at @p t, µm. */
-    template <int dim>
-    Tensor<1, dim>
-    displacement(const BoundaryConditions<dim> &conditions,
-                 const BoundaryView<dim>       &point,
-                 const double                   t)
-    {
-      return conditions.displacement(point.seed_position(),
-                                     point.initial_normal(),
-                                     point.initial_position(),
-                                     t);
-    }
-
     /** F_g at t and t + dt, and λ and μ. */
     template <int dim>
     using CellState =
@@ -100,7 +87,7 @@ namespace Morula
           // A slip point is held in its initial plane.
           Point<dim> target = X;
           if (point.condition() == SurfaceCondition::fixed)
-            target += displacement(conditions, point, t);
+            target += conditions.displacement(point, t);
           const Tensor<1, dim>             area = point.area_vector();
           typename Nitsche<dim>::HeldPoint of_term;
           of_term.projection        = projection(point);
@@ -229,10 +216,11 @@ namespace Morula
                                      stiffnesses[k],
                                      material.volumetric_form(),
                                      space.box().spacing());
-    return std::make_unique<BoundedNitsche<dim>>(
-      grouped_places(tissue.boundary_points(), space, held.groups),
-      std::move(held.list),
-      tractions);
+    return bounded_nitsche<dim>(grouped_places(tissue.boundary_points(),
+                                               space,
+                                               held.groups),
+                                std::move(held.list),
+                                tractions);
   }
 
   template <int dim>
@@ -313,8 +301,8 @@ namespace Morula
         if (point.condition() == SurfaceCondition::fixed)
           {
             const Point<dim> X = point.initial_position();
-            held.from = t == 0. ? X : X + displacement(conditions, point, t);
-            held.to   = X + displacement(conditions, point, t_next);
+            held.from = t == 0. ? X : X + conditions.displacement(point, t);
+            held.to   = X + conditions.displacement(point, t_next);
           }
         list.push_back(held);
       }

@@ -18,31 +18,23 @@ namespace Morula
 
       /** @throws InputError for expressions that cannot be parsed */
       explicit Fixed(const Parameters &parameters)
-        : PlacedCondition<dim>(SurfaceCondition::fixed, parameters)
-        , displacement_(parameters.displacement.expression(dim))
+        : PlacedCondition<dim>(SurfaceCondition::fixed,
+                               parameters,
+                               parameters.displacement,
+                               dim)
       {}
 
       Tensor<1, dim>
       displacement(const Point<dim> &X, const double t) const override
       {
-        return displacement_.vector(X, t);
+        return this->prescribed->vector(X, t);
       }
       bool
       moves() const override
       {
         // A clamp at rest does not move the tissue; one that is prescribed may.
-        return !displacement_.is_always(0., dim);
+        return !this->prescribed->is_always(0., dim);
       }
-
-    private:
-      void
-      check_at(const Point<dim> &X, const double t) const override
-      {
-        // To evaluate it is the check: an expression without a value throws.
-        displacement_.vector(X, t);
-      }
-
-      const Expression displacement_;
     };
   } // namespace
 

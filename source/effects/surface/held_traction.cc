@@ -10,6 +10,7 @@
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/plain_kernels.h>
+#include <morula/mechanics/point_term.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
@@ -29,6 +30,61 @@ namespace Morula
      *  spacings. A penalty that rises with the gap does not let squeezed tissue
      *  slip through a clamp that is soft at its edge. */
     constexpr double stiffening_gap = 0.2;
+
+    /** See bounded_nitsche(). */
+    template <int dim>
+    class BoundedNitsche : public PointTerm<dim>
+    {
+    public:
+      using HeldPoint = typename Nitsche<dim>::HeldPoint;
+
+      BoundedNitsche(GroupedPoints<dim>                 points,
+                     std::vector<HeldPoint>             held_points,
+                     const std::vector<Tensor<1, dim>> &tractions)
+        : PointTerm<dim>(std::move(points))
+        , held_points(std::move(held_points))
+        , tractions(tractions)
+      {}
+
+    private:
+      void
+      add_point(const unsigned int       p,
+                const SplineValues<dim> &splines,
+                const LocalField<dim>   &field,
+                LocalSystem<dim>        &system) const override
+      {
+        // These are energy, force and stiffness of doc/theory.md (4.6a). The
+        // deformation of the point does not enter, so there is nothing to be
+        // inverted.
+        const HeldPoint      &held = held_points[p];
+        const double          a_t = held.area, beta = held.penalty;
+        const Tensor<1, dim>  gap = held.gap_with(field, splines);
+        const Tensor<1, dim> &T   = tractions[p];
+        system.note_gap(gap.norm(), this->points.xi[p]);
+        const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
+        const double   more = std::pow(ratio, 4); // of the penalty, at this gap
+        Tensor<2, dim> stiffness = (1. + more) * held.projection;
+        if (more > 0.)
+          // This is the derivative of the penalty along the gap. At a gap of 0
+          // it vanishes, and the quotient has no value.
+          stiffness += 4. * more / gap.norm_square() * outer_product(gap, gap);
+        add_force_at(splines,
+                     a_t * (0.5 * beta * (1. + more / 3.) * gap.norm_square() -
+                            T * gap),
+                     a_t * (beta * (1. + more) * gap - T),
+                     a_t * beta * stiffness,
+                     system);
+        // The gap is the difference of two positions, whose rounding counts.
+        if (system.wanted == LocalSystem<dim>::rounding)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+              system.magnitude[i * BSpline<dim>::n + a] +=
+                a_t * beta * held.position_scale * splines.value[a];
+      }
+
+      const std::vector<HeldPoint>       held_points;
+      const std::vector<Tensor<1, dim>> &tractions;
+    };
 
     /** The largest change of the traction, relative to it, that needs no
      * further turn. The second limit is in units of Solver/Newton tolerance, so
@@ -313,50 +369,14 @@ namespace Morula
 
 
   template <int dim>
-  BoundedNitsche<dim>::BoundedNitsche(
-    GroupedPoints<dim>                 points,
-    std::vector<HeldPoint>             held_points,
-    const std::vector<Tensor<1, dim>> &tractions)
-    : PointTerm<dim>(std::move(points))
-    , held_points(std::move(held_points))
-    , tractions(tractions)
-  {}
-
-
-  template <int dim>
-  void
-  BoundedNitsche<dim>::add_point(const unsigned int       p,
-                                 const SplineValues<dim> &splines,
-                                 const LocalField<dim>   &field,
-                                 LocalSystem<dim>        &system) const
+  std::unique_ptr<Term<dim>>
+  bounded_nitsche(GroupedPoints<dim>                            points,
+                  std::vector<typename Nitsche<dim>::HeldPoint> held_points,
+                  const std::vector<Tensor<1, dim>>            &tractions)
   {
-    // These are energy, force and stiffness of doc/theory.md (4.6a). The
-    // deformation of the point does not enter, so there is nothing to be
-    // inverted.
-    const HeldPoint      &held = held_points[p];
-    const double          a_t = held.area, beta = held.penalty;
-    const Tensor<1, dim>  gap = held.gap_with(field, splines);
-    const Tensor<1, dim> &T   = tractions[p];
-    system.note_gap(gap.norm(), this->points.xi[p]);
-    const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
-    const double   more  = std::pow(ratio, 4); // of the penalty, at this gap
-    Tensor<2, dim> stiffness = (1. + more) * held.projection;
-    if (more > 0.)
-      // This is the derivative of the penalty along the gap. At a gap of 0 it
-      // vanishes, and the quotient has no value.
-      stiffness += 4. * more / gap.norm_square() * outer_product(gap, gap);
-    add_force_at(splines,
-                 a_t * (0.5 * beta * (1. + more / 3.) * gap.norm_square() -
-                        T * gap),
-                 a_t * (beta * (1. + more) * gap - T),
-                 a_t * beta * stiffness,
-                 system);
-    // The gap is the difference of two positions, whose rounding counts.
-    if (system.wanted == LocalSystem<dim>::rounding)
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          system.magnitude[i * BSpline<dim>::n + a] +=
-            a_t * beta * held.position_scale * splines.value[a];
+    return std::make_unique<BoundedNitsche<dim>>(std::move(points),
+                                                 std::move(held_points),
+                                                 tractions);
   }
 
 
@@ -369,8 +389,7 @@ namespace Morula
   }
 
 
-  template class BoundedNitsche<2>;
-  template class BoundedNitsche<3>;
+  MORULA_INSTANTIATE(bounded_nitsche);
   MORULA_INSTANTIATE(held_traction);
 
 } // namespace Morula

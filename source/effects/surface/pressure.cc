@@ -39,8 +39,10 @@ namespace Morula
 
       /** @throws InputError for expressions that cannot be parsed */
       explicit Pressure(const Parameters &parameters)
-        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-        , pressure(parameters.pressure.expression(dim))
+        : PlacedCondition<dim>(SurfaceCondition::loaded,
+                               parameters,
+                               parameters.pressure,
+                               1)
       {}
 
       std::unique_ptr<Term<dim>>
@@ -51,19 +53,10 @@ namespace Morula
           // whether it acts, its seed decides.
           points,
           this->template loads<AreaLoad<dim>>(points, [&](const auto &point) {
-            return AreaLoad<dim>{pressure.value(point.X, t), point.area};
+            return AreaLoad<dim>{this->prescribed->value(point.X, t),
+                                 point.area};
           }));
       }
-
-    private:
-      void
-      check_at(const Point<dim> &X, const double t) const override
-      {
-        // To evaluate it is the check: an expression without a value throws.
-        pressure.value(X, t);
-      }
-
-      const Expression pressure;
     };
   } // namespace
 

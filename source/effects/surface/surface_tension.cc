@@ -66,8 +66,10 @@ namespace Morula
 
       /** @throws InputError for expressions that cannot be parsed */
       explicit SurfaceTension(const Parameters &parameters)
-        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-        , tension(parameters.tension.expression(dim))
+        : PlacedCondition<dim>(SurfaceCondition::loaded,
+                               parameters,
+                               parameters.tension,
+                               1)
       {}
 
       bool
@@ -83,18 +85,10 @@ namespace Morula
         return surface_energy<dim>(
           points,
           this->template loads<AreaLoad<dim>>(points, [&](const auto &point) {
-            return AreaLoad<dim>{tension.value(point.X, t), point.area};
+            return AreaLoad<dim>{this->prescribed->value(point.X, t),
+                                 point.area};
           }));
       }
-
-    private:
-      void
-      check_at(const Point<dim> &X, const double t) const override
-      {
-        tension.value(X, t);
-      }
-
-      const Expression tension;
     };
   } // namespace
 

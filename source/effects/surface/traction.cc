@@ -41,8 +41,10 @@ namespace Morula
 
       /** @throws InputError for expressions that cannot be parsed */
       explicit Traction(const Parameters &parameters)
-        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-        , traction(parameters.traction.expression(dim))
+        : PlacedCondition<dim>(SurfaceCondition::loaded,
+                               parameters,
+                               parameters.traction,
+                               dim)
       {}
 
       std::unique_ptr<Term<dim>>
@@ -52,19 +54,9 @@ namespace Morula
           points,
           // The area is the initial one: a dead load.
           this->template loads<Tensor<1, dim>>(points, [&](const auto &point) {
-            return point.initial_area * traction.vector(point.X, t);
+            return point.initial_area * this->prescribed->vector(point.X, t);
           }));
       }
-
-    private:
-      void
-      check_at(const Point<dim> &X, const double t) const override
-      {
-        // To evaluate it is the check: an expression without a value throws.
-        traction.vector(X, t);
-      }
-
-      const Expression traction;
     };
   } // namespace
 

@@ -106,18 +106,8 @@ namespace Morula
           }
       }
 
-      SurfaceCondition
-      kind() const override
-      {
-        return SurfaceCondition::loaded;
-      }
       bool
       is_tension() const override
-      {
-        return true;
-      }
-      bool
-      acts_on(const Point<dim> &, const Tensor<1, dim> &) const override
       {
         return true;
       }

@@ -62,3 +62,28 @@ TEST(BodyForce, IsThatOfTheCellsState)
   settings[1] = "Body force/Force density=0; 0; 0";
   expect(settings, Tensor<1, 2>({driving, 0.}));
 }
+
+
+TEST(BodyForce, IsThatOfThePlaceAtTheEnd)
+{
+  const std::vector<Point<2>>    positions = {{3., 4.}, {53., 4.}};
+  const std::vector<double>      V0        = {100., 110.};
+  const std::vector<std::string> settings  = {
+    "Dimension=2", "Body force/Force density=-1e-3*(x - X); 0"};
+  std::mt19937           generator(3);
+  const GroupedPoints<2> points = random_points_in_cell<2>(generator, 2);
+  const LocalField<2>    field  = random_field<2>(generator, 0.3);
+  const Alone            alone(settings, positions);
+  const SceneEffects<2>  effects = effects_of<2>(scene_of(settings));
+  const auto             term    = effects.forces.at(0).effect->term(
+    alone.tissue, alone.development.reader(0.), points, 0., 0.5);
+  EXPECT_FALSE(term->is_conservative());
+  const auto forces = term->forces(0, field);
+  ASSERT_EQ(forces.size(), 2u);
+  for (unsigned int p = 0; p < 2; ++p)
+    {
+      const double u = field.value(SplineValues<2>(points.xi[p], points.h))[0];
+      EXPECT_NEAR(forces[p][0], -1e-3 * V0[p] * u, 1e-12);
+      EXPECT_EQ(forces[p][1], 0.);
+    }
+}

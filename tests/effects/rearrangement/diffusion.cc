@@ -84,8 +84,8 @@ namespace
                  PointList<dim>());
     std::vector<Occupant> cells;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      cells.push_back({tissue.cells().id(p) + 1, 0, D, {{0., 0., 0.}}, 0, p});
-    const Places all = places_of(tissue, cells).places;
+      cells.push_back({tissue.cells().id(p) + 1, 0, D, {}, 0, p});
+    const Places all = places_of(tissue, cells);
 
     std::vector<unsigned int> found(positions.size());
     for (unsigned int p = 0; p < all.size(); ++p)
@@ -115,9 +115,7 @@ namespace
    */
   template <int dim>
   Tensor<1, dim>
-  way(const std::array<double, 3> &x,
-      const std::array<double, 3> &y,
-      const double                 edge)
+  way(const Point<3> &x, const Point<3> &y, const double edge)
   {
     Tensor<1, dim> found;
     for (unsigned int d = 0; d < dim; ++d)

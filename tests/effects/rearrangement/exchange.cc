@@ -24,7 +24,7 @@ namespace
     for (unsigned int p = 0; p < n; ++p)
       {
         places.keys.push_back((p * 2654435761u) ^ 0x5bd1e995u);
-        places.positions.push_back({{0., 0., 0.}});
+        places.positions.push_back(Point<3>());
         places.free.push_back(0.);
         places.own.push_back(true);
         places.edges.insert(places.edges.end(),
@@ -41,7 +41,7 @@ namespace
   {
     std::vector<Occupant> list;
     for (unsigned int p = 0; p < places.size(); ++p)
-      list.push_back({places.keys[p], types[p], 1., {{0., 0., 0.}}, 0, p});
+      list.push_back({places.keys[p], types[p], 1., {}, 0, p});
     return list;
   }
 
@@ -58,7 +58,7 @@ namespace
         }
     Places places = places_of_pairs(n * n, pairs);
     for (unsigned int p = 0; p < n * n; ++p)
-      places.positions[p] = {{double(p % n), double(p / n), 0.}};
+      places.positions[p] = Point<3>(p % n, p / n, 0.);
     return places;
   }
 

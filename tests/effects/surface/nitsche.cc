@@ -42,10 +42,10 @@ namespace
         }
     }
 
-    BoundedNitsche<dim>
+    std::unique_ptr<Term<dim>>
     bounded() const
     {
-      return {points, held_points, tractions};
+      return bounded_nitsche<dim>(points, held_points, tractions);
     }
 
     /** The least that the energy of bounded() can be: -Σ a_t |T|²/(2β). */
@@ -218,7 +218,7 @@ TEST_2D_3D(BoundedNitsche, EnergyHasALowerBound)
         Tensor<1, dim> motion;
         motion[0]        = shift;
         const auto field = affine_field(motion, gradient, problem.points.h);
-        const TermOnOneCell<dim> on_cell(bounded, GrowthAt::current);
+        const TermOnOneCell<dim> on_cell(*bounded, GrowthAt::current);
         EXPECT_FALSE(
           on_cell.inverted(field, LocalSystem<dim>::energy_and_residual));
         EXPECT_GE(on_cell.energy(field), (1. + 1e-12) * problem.lower_bound());
@@ -237,7 +237,8 @@ TEST_2D_3D(BoundedNitsche, IsConvex)
 {
   std::mt19937       generator(3);
   const Problem<dim> problem(generator);
-  const auto         term  = problem.bounded();
+  const auto         whole = problem.bounded();
+  const Term<dim>   &term  = *whole;
   const auto         field = random_field<dim>(generator, 1.);
   const auto         way   = random_field<dim>(generator, 1.);
   const auto K = TermOnOneCell<dim>(term, GrowthAt::current).tangent(field);

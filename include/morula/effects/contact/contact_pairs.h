@@ -43,7 +43,10 @@ namespace Morula
     ContactPairs(const ContactPoints<dim> &points, const ContactLaw &law);
 
     const std::vector<UnknownLink> &
-    links() const override;
+    links() const override
+    {
+      return links_;
+    }
     void
     add_residual(const std::vector<double> &u, Sums &sums) const override;
     void

@@ -46,9 +46,12 @@ namespace Morula
      * @throws InputError if an expression has no value
      */
     virtual std::vector<double>
-    friction(const Tissue<dim>     &tissue,
-             const CellReader<dim> &reader,
-             const double           t0) const;
+    friction(const Tissue<dim> & /*tissue*/,
+             const CellReader<dim> & /*reader*/,
+             const double /*t0*/) const
+    {
+      return {};
+    }
 
     /** The load on a cell per V⁰ at time @p t (day), kPa/µm, if its own state
      *  tells that. For what is said before the run. @throws InputError */
@@ -66,15 +69,6 @@ namespace Morula
     }
   };
 
-
-  template <int dim>
-  std::vector<double>
-  Force<dim>::friction(const Tissue<dim> &,
-                       const CellReader<dim> &,
-                       const double) const
-  {
-    return {};
-  }
 } // namespace Morula
 
 #endif

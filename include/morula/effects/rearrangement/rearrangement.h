@@ -8,7 +8,9 @@
 #include <morula/particles/neighbours.h>
 #include <morula/particles/tissue.h>
 
-#include <array>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -24,7 +26,7 @@ namespace Morula
     /** D, µm²/day; 0: it keeps its place. */
     double diffusion;
     /** f, kPa µm^dim/µm. */
-    std::array<double, 3> drive;
+    Tensor<1, 3> drive;
     /** The rank of the cell, and its place there. */
     unsigned int rank, number;
   };
@@ -44,14 +46,16 @@ namespace Morula
     };
 
     /** Lineage keys of the cells that are there at the beginning. */
-    std::vector<std::uint64_t>         keys;
-    std::vector<std::array<double, 3>> positions; // µm
-    std::vector<double>                free;      // free surface, µm^(dim-1)
+    std::vector<std::uint64_t> keys;
+    std::vector<Point<3>>      positions; // µm
+    std::vector<double>        free;      // free surface, µm^(dim-1)
     /** Edges of place p: [offsets[p], offsets[p + 1]), by the others' keys. */
     std::vector<unsigned int> offsets;
     std::vector<Edge>         edges;
     /** Whether events of a place are run here, rather than told by others. */
     std::vector<bool> own;
+    /** Ranks that must be told of the events of an own place. */
+    std::vector<std::vector<unsigned int>> listeners;
 
     std::size_t
     size() const
@@ -70,7 +74,10 @@ namespace Morula
   {
   public:
     /** @param temperature T, kPa µm^dim */
-    AdhesionEnergy(const TypeTensions &tensions, const double temperature);
+    AdhesionEnergy(const TypeTensions &tensions, const double temperature)
+      : tensions(tensions)
+      , temperature(temperature)
+    {}
 
     /** ΔE if the cells at two neighbouring places change them. */
     double
@@ -154,7 +161,11 @@ namespace Morula
 
     /** Runs everything in the order of time; all places must be own. */
     void
-    run_in_order();
+    run_in_order()
+    {
+      for (const Attempt &attempt : list)
+        run(attempt);
+    }
 
     /** Runs those attempts of own places that can run now. */
     std::vector<ExchangeResult>
@@ -211,30 +222,21 @@ namespace Morula
     std::unordered_map<std::uint64_t, unsigned int> place_of;
   };
 
-  /** The places of a rank's cells, and those of others that its events can
-   *  feel: three edges around. */
-  struct PlacesOfTissue
-  {
-    /** Those of this rank's cells first, in their order. */
-    Places                places;
-    std::vector<Occupant> occupants;
-    /** Ranks that must be told of the events of an own place. */
-    std::vector<std::vector<unsigned int>> listeners;
-  };
-
-  /** @param cells  of this rank
-   *  @param search how far neighbours can be. Collective. */
+  /**
+   * The places of this rank's cells, in their order, and behind them those of
+   * others that its events can feel: three edges around. Collective.
+   * @param cells  of this rank; the others are added
+   * @param search how far neighbours can be
+   */
   template <int dim>
-  PlacesOfTissue
-  places_of(const Tissue<dim>           &tissue,
-            const std::vector<Occupant> &cells,
-            NeighbourSearch              search = {});
+  Places
+  places_of(const Tissue<dim>     &tissue,
+            std::vector<Occupant> &cells,
+            NeighbourSearch        search = {});
 
   /** Runs all attempts, on all ranks together. Collective. */
   void
-  run(ExchangeRounds       &rounds,
-      const PlacesOfTissue &around,
-      const MPI_Comm        comm);
+  run(ExchangeRounds &rounds, const Places &places, const MPI_Comm comm);
 
   /**
    * F of a cell that comes to a place: doc/theory.md (12.6). The place keeps

@@ -4,13 +4,14 @@
 #ifndef morula_effects_surface_boundary_condition_h
 #define morula_effects_surface_boundary_condition_h
 
-#include <morula/effects/effect.h>
+#include <morula/effects/part_of_step.h>
 #include <morula/mechanics/material_points.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/boundary_state.h>
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -50,11 +51,6 @@ namespace Morula
     double youngs_modulus = 0.;
   };
 
-  template <int dim>
-  class PartOfStep;
-  template <int dim>
-  struct AttemptAtStep;
-
   /**
    * A condition on the surface. It holds its points, in all directions or along
    * their normal, or it loads them by a term of its own. One Nitsche term does
@@ -70,7 +66,10 @@ namespace Morula
   public:
     /** What the condition does: fixed, slip or loaded. */
     virtual SurfaceCondition
-    kind() const = 0;
+    kind() const
+    {
+      return SurfaceCondition::loaded;
+    }
 
     /** Whether it is a tension: forces along a closed surface add up to none,
      *  so that neither their sum nor their size tells whether it acts. */
@@ -83,11 +82,17 @@ namespace Morula
     /** Whether it acts on the point with initial position @p X (µm) and initial
      *  outward unit normal @p N; asked at t = 0. */
     virtual bool
-    acts_on(const Point<dim> &X, const Tensor<1, dim> &N) const = 0;
+    acts_on(const Point<dim> & /*X*/, const Tensor<1, dim> & /*N*/) const
+    {
+      return true;
+    }
 
     /** Displacement at which a fixed point is held at @p t (day), µm. */
     virtual Tensor<1, dim>
-    displacement(const Point<dim> &X, const double t) const;
+    displacement(const Point<dim> & /*X*/, const double /*t*/) const
+    {
+      return Tensor<1, dim>();
+    }
 
     /** The term of a condition that loads, at the end @p t (day) of a step, for
      *  those of @p points on which it acts; null: it has none. Collective: all
@@ -111,13 +116,22 @@ namespace Morula
 
     /** The parts of a condition that loads, with terms as term() makes them. */
     virtual std::vector<Part>
-    parts(const LoadedPoints<dim> &points, const double t) const;
+    parts(const LoadedPoints<dim> &points, const double t) const
+    {
+      std::vector<Part> list;
+      if (auto whole = term(points, t))
+        list.push_back({"", std::move(whole)});
+      return list;
+    }
 
     /** The part that the condition as a whole has in an attempt at a step
      *  besides its terms, which may keep a reference to @p attempt; null: none.
      *  Collective. */
     virtual std::unique_ptr<PartOfStep<dim>>
-    part_of_step(const AttemptAtStep<dim> &attempt) const;
+    part_of_step(const AttemptAtStep<dim> & /*attempt*/) const
+    {
+      return nullptr;
+    }
 
     /** Refuses a surface at t = 0 on which it cannot act. The areas are those
      *  of the boundary points, µm^(dim-1). Collective. @throws InputError */
@@ -135,7 +149,12 @@ namespace Morula
 
     /** Whether tissue at rest would move: for the estimate of the time. */
     virtual bool
-    moves() const;
+    moves() const
+    {
+      // A load moves tissue from rest; what holds points does so only if it is
+      // prescribed to move.
+      return kind() == SurfaceCondition::loaded;
+    }
   };
 } // namespace Morula
 

@@ -62,23 +62,17 @@ namespace Morula
   void
   renew_carriers(Tissue<dim> &tissue);
 
+  /** Ids of the points' carriers. */
+  template <int dim>
+  std::vector<types::particle_index>
+  carriers(const std::vector<unsigned int> &points, const Tissue<dim> &tissue);
+
   /**
    * The values value(p) of the carriers of some boundary points, from those of
    * this rank's cells p; where a point has none, that of the nearest cell, or
    * the mean of several equally near ones. Collective.
    * @param points by their positions in the tissue's store
    */
-  template <int dim, typename Value>
-  auto
-  carrier_values(const std::vector<unsigned int> &points,
-                 const Tissue<dim>               &tissue,
-                 const Value                     &value);
-
-  /** Ids of the points' carriers. */
-  template <int dim>
-  std::vector<types::particle_index>
-  carriers(const std::vector<unsigned int> &points, const Tissue<dim> &tissue);
-
   template <int dim, typename Value>
   auto
   carrier_values(const std::vector<unsigned int> &points,

@@ -13,6 +13,7 @@
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/term.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ namespace Morula
      *  any penalty. */
     unsymmetric,
     /** The traction is constant while an equilibrium is found, and renewed
-     *  after it: BoundedNitsche. */
+     *  after it: bounded_nitsche(). */
     bounded
   };
 
@@ -131,28 +132,13 @@ namespace Morula
    * was found, and has another one found from there. g₀ is a fifth of the grid
    * spacing: far smaller gaps meet the penalty β alone, larger ones ever more,
    * so that tissue does not slip through a clamp that is soft at its edge.
+   * @param tractions M T of the points, kPa; a reference is kept
    */
   template <int dim>
-  class BoundedNitsche : public PointTerm<dim>
-  {
-  public:
-    using HeldPoint = typename Nitsche<dim>::HeldPoint;
-
-    /** @param tractions M T of the points, kPa; a reference is kept */
-    BoundedNitsche(GroupedPoints<dim>                 points,
-                   std::vector<HeldPoint>             held_points,
-                   const std::vector<Tensor<1, dim>> &tractions);
-
-  private:
-    void
-    add_point(const unsigned int       p,
-              const SplineValues<dim> &splines,
-              const LocalField<dim>   &field,
-              LocalSystem<dim>        &system) const override;
-
-    const std::vector<HeldPoint>       held_points;
-    const std::vector<Tensor<1, dim>> &tractions;
-  };
+  std::unique_ptr<Term<dim>>
+  bounded_nitsche(GroupedPoints<dim>                            points,
+                  std::vector<typename Nitsche<dim>::HeldPoint> held_points,
+                  const std::vector<Tensor<1, dim>>            &tractions);
 
   /** The keys of Nitsche's term, in section "Boundary conditions". */
   struct NitscheParameters : public Keys

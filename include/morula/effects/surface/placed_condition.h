@@ -8,6 +8,7 @@
 #include <morula/effects/effect.h>
 #include <morula/effects/surface/boundary_condition.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,11 +65,12 @@ namespace Morula
     check(const Preview<dim> &scene) const override
     {
       // Each point on which the condition acts is tried at both ends of the
-      // run.
+      // run. To evaluate is the check: an expression without a value throws.
       for (const Point<dim> &X : scene.boundary_points)
         if (holds(X))
           for (const double t : {0., scene.keys.time.end_time.value()})
-            check_at(X, t);
+            for (unsigned int c = 0; c < n_values; ++c)
+              prescribed->value(X, t, c);
     }
 
   protected:
@@ -78,10 +80,16 @@ namespace Morula
       , where(keys.where.expression(dim))
     {}
 
-    /** Refuses what the condition cannot do at a point @p X (µm) on which it
-     *  acts, at @p t (day). @throws InputError */
-    virtual void
-    check_at(const Point<dim> &, const double) const
+    /** With an expression of place and time of which the first @p n_values
+     *  components must have a value wherever the condition acts. */
+    PlacedCondition(const SurfaceCondition kind,
+                    const ConditionKeys   &keys,
+                    const ExpressionKey   &prescribed,
+                    const unsigned int     n_values)
+      : kind_(kind)
+      , where(keys.where.expression(dim))
+      , prescribed(prescribed.expression(dim))
+      , n_values(n_values)
     {}
 
     /** @p value of each point on which it acts, and Value() for the others. */
@@ -105,6 +113,12 @@ namespace Morula
 
     const SurfaceCondition kind_;
     const Expression       where;
+
+  protected:
+    const std::optional<Expression> prescribed;
+
+  private:
+    const unsigned int n_values = 0;
   };
 } // namespace Morula
 

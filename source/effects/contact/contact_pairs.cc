@@ -128,6 +128,28 @@ namespace Morula
 
 
   template <int dim>
+  std::optional<typename ContactPairs<dim>::Facing>
+  ContactPairs<dim>::facing(const std::size_t         k,
+                            const std::vector<State> &states) const
+  {
+    const auto &[b, c] = points.pairs()[k];
+    const State &one = states[b], &other = states[c];
+    if (one.n * other.n >= Parting<dim>::facing || !one.stands || !other.stands)
+      return {};
+    const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
+    const Tensor<1, dim> normal   = across / across.norm();
+    const Tensor<1, dim> distance = one.x - other.x;
+    return Facing{across,
+                  normal,
+                  -(across * distance),
+                  (distance - (normal * distance) * normal).norm(),
+                  ContactPoints<dim>::kernel *
+                    std::max(points.points()[b].spacing,
+                             points.points()[c].spacing)};
+  }
+
+
+  template <int dim>
   std::vector<typename ContactPairs<dim>::Pair>
   ContactPairs<dim>::pairs_at(const std::vector<State> &states,
                               const bool                first_contact) const
@@ -139,24 +161,16 @@ namespace Morula
     std::vector<Pair> list;
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
       {
+        const auto pair = facing(k, states);
+        if (!pair ||
+            pair->overlap >= ContactPoints<dim>::deepest_pair * law.h ||
+            pair->overlap <= -points.way())
+          continue;
         const auto &[b, c] = points.pairs()[k];
         const State &one = states[b], &other = states[c];
-        if (one.n * other.n >= Parting<dim>::facing || !one.stands ||
-            !other.stands)
-          continue;
-        const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
-        const Tensor<1, dim> distance = one.x - other.x;
-        const double         overlap  = -(across * distance);
-        if (overlap >= ContactPoints<dim>::deepest_pair * law.h ||
-            overlap <= -points.way())
-          continue;
-        const double         gap    = slacks[k] - overlap;
-        const Tensor<1, dim> normal = across / across.norm();
-        const double s = (distance - (normal * distance) * normal).norm();
-        const double r =
-          ContactPoints<dim>::kernel *
-          std::max(points.points()[b].spacing, points.points()[c].spacing);
-        const double weight = one.a * other.a * contact_kernel<dim>(s, r);
+        const double gap = slacks[k] - pair->overlap;
+        const double weight =
+          one.a * other.a * contact_kernel<dim>(pair->beside, pair->reach);
         if (weight <= 0.)
           continue;
         // The drag keeps frozen normals from letting a body spin: k_t of
@@ -169,8 +183,8 @@ namespace Morula
                         c,
                         weight,
                         gap,
-                        across,
-                        normal,
+                        pair->across,
+                        pair->normal,
                         one.u - other.u,
                         drag,
                         gap < 0. ? law.slow : 0.,
@@ -343,23 +357,10 @@ namespace Morula
     // brings points together that were too far apart at t.
     const double deep = crossing * ContactPoints<dim>::deepest_pair * law.h;
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
-      {
-        const auto &[b, c] = points.pairs()[k];
-        if (now[b].n * now[c].n >= Parting<dim>::facing || !now[b].stands ||
-            !now[c].stands)
-          continue;
-        const Tensor<1, dim> across   = 0.5 * (now[c].n - now[b].n);
-        const Tensor<1, dim> distance = now[b].x - now[c].x;
-        const Tensor<1, dim> normal   = across / across.norm();
-        const double         overlap  = -(across * distance);
-        const double s = (distance - (normal * distance) * normal).norm();
-        if (overlap > deep + std::max(0., -first_gaps[k]) &&
-            overlap > result.crossed &&
-            s <
-              ContactPoints<dim>::kernel * std::max(points.points()[b].spacing,
-                                                    points.points()[c].spacing))
-          result.crossed = overlap;
-      }
+      if (const auto pair = facing(k, now);
+          pair && pair->overlap > deep + std::max(0., -first_gaps[k]) &&
+          pair->overlap > result.crossed && pair->beside < pair->reach)
+        result.crossed = pair->overlap;
     return result;
   }
 

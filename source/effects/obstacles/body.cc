@@ -20,43 +20,25 @@ namespace Morula
     }
 
     template <int dim>
-    class Plane : public Body<dim>
+    Body<dim>
+    plane_body(const Point<dim> &point, const Tensor<1, dim> &normal)
     {
-    public:
-      Plane(const Point<dim> &point, const Tensor<1, dim> &normal)
-        : point(point)
-        , normal(normal)
-      {}
-
-      Distance<dim>
-      distance(const Point<dim> &x) const override
-      {
-        // A plane does not curve, so the second term of the tangent (4.8e) is
-        // zero.
+      // A plane does not curve, so the second term of the tangent (4.8e) is
+      // zero.
+      return [=](const Point<dim> &x) -> Distance<dim> {
         return {normal * (x - point), normal, Tensor<2, dim>()};
-      }
+      };
+    }
 
-    private:
-      const Point<dim>     point;
-      const Tensor<1, dim> normal;
-    };
-
-    /** A sphere, or a cylinder if a direction does not count. */
+    /** A sphere, or a cylinder if a direction does not count.
+     *  @param across projection onto the directions that count */
     template <int dim>
-    class Round : public Body<dim>
+    Body<dim>
+    round_body(const Point<dim>     &center,
+               const double          radius,
+               const Tensor<2, dim> &across)
     {
-    public:
-      Round(const Point<dim>     &center,
-            const double          radius,
-            const Tensor<2, dim> &across)
-        : center(center)
-        , radius(radius)
-        , across(across)
-      {}
-
-      Distance<dim>
-      distance(const Point<dim> &x) const override
-      {
+      return [=](const Point<dim> &x) {
         // The distance of a sphere is |x - c| - r, and its second derivative is
         // (P - n⊗n)/|x - c|. P is the identity for a sphere. For a cylinder P
         // removes the part along its axis, so that the same formulas give the
@@ -75,26 +57,14 @@ namespace Morula
               length;
           }
         return result;
-      }
-
-    private:
-      const Point<dim>     center;
-      const double         radius;
-      const Tensor<2, dim> across; // projection onto the directions that count
-    };
+      };
+    }
 
     template <int dim>
-    class Box : public Body<dim>
+    Body<dim>
+    box_body(const Point<dim> &center, const Point<dim> &size)
     {
-    public:
-      Box(const Point<dim> &center, const Point<dim> &size)
-        : center(center)
-        , size(size)
-      {}
-
-      Distance<dim>
-      distance(const Point<dim> &x) const override
-      {
+      return [=](const Point<dim> &x) {
         // One pass over the directions finds both distances that the place may
         // need. q is how far x is beyond the pair of faces across direction d,
         // and negative between them. The largest q belongs to the nearest face
@@ -132,34 +102,22 @@ namespace Morula
           if (beyond[d] != 0.)
             result.curvature[d][d] += 1. / result.value;
         return result;
-      }
+      };
+    }
 
-    private:
-      const Point<dim> center, size;
-    };
-
-    /** The inside of a closed surface of triangles. */
-    class MeshBody : public Body<3>
+    /** The inside of a closed surface of triangles.
+     *  @param origin of the file's coordinates */
+    Body<3>
+    mesh_body(const Point<3> &origin, const Key<std::string> &file)
     {
-    public:
-      MeshBody(const Point<3> &origin, const Key<std::string> &file)
-        : origin(origin)
-        , mesh(file.path(), file)
-      {}
-
-      Distance<3>
-      distance(const Point<3> &x) const override
-      {
-        // The tree of triangles is in the file's coordinates, so the place
-        // moves instead of the mesh.
-        const NearestPoint nearest = mesh.nearest(Point<3>(x - origin));
+      // The tree of triangles is in the file's coordinates, so the place moves
+      // instead of the mesh.
+      const auto mesh = std::make_shared<const SurfaceMesh>(file.path(), file);
+      return [=](const Point<3> &x) -> Distance<3> {
+        const NearestPoint nearest = mesh->nearest(Point<3>(x - origin));
         return {nearest.distance, nearest.direction, nearest.curvature};
-      }
-
-    private:
-      const Point<3>    origin; // of the file's coordinates
-      const SurfaceMesh mesh;
-    };
+      };
+    }
 
     template <int dim>
     Point<dim>
@@ -207,7 +165,7 @@ namespace Morula
 
 
   template <int dim>
-  std::unique_ptr<const Body<dim>>
+  Body<dim>
   make_body(const ObstacleKeys &keys)
   {
     // Each shape reads the keys that describe it, and refuses a value only if
@@ -217,14 +175,11 @@ namespace Morula
     const Point<dim>  center = place<dim>(keys.center);
     const std::string shape  = keys.shape;
     if (shape == "plane")
-      return std::make_unique<Plane<dim>>(center,
-                                          direction<dim>(keys.normal, shape));
+      return plane_body<dim>(center, direction<dim>(keys.normal, shape));
     if (shape == "sphere")
-      return std::make_unique<Round<dim>>(center,
-                                          positive_radius(keys),
-                                          identity<dim>());
+      return round_body<dim>(center, positive_radius(keys), identity<dim>());
     if (shape == "box")
-      return std::make_unique<Box<dim>>(center, positive_size<dim>(keys));
+      return box_body<dim>(center, positive_size<dim>(keys));
     if (shape.empty())
       keys.shape.refuse("plane, sphere, cylinder, box or mesh",
                         "Say what the obstacle is.");
@@ -234,7 +189,7 @@ namespace Morula
           if (keys.surface_mesh->empty())
             keys.surface_mesh.refuse("a file, as Shape = mesh",
                                      "Name the file, or choose another Shape.");
-          return std::make_unique<MeshBody>(center, keys.surface_mesh);
+          return mesh_body(center, keys.surface_mesh);
         }
     if (dim == 2)
       keys.shape.refuse("plane, sphere or box in 2-D",
@@ -242,10 +197,9 @@ namespace Morula
     // A cylinder is a sphere for which the way along the axis does not count.
     // The tensor I - a⊗a projects onto the rest.
     const Tensor<1, dim> axis = direction<dim>(keys.axis, shape);
-    return std::make_unique<Round<dim>>(center,
-                                        positive_radius(keys),
-                                        identity<dim>() -
-                                          outer_product(axis, axis));
+    return round_body<dim>(center,
+                           positive_radius(keys),
+                           identity<dim>() - outer_product(axis, axis));
   }
 
 

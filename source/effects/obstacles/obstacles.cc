@@ -105,7 +105,7 @@ namespace Morula
         double
         depth(const Point<dim> &x) const
         {
-          const double distance = body->distance(x - way).value;
+          const double distance = (*body)(x - way).value;
           return is_mould ? distance : -distance;
         }
       };
@@ -134,7 +134,7 @@ namespace Morula
             // For a mould, φ of doc/theory.md (4.8d) is minus the distance to
             // the body. Energy, force and tangent are all even in φ, so the
             // sign matters only to which points are in contact.
-            const Distance<dim> phi = obstacle.body->distance(x - obstacle.way);
+            const Distance<dim> phi = (*obstacle.body)(x - obstacle.way);
             if (obstacle.is_mould ? phi.value <= 0. : phi.value >= 0.)
               continue;
             const double k =
@@ -306,7 +306,7 @@ namespace Morula
             // some time, before any work is done.
             obstacle.way(scene.keys.time.end_time);
             const auto [depth, place] = deepest<dim>(
-              {obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.},
+              {&obstacle.body, obstacle.is_mould, Tensor<1, dim>(), 0.},
               scene.boundary_points);
             // The surface may begin a little inside, and the contact pushes it
             // out in the first step. Half a spacing leaves room below the whole
@@ -334,7 +334,7 @@ namespace Morula
             // Only boundary points feel an obstacle, so cells may stand in one
             // that is wholly inside of the tissue.
             const typename ObstacleContact<dim>::Obstacle at_start{
-              obstacle.body.get(), obstacle.is_mould, Tensor<1, dim>(), 0.};
+              &obstacle.body, obstacle.is_mould, Tensor<1, dim>(), 0.};
             unsigned int n_cells = 0, n_points = 0;
             for (const Point<dim> &X : scene.founders)
               n_cells += at_start.depth(X) > 0.;
@@ -356,13 +356,13 @@ namespace Morula
     private:
       struct Obstacle
       {
-        std::string                      name;
-        bool                             is_mould;
-        std::unique_ptr<const Body<dim>> body;
-        double                           stiffness; // κ h / E
-        Expression                       velocity;  // µm/day
-        std::string                      mesh_key; // that names the mesh's file
-        std::string                      mesh;     // empty without one
+        std::string name;
+        bool        is_mould;
+        Body<dim>   body;
+        double      stiffness; // κ h / E
+        Expression  velocity;  // µm/day
+        std::string mesh_key;  // that names the mesh's file
+        std::string mesh;      // empty without one
         /** The least thickness of the body, µm; infinite if it has none. */
         double thickness;
 
@@ -396,7 +396,7 @@ namespace Morula
         typename ObstacleContact<dim>::Obstacle
         at(const double t, const LoadedPoints<dim> &points) const
         {
-          return {body.get(),
+          return {&body,
                   is_mould,
                   way(t),
                   stiffness * points.youngs_modulus / points.h};

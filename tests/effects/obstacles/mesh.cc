@@ -49,8 +49,8 @@ TEST(MeshBody, ABrickIsTheBox)
   for (unsigned int i = 0; i < 2000; ++i)
     {
       const Point<3>    x = Point<3>(3., 4., 5.) + random_place(generator, 25.);
-      const Distance<3> expected = exact->distance(x);
-      const Distance<3> found    = mesh->distance(x);
+      const Distance<3> expected = exact(x);
+      const Distance<3> found    = mesh(x);
       EXPECT_NEAR(found.value, expected.value, 1e-9);
       EXPECT_LT((found.gradient - expected.gradient).norm(), 1e-9);
       EXPECT_LT((found.curvature - expected.curvature).norm(), 1e-9);
@@ -69,7 +69,7 @@ TEST(MeshBody, ItsSurfaceHasANormal)
   for (const double y : {-3., 0., 7.})
     {
       // 0: on the edge between the two triangles of the face
-      const Distance<3> at = mesh->distance(Point<3>(15., y, 0.));
+      const Distance<3> at = mesh(Point<3>(15., y, 0.));
       EXPECT_NEAR(at.value, 0., 1e-12);
       EXPECT_LT((at.gradient - Tensor<1, 3>({1., 0., 0.})).norm(), 1e-12);
       EXPECT_EQ(at.curvature.norm(), 0.);

@@ -19,7 +19,7 @@ namespace
   }
 
   template <int dim>
-  std::unique_ptr<const Body<dim>>
+  Body<dim>
   body(const Values &values)
   {
     return make_body<dim>(one_obstacle(values));
@@ -81,14 +81,14 @@ TEST_2D_3D(Body, GradientAndCurvatureAreDerivatives)
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = std::uniform_real_distribution<double>(0., 50.)(generator);
-        const Distance<dim> here = at->distance(x);
+        const Distance<dim> here = at(x);
         EXPECT_NEAR(here.gradient.norm(), 1., 1e-12);
         for (unsigned int d = 0; d < dim; ++d)
           {
             Point<dim> left = x, right = x;
             left[d] -= eps;
             right[d] += eps;
-            const auto l = at->distance(left), r = at->distance(right);
+            const auto l = at(left), r = at(right);
             EXPECT_NEAR((r.value - l.value) / (2. * eps),
                         here.gradient[d],
                         1e-6);

@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -118,6 +119,20 @@ namespace Morula
       double         a;      // µm^(dim-1)
       bool           stands; // and has not toppled since t
     };
+
+    /** How the points of a candidate stand to each other. */
+    struct Facing
+    {
+      Tensor<1, dim> across;  // D
+      Tensor<1, dim> normal;  // m
+      double         overlap; // µm
+      double         beside;  // distance along the surface, µm
+      double         reach;   // of the kernel, µm
+    };
+
+    /** That of candidate number @p k, if its points face each other. */
+    std::optional<Facing>
+    facing(const std::size_t k, const std::vector<State> &states) const;
 
     std::vector<Tensor<1, dim>>
     displacements(const std::vector<double> &u) const;

@@ -11,7 +11,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -99,21 +99,14 @@ namespace Morula
     Tensor<2, dim> curvature;
   };
 
-  /** A rigid body at its place of t = 0. */
+  /** A rigid body at its place of t = 0: the distance of a place (µm) to its
+   *  surface. */
   template <int dim>
-  class Body
-  {
-  public:
-    virtual ~Body() = default;
-
-    /** Distance of @p x (µm) to the surface. */
-    virtual Distance<dim>
-    distance(const Point<dim> &x) const = 0;
-  };
+  using Body = std::function<Distance<dim>(const Point<dim> &)>;
 
   /** The body that the keys of an obstacle describe. @throws InputError */
   template <int dim>
-  std::unique_ptr<const Body<dim>>
+  Body<dim>
   make_body(const ObstacleKeys &keys);
 } // namespace Morula
 

@@ -3,6 +3,7 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/fields/fields.h>
+#include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/library_effects.h>

@@ -135,6 +135,66 @@ namespace Morula
     }
   };
 
+  /** Keys "Cell types/NAME/Tension/With surface". */
+  struct TypeSurfaceTensionParameters : public EffectKeys
+  {
+    /** γ_a0 by type, kPa µm. */
+    std::deque<Key<double>>  tensions;
+    std::vector<std::string> types;
+    /** Whether the tensions pull: `Tension/Force`. */
+    bool pulls = true;
+
+    bool
+    is_on() const override
+    {
+      return pulls && std::any_of(tensions.begin(),
+                                  tensions.end(),
+                                  [](const auto &key) { return key != 0.; });
+    }
+    EffectFacts
+    facts() const override
+    {
+      EffectFacts facts;
+      facts.topic = "surfaces of types";
+      return facts;
+    }
+    std::string
+    details() const override
+    {
+      std::string text;
+      for (unsigned int a = 0; a < tensions.size(); ++a)
+        text += "; " + types[a] + " " + tensions[a].text() + " kPa um";
+      return text;
+    }
+    void
+    declare_sections(const std::string &,
+                     const std::vector<std::string> &names) override
+    {
+      types = names;
+      // A type may be called "surface"; the tension with it has this path
+      // then.
+      if (std::find(names.begin(), names.end(), "surface") == names.end())
+        for (const std::string &name : names)
+          tensions.emplace_back(
+            "Cell types/" + name + "/Tension/With surface",
+            0.,
+            "Tension of the free surface where cells of this type are nearest. "
+            "Units: kPa um.");
+    }
+    void
+    see(const SceneKeys                    &scene,
+        const std::vector<ExpressionKey *> &of_cells) override;
+    using Keys::list;
+    KeyList
+    list() override
+    {
+      KeyList list;
+      for (Key<double> &key : tensions)
+        list.push_back(&key);
+      return list;
+    }
+  };
+
   /**
    * The fractions of the types of cells as fields on the splines of the grid,
    * lumped: φ_i = Σ V N_i [type] / Σ V N_i, doc/theory.md (12.1). At each place

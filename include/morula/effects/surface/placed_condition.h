@@ -5,7 +5,7 @@
 #define morula_effects_surface_placed_condition_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/effect.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/boundary_condition.h>
 
 #include <optional>

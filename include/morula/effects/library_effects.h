@@ -28,6 +28,7 @@ namespace Morula
   void
   add_division_rules(Choices<DivisionRule> &rules);
 
+  void
   add_rearrangement(Choices<StepEffect> &step_effects);
 
   void

@@ -44,6 +44,14 @@
   template <int dim>            \
   static void suite##_##name()
 
+/** First in a test of what more ranks would only do again. */
+#define ONE_RANK_IS_ENOUGH()     \
+  do                             \
+    {                            \
+      if (number_of_ranks() > 1) \
+        GTEST_SKIP();            \
+  } while (false)
+
 namespace Morula
 {
   inline unsigned int

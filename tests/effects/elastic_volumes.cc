@@ -1,4 +1,4 @@
-// ranks: 1 2
+// ranks: 1 3
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 

@@ -72,6 +72,8 @@ expect_tables(const BackgroundGrid<dim> &grid)
 
 TEST_2D_3D(BackgroundGrid, EnclosesTheTissueWithPadding)
 {
+  if (dim == 3)
+    ONE_RANK_IS_ENOUGH();
   BackgroundGrid<dim> grid(grid_parameters(), MPI_COMM_WORLD);
   const auto          first = index<dim>(-5, 2, -1);
   const auto          last  = index<dim>(4, 2, 9);

@@ -164,6 +164,7 @@ TEST_2D_3D(SplineSpace, ReproducesQuadraticsForAnyCut)
 // The weights of each spline in all active grid cells sum up to one.
 TEST_2D_3D(SplineSpace, PartitionOfUnity)
 {
+  ONE_RANK_IS_ENOUGH();
   for (unsigned int seed = 1; seed <= 6; ++seed)
     {
       SCOPED_TRACE("seed " + std::to_string(seed));
@@ -258,6 +259,7 @@ TEST_2D_3D(SplineSpace, PiecesMoveIndependently)
 // A body that is turned or mirrored has the same splines, turned or mirrored.
 TEST_2D_3D(SplineSpace, IsTheSameInAnyFrame)
 {
+  ONE_RANK_IS_ENOUGH();
   for (unsigned int seed = 1; seed <= 4; ++seed)
     {
       const auto points = random_body<dim>(seed);

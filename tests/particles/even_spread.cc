@@ -101,6 +101,8 @@ farthest(const Tissue<dim> &tissue)
 // and no farther; none leaves it. Two half steps are about a whole.
 TEST_2D_3D(EvenSpread, FillsTheBody)
 {
+  if (dim == 3)
+    ONE_RANK_IS_ENOUGH();
   Tissue<dim> tissue(grid_of_spacing(25.), with_growth<dim>(), MPI_COMM_WORLD);
   place(tissue, 0.2, 2.);
   const double before = middle_and_depth(tissue)[0] - 0.5 * edge;

@@ -170,9 +170,8 @@ pairs_across(const double distance, const bool has_surface)
 
 TEST(VoronoiFacets, HaveTheMeanDegreesOfPoissonPoints)
 {
-  // 48 π²/35 + 2 and 6; one rank is enough.
-  if (this_rank() > 0)
-    return;
+  ONE_RANK_IS_ENOUGH();
+  // 48 π²/35 + 2 and 6
   EXPECT_NEAR(mean_degree<3>(60000), 15.535, 0.06);
   EXPECT_NEAR(mean_degree<2>(60000), 6., 0.01);
 }

@@ -115,6 +115,8 @@ TEST_2D_3D(Tissue, LosesNoPointHoweverFarItMoves)
   unsigned int   seed = 10;
   for (const double distance : {0., 20., 260., -5000., 4800.})
     {
+      if (dim == 3 && std::abs(distance) > 1000.)
+        continue;
       SCOPED_TRACE("moved by " + std::to_string(distance));
       by[0]       = distance;
       by[dim - 1] = -0.5 * distance;
@@ -182,5 +184,7 @@ TEST_2D_3D(Tissue, ReplacesMothersByDaughters)
 
 TEST_2D_3D(Tissue, MakesItsGridAnewForDaughtersBeyondIt)
 {
+  if (dim == 3)
+    ONE_RANK_IS_ENOUGH();
   check_replacement<dim>(700.);
 }

@@ -115,6 +115,7 @@ struct JumpInABar
 
 TEST(UptakeOfAField, ErrorsOfAFrontFall)
 {
+  ONE_RANK_IS_ENOUGH();
   const double coarse = error_of_front(80.), fine = error_of_front(20.);
   EXPECT_LE(fine, 1e-3);
   EXPECT_GE(std::log(coarse / fine) / std::log(4.), 2.)
@@ -125,6 +126,7 @@ TEST(UptakeOfAField, ErrorsOfAFrontFall)
 // As much as is made, c^2 = 4, is used up everywhere. Iterations begin at 1.
 TEST(UptakeOfAField, UptakeByTheSquareOfTheField)
 {
+  ONE_RANK_IS_ENOUGH();
   run_field<2>({"Dimension=2",
                 "Time/End time=0.1",
                 "Fields/signal/Diffusion=100",
@@ -167,6 +169,7 @@ TEST(UptakeOfAField, WithoutDiffusionEachCellIsByItself)
 // that of one dimension: little, in less than a grid cell, and in more.
 TEST(UptakeOfAField, AJumpOfTheUptake)
 {
+  ONE_RANK_IS_ENOUGH();
   for (const double diffusion : {16., 160., 1600., 16000., 160000.})
     {
       std::vector<std::string> settings =

@@ -114,6 +114,7 @@ check_amounts(const std::vector<std::string> &settings,
 // missing.
 TEST(FieldsOfARun, ErrorsFallOnACutDisc)
 {
+  ONE_RANK_IS_ENOUGH();
   check_order<2>(false, 2., 6e-4);
   check_order<2>(true, 2.5, 2e-4);
 }

@@ -63,6 +63,7 @@ TEST(ConditionEstimate, AgreesWithADenseComputation)
 /** A chain fixed at both ends: 1 -+ cos(pi/(n+1)). */
 TEST(ConditionEstimate, AgreesWithAClosedForm)
 {
+  ONE_RANK_IS_ENOUGH();
   for (const unsigned int n : {10u, 100u, 1000u})
     {
       ChainProblem problem(n);

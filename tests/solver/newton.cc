@@ -123,6 +123,7 @@ TEST(Newton, TakesOnlyTheFirstTangentAtTheOldGrowth)
 
 TEST(Newton, KeepsACostlyTangentWhileTheResidualFalls)
 {
+  ONE_RANK_IS_ENOUGH();
   for (const std::string linear_solver : {"automatic", "direct"})
     for (const double skew : {0., 0.4})
       {
@@ -161,6 +162,7 @@ TEST(Newton, KeepsNoTangentWhoseStepWasShortened)
 // Too stiff a tangent: each iteration leaves 0.19 of the error.
 TEST(Newton, KeepsNoTangentInALongRow)
 {
+  ONE_RANK_IS_ENOUGH();
   ChainProblem problem = alike(
     n,
     [](double u) { return 0.5 * u * u - u; },
@@ -203,6 +205,7 @@ TEST(Newton, DoesNothingAtEquilibrium)
 // on until that is small as well, or the residual is nothing but rounding.
 TEST(Newton, GoesOnUntilTheUnknownsHaveConverged)
 {
+  ONE_RANK_IS_ENOUGH();
   const auto error = [](const double length, unsigned int &iterations) {
     ChainProblem problem  = hardening(0.);
     problem.scales.length = length;
@@ -262,6 +265,7 @@ TEST(Newton, GoesDownFromAHill)
 
 TEST(Newton, FailsWithoutASolution)
 {
+  ONE_RANK_IS_ENOUGH();
   // The energy has no minimum.
   ChainProblem endless = alike(
     n,
@@ -340,6 +344,7 @@ TEST(Newton, FailsWhereNoxGivesUp)
 // Downhill without end: the curvature is that of the diagonal itself.
 TEST(Newton, ReportsNegativeCurvature)
 {
+  ONE_RANK_IS_ENOUGH();
   ChainProblem problem = alike(
     n,
     [](double u) { return -std::exp(u); },

@@ -18,7 +18,8 @@ def keys_of(runs, cuts, dim=2):
     """The scene with these cuts, or none."""
     file = runs.write("cut.wkt" if dim == 2 else "cut.off", cuts) if cuts else ""
     sides = " || Z < 0.001 || Z > 19.999" if dim == 3 else ""
-    return {**SCENE, "Dimension": dim, "Tissue/Cuts": file,
+    coarse = {"Tissue/Cell spacing": 10 / 3} if dim == 3 else {}
+    return {**SCENE, **coarse, "Dimension": dim, "Tissue/Cuts": file,
             "Boundary conditions/Slip where": "Y < 0.001" + sides}
 
 

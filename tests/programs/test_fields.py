@@ -22,8 +22,8 @@ FIELDS = {"Fields/Names": "oxygen, signal", "Fields/oxygen/Diffusion": "1e5",
 
 
 def test_resumed_run_is_the_same(runs):
-    whole = runs.run("whole", SCENE, FIELDS, ranks=2)
-    assert_same_run(whole, runs.resumed("resumed", SCENE, FIELDS, 0.5, ranks=2))
+    whole = runs.run("whole", SCENE, FIELDS)
+    assert_same_run(whole, runs.resumed("resumed", SCENE, FIELDS, 0.5))
     cells = whole.cells(2)
     assert numpy.ptp(cells["oxygen"]) > 10
     assert numpy.ptp(cells["signal"]) > 0.05

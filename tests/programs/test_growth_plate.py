@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""prm/examples/growth-plate.prm, eight days of a narrow one: how fast the plate
+"""prm/examples/growth-plate.prm, six days of a narrow one: how fast the plate
 grows, and which part of that is hypertrophy."""
 import numpy
 
@@ -20,7 +20,7 @@ def between(cells, lower, upper):
 
 
 def test_numbers(runs):
-    run = runs.run("plate", SCENE, {"Tissue/Size": "200, 300", "Time/End time": 8,
+    run = runs.run("plate", SCENE, {"Tissue/Size": "100, 300", "Time/End time": 6,
                                     "Output/Formats": "csv"})
     steady = run.statistics[run.statistics["time"] > 2 - 1e-9]
     velocity = numpy.polyfit(steady["time"], steady["ymax"], 1)[0]

@@ -171,6 +171,7 @@ def test_runs_that_fail(runs, accuracy, table):
     assert len(table()) == 1
 
 
+@pytest.mark.release
 def test_executable_that_changes(runs, accuracy):
     """Runs of two builds must not be compared: those of the old one are done anew,
     and a build in mid-run ends the command."""

@@ -39,6 +39,9 @@ WARNED["hard/solver.prm"] = ["Tissue/Cell spacing", "Grid/Spacing"]
 WARNED["hard/pushed-body.prm"] = ["Boundary conditions"]
 
 # Only its own program knows its growth law: tests/steps runs it.
+# These take a second or more to seed; none of them deserves another warning.
+LARGE = ("showcase/cortex.prm", "verification/vortex-3d.prm", "paper/fig-2e.prm")
+
 SCENES = sorted({str(file.relative_to(ROOT / "prm"))
                  for file in (ROOT / "prm").rglob("*.prm")} - {"step-7.prm"})
 
@@ -100,7 +103,9 @@ def test_one_step(runs, name):
     assert all(numpy.isfinite(rows[column][-1]) for column in rows.dtype.names)
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [
+    pytest.param(name, marks=pytest.mark.release) if name in LARGE else name
+    for name in SCENES])
 def test_warnings(runs, name):
     """At full size, none but those that are deserved."""
     text = call(runs, name, {}, "--explain").stdout

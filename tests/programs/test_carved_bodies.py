@@ -14,8 +14,9 @@ DISCS = "\n".join(["x,y", *(f"{x + side * 45},{y}" for side in (-1, 1)
                            if x * x + y * y < 1250)])
 
 
-@pytest.mark.parametrize("ranks", [1, 2])
-@pytest.mark.parametrize("name", ["by type", "apart"])
+@pytest.mark.parametrize("name, ranks", [
+    ("by type", 1), pytest.param("by type", 2, marks=pytest.mark.release),
+    ("apart", 1), ("apart", 2)])
 def test_surface(runs, name, ranks):
     keys = dict(CARVED)
     if name == "by type":

@@ -6,6 +6,7 @@ and balls that press as elasticity says."""
 import math
 
 import numpy as np
+import pytest
 
 from tests.common.bodies import (annulus, block, blocks, circle, contact_rows, points_scene, press,
                                  rectangle)
@@ -145,6 +146,7 @@ def test_forces_balance(runs):
         assert abs(last[f"force_{axis}"]) < 1e-12 * last["force_inward"]
 
 
+@pytest.mark.release
 def test_two_balls_press_as_elasticity_says(runs):
     """Two balls between planes are two times one ball."""
     R, h, gap = 60, 10, 5

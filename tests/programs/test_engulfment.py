@@ -42,7 +42,7 @@ def state(run):
             numpy.linalg.norm(centers[1] - centers[0]) / run.number("Tissue/Radius"))
 
 
-@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("dim", [2, pytest.param(3, marks=pytest.mark.release)])
 def test_order_by_the_three_tensions(runs, dim):
     run = {case: runs.run(f"{dim}-{case[0]}-{case[1]}", keys_of(dim, case))
            for case in (ENGULF, SHARE, PART)}

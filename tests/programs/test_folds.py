@@ -259,6 +259,7 @@ def test_a_surface_that_snaps_into_folds(runs):
     assert most_crowded(alone.cells(16)) > 1.7
 
 
+@pytest.mark.release
 def test_a_snap_in_slow_steps(runs):
     """A drag holds a layer back for some steps, also in a resumed run."""
     scene = {**SNAP, "Time/End time": 0.45, "Tissue/Shape": "box", "Tissue/Size": "80, 60",

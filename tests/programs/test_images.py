@@ -85,12 +85,15 @@ def test_hollow_ball(runs, make, cells, dim, name, days):
 
 
 @pytest.mark.parametrize("name, array, voxel, count, said", [
-    ("u8", np.searchsorted(NUMBERS, SMALL).astype(np.uint8), V, N, ""),
-    ("i32", np.searchsorted(NUMBERS, SMALL).astype(np.int32) * 1000003, V, N, ""),
+    pytest.param("u8", np.searchsorted(NUMBERS, SMALL).astype(np.uint8), V, N, "",
+                 marks=pytest.mark.release),
+    pytest.param("i32", np.searchsorted(NUMBERS, SMALL).astype(np.int32) * 1000003, V, N, "",
+                 marks=pytest.mark.release),
     ("border", SMALL[:, :18], V, None, "touch the border"),
     ("slice", hollow_ball(2)[0][None], "0.5,0.5", 34, "one slice"),
     ("floats", SMALL.astype(np.float32), V, N, "but whole"),
-    ("negative", np.where(SMALL > 0, SMALL.astype(int), -1), V, N, "below 0"),
+    pytest.param("negative", np.where(SMALL > 0, SMALL.astype(int), -1), V, N, "below 0",
+                 marks=pytest.mark.release),
     ("mask", separate(), "1,1", 16, "16 parts"),
     ("lines", lined(), "1,1", 16, "--fill-gaps gives")],
     ids=lambda value: value if isinstance(value, str) else "")

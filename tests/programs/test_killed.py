@@ -137,7 +137,8 @@ def whole_of_dying(runs):
     return run
 
 
-@pytest.mark.parametrize("keys, fixture", [({}, "whole"), (DYING, "whole_of_dying")])
+@pytest.mark.parametrize("keys, fixture", [
+    pytest.param({}, "whole", marks=pytest.mark.release), (DYING, "whole_of_dying")])
 def test_at_random(runs, request, keys, fixture):
     """Five runs, killed at moments that are drawn, and resumed."""
     uninterrupted, chance, killed = request.getfixturevalue(fixture), random.Random(SEED), 0

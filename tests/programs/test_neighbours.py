@@ -4,6 +4,7 @@
 forms on a lattice, on one rank and on several; lateral inhibition; that
 scenes without them have nothing of it."""
 import numpy
+import pytest
 
 from tests.common.program import TESTS
 
@@ -52,14 +53,16 @@ def test_by_radius(runs):
     assert (cells["neighbours"][inside] == 8).all()
 
 
-def test_lateral_inhibition(runs):
+@pytest.mark.parametrize("size", [1000, pytest.param(2000, marks=pytest.mark.release)])
+def test_lateral_inhibition(runs, size):
     """Random sequential adsorption on the square lattice covers 0.3641 of it,
     whatever the rate times step; no two stand beside each other."""
     cells = runs.run("inhibition", INHIBITION, {
-        "Tissue/Size": "2000, 2000", "Output/Interval": 3, "Time/Step": 0.125,
+        "Tissue/Size": f"{size}, {size}", "Output/Interval": 3, "Time/Step": 0.125,
         "Time/End time": 3}).cells(1)
     senders = cells["type"] == 1
-    inside = (abs(cells["x"]) < 950) & (abs(cells["y"]) < 950)
+    within = size / 2 - 50
+    inside = (abs(cells["x"]) < within) & (abs(cells["y"]) < within)
     assert abs(senders[inside].mean() - 0.3641) <= 0.002
     assert cells["neighbours_sender"][senders].max() == 0
     # each that is undecided stays so for a sender beside it, but for the

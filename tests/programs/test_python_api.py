@@ -110,6 +110,7 @@ def test_tree(whole):
     assert len(axes.lines) == n + n // 2  # and one a division
 
 
+@pytest.mark.release
 def test_interrupted(runs, scene):
     """Ctrl-C saves; the same call goes on to the same cells."""
     directory, whole = runs.work / "interrupted", runs.work / "uninterrupted"

@@ -215,6 +215,7 @@ def test_states(runs, growing):
     assert white[0] > white[1] > white[2]
 
 
+@pytest.mark.release
 def test_films(runs, growing):
     film = runs.work / "film.gif"
     said = render(runs, growing, "--movie", "--panels", "2", "--width", "120", "--output", film)
@@ -322,7 +323,8 @@ def without(work, module, tool, *words):
 
 
 @pytest.mark.parametrize("module, package, tools", [
-    ("vtkmodules", "python3-vtk9", ("report", "render", "cell-shapes")),
+    pytest.param("vtkmodules", "python3-vtk9", ("report", "render", "cell-shapes"),
+                 marks=pytest.mark.release),
     ("numpy", "python3-numpy", ("accuracy", "render", "report", "sweep")),
     ("matplotlib", "python3-matplotlib", ("render", "report"))])
 def test_missing_libraries(runs, module, package, tools):

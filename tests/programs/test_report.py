@@ -214,6 +214,7 @@ def test_choices(runs, cube):
                         "style-src 'unsafe-inline'; img-src data:", policy)
 
 
+@pytest.mark.release
 def test_limit(runs, cube):
     """A page that may hold next to nothing shows some cells of the last state."""
     page = page_of(runs, cube, "--no-pictures", "--limit", "0.0005")
@@ -222,6 +223,7 @@ def test_limit(runs, cube):
     assert len(page.cells(0)[0]) == state["shown"] < state["cells"]
 
 
+@pytest.mark.release
 def test_pictures(runs, cube):
     """Without the view: the run's own PNG or, without any, one that is drawn."""
     page = page_of(runs, cube, "--states", "0")
@@ -244,14 +246,21 @@ def test_refusals(runs, cube, words, texts):
     assert all(text in said for text in texts)
 
 
-def test_damaged(runs):
-    """A message, exit code 1 and the old page; a run that has stopped has a page
-    without what it lacks, and so has one without cells."""
-    run = runs.run("damaged", CUBE, {"Output/Formats": "vtu"})
+@pytest.fixture
+def damaged(runs):
+    return runs.run("damaged", CUBE, {"Output/Formats": "vtu", "Output/Interval": 0.5,
+                                      "Time/End time": 1}, "--replace")
+
+
+@pytest.mark.parametrize("damages", [
+    [("cells-0002.vtu", "<VTKFile")],
+    pytest.param([("cells-0001.vtu", None), ("lineage.csv", "id,parent\n0,-1\n1"),
+                  ("statistics.csv", "step,time\n")], marks=pytest.mark.release)])
+def test_damaged(runs, damaged, damages):
+    """A message, exit code 1 and the old page."""
+    run = damaged
     page = page_of(runs, run, "--no-pictures", "--states", "1").text
-    for name, content in (("cells-0001.vtu", None), ("cells-0002.vtu", "<VTKFile"),
-                          ("lineage.csv", "id,parent\n0,-1\n1"),
-                          ("statistics.csv", "step,time\n")):
+    for name, content in damages:
         file = run.directory / name
         whole = file.read_bytes()
         file.unlink()
@@ -261,6 +270,13 @@ def test_damaged(runs):
         assert "report: " in said and "Traceback" not in said
         assert (run.directory / "report.html").read_text() == page
         file.write_bytes(whole)
+
+
+@pytest.mark.release
+def test_stopped(runs, damaged):
+    """A run that has stopped has a page without what it lacks, and so has one
+    without cells."""
+    run = damaged
     for name in ("lineage.csv", "timings.csv", "log.txt"):
         (run.directory / name).unlink()
     assert "There is no lineage.csv" in page_of(runs, run, "--no-pictures").text

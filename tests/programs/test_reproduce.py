@@ -92,6 +92,13 @@ def reproduce(runs, *words, keys, code=0):
     return {(row[0], row[1]): row[2:] for row in rows}
 
 
+def test_a_panel(runs):
+    rows = reproduce(runs, "fig-1d", keys=CUBE)
+    assert rows["§2.3, Fig. 1 d", "N_p after the cycle / before"][:3] == ["2", "2", "1.000"]
+    assert matplotlib.image.imread(runs.work / "fig-1d.png")[:, :, :3].std() > 0.03
+
+
+@pytest.mark.release
 def test_cubes(runs):
     """Figures and numbers of coarse cubes; a scene that fails keeps nothing else back."""
     (runs.work / "fig-2b").touch()  # no directory

@@ -269,6 +269,7 @@ def test_bad_samples(runs, asked, said, text):
     assert said in str(refused.value)
 
 
+@pytest.mark.release
 def test_output_in_the_working_directory(runs):
     """And what the program refuses, before anything is written."""
     command = [ROOT / "contrib/sweep", DISC, "--morula", runs.options.morula,

@@ -13,7 +13,8 @@ CSV = {"Output/Formats": "csv"}
 ABOVE = {"Tissue/Center": "0, 140", "Tissue/Size": "100, 280"}
 
 
-@pytest.mark.parametrize("start, keys", [(120, {}), (280, ABOVE)])
+@pytest.mark.parametrize("start, keys", [
+    (120, {}), pytest.param(280, ABOVE, marks=pytest.mark.release)])
 def test_height(runs, start, keys):
     """H = H* + (H(0) - H*) exp(-k t), H* = 20 um + w (1 + b/k). Some 700 cells
     can be extruded: H has a standard deviation of 2 %."""

@@ -22,6 +22,7 @@ def test_orders(step):
         [3.385e-2, 5.675e-3, 1.312e-3, 3.511e-4], rel=0.01)
 
 
+@pytest.mark.release
 def test_few_cells(step):
     """Five cells to a grid spacing are the limit on the finest grid."""
     errors, = tables(step({"Tissue/Cell spacing": "20"}))

@@ -8,13 +8,12 @@ import pytest
 
 from tests.common.steps import tables
 
-pytestmark = pytest.mark.quick
-
 
 def distance(text):
     return float(re.search(r"free growth: (\S+) um", text)[1])
 
 
+@pytest.mark.quick
 def test_uniform_growth(step):
     text = step()
     rows, = tables(text)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-# ranks: 1 2
 """Step 6: what the size checkpoint holds, and where."""
 import pytest
 

@@ -111,7 +111,7 @@ def test_truth(runs, accuracy, table):
 def test_seeds_and_days(runs, accuracy, table):
     """Means over seeds, and cells' files, for a grid of combinations."""
     accuracy(DISC, "--grid", "--vary", "Grid/Spacing=80,40", "--vary",
-             "Time/Step=0.25,0.125", "--seeds", "1..3", "--at", "0.5,1", "--measure",
+             "Time/Step=0.25,0.125", "--seeds", "1..2", "--at", "0.5,1", "--measure",
              "cells,cells:p90(energy_density)")
     rows = table()
     assert len(rows) == 4 * 2 * 2
@@ -121,8 +121,8 @@ def test_seeds_and_days(runs, accuracy, table):
             == ("cells", "1", "40", "0.25"))
     ends = [Run(file).statistics["cells"].iloc[-1] for file in
             (runs.work / "found/runs").glob("Random-seed=*/output")]
-    assert len(ends) == 3
-    assert float(row["value"]) == pytest.approx(sum(ends) / 3)
+    assert len(ends) == 2
+    assert float(row["value"]) == pytest.approx(sum(ends) / 2)
     for day in ("0.5", "1"):
         assert_drawn(runs, f"accuracy-day-{day}.png")
 

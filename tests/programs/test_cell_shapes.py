@@ -323,6 +323,7 @@ def test_damaged(runs):
     assert not [*csv.glob("cell-shapes*")]
 
 
+@pytest.mark.release
 def test_pictures(runs):
     """Polyhedra leave no gaps: seen along an axis the box fills its
     rectangle, but for the edges that are drawn dark."""

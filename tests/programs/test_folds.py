@@ -272,6 +272,7 @@ def test_a_snap_in_slow_steps(runs):
     assert_same_run(whole, runs.resumed("slow-parts", scene, {}, 0.4))
 
 
+@pytest.mark.release
 def test_creases_close_and_open(runs):
     """A layer grows until it has creases, and shrinks until it has none.
     Planes stand behind the slip walls, which no point of the surface above

@@ -200,7 +200,8 @@ def test_that_leave_a_semaphore_locked(runs):
 # Ctrl-C, and SIGTERM or SIGUSR1 as batch systems send them; mpiexec hands SIGUSR1 on
 # to the ranks.
 @pytest.mark.parametrize("number, ranks", [
-    (signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGUSR1, 1), (signal.SIGUSR1, 2)])
+    (signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGUSR1, 1),
+    pytest.param(signal.SIGUSR1, 2, marks=pytest.mark.release)])
 def test_asked_to_end(runs, whole, number, ranks):
     """The run saves its state and ends by the signal, as shells expect; nothing that was
     computed is lost."""

@@ -152,6 +152,7 @@ def folds(surface, least):
     return ((valleys >= n) & (valleys < 2 * n)).sum(), radius.mean()
 
 
+@pytest.mark.release
 def test_cortex_folds(runs):
     """The example: folds are about four layers apart."""
     run = runs.run("folds", EXAMPLES / "folding-by-tangential-growth.prm",

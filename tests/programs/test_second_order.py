@@ -63,7 +63,8 @@ def test_growth_under_stress(runs):
     ways, errors = {}, {}
     for step in (0.4, 0.2, 0.05):
         run = runs.run("stress", EXAMPLES / "growth-under-stress.prm", {
-            **QUIET, "Time/End time": 2, "Time/Step": step})
+            **QUIET, "Time/End time": 2, "Time/Step": step,
+            "Tissue/Cell spacing": 20, "Grid/Spacing": 50})
         volume = run.statistics["total_volume"]
         ways[step] = volume.iloc[-1] - volume[0]
         errors[step] = error_in_time(run.statistics)

@@ -159,7 +159,7 @@ def test_a_hairpin_in_3d(runs):
     run = runs.run("hairpin-3d", {**SCENE, **strip.moves()}, {
         "Dimension": 3, "Tissue/Points file": runs.write("cells.csv", "\n".join(rows) + "\n"),
         "Tissue/Points surface": runs.write("surface.off", "\n".join(surface) + "\n"),
-        "Tissue/Boundary points": 900, MOVES: strip.moves()[MOVES] + "; 0"}, ranks=2)
+        "Tissue/Boundary points": 900, MOVES: strip.moves()[MOVES] + "; 0"})
     check_closing_and_opening(run, 3)
 
 

@@ -180,6 +180,7 @@ def run_with_snapshot(found, process, morula):
     raise AssertionError("the run has ended too early")
 
 
+@pytest.mark.release
 def test_interrupted(runs, found, words, sweep):
     """Ended with kill -9 while its run goes on: nobody else may write there until
     that run has ended, too; and then it is resumed."""
@@ -214,7 +215,6 @@ def test_interrupted(runs, found, words, sweep):
     assert_same_file(whole / "lineage.csv", resumed / "lineage.csv")
 
 
-@pytest.mark.release
 def test_stopped(runs, found, words, sweep):
     """SIGTERM: no run is left over, nothing that has been done is lost."""
     process = subprocess.Popen(words(*SLOW), text=True, stdout=subprocess.DEVNULL,

@@ -43,6 +43,12 @@ namespace Morula
       using Structure     = CGAL::Triangulation_data_structure_2<Vertex>;
       using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
 
+      static auto
+      all(const Triangulation &triangulation)
+      {
+        return triangulation.all_face_handles();
+      }
+
       static Kernel::Point_2
       point(const Point<2> &x)
       {
@@ -59,6 +65,12 @@ namespace Morula
         Vertex,
         CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
       using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
+
+      static auto
+      all(const Triangulation &triangulation)
+      {
+        return triangulation.all_cell_handles();
+      }
 
       static Kernel::Point_3
       point(const Point<3> &x)
@@ -352,55 +364,30 @@ namespace Morula
 
     /** Calls @p visit(corners) for all simplices, and @p open(side, inner) for
      *  the sides of the hull, with the corner that faces each from inside. */
-    template <typename Visit, typename Open>
+    template <int dim, typename Visit, typename Open>
     void
-    for_simplices(const Simplices<2>::Triangulation &triangulation,
-                  const Visit                       &visit,
-                  const Open                        &open)
+    for_simplices(const typename Simplices<dim>::Triangulation &triangulation,
+                  const Visit                                  &visit,
+                  const Open                                   &open)
     {
-      for (auto face = triangulation.all_faces_begin();
-           face != triangulation.all_faces_end();
-           ++face)
-        if (triangulation.is_infinite(face))
-          {
-            std::array<unsigned int, 2> edge = {};
-            unsigned int                n    = 0;
-            for (int k = 0; k < 3; ++k)
-              if (!triangulation.is_infinite(face->vertex(k)) && n < 2)
-                edge[n++] = face->vertex(k)->info();
-            open(edge, 0u); // both sides are alike
-          }
-        else
-          visit(std::array<unsigned int, 3>{{face->vertex(0)->info(),
-                                             face->vertex(1)->info(),
-                                             face->vertex(2)->info()}});
-    }
-
-    template <typename Visit, typename Open>
-    void
-    for_simplices(const Simplices<3>::Triangulation &triangulation,
-                  const Visit                       &visit,
-                  const Open                        &open)
-    {
-      for (auto cell = triangulation.all_cells_begin();
-           cell != triangulation.all_cells_end();
-           ++cell)
-        if (triangulation.is_infinite(cell))
-          {
-            std::array<unsigned int, 3> face = {};
-            unsigned int                n    = 0;
-            for (int k = 0; k < 4; ++k)
-              if (!triangulation.is_infinite(cell->vertex(k)) && n < 3)
-                face[n++] = cell->vertex(k)->info();
-            const auto inside =
-              cell->neighbor(cell->index(triangulation.infinite_vertex()));
-            open(face, inside->vertex(inside->index(cell))->info());
-          }
-        else
-          visit(std::array<unsigned int, 4>{{cell->vertex(0)->info(),
-                                             cell->vertex(1)->info(),
-                                             cell->vertex(2)->info(),
-                                             cell->vertex(3)->info()}});
+      for (const auto simplex : Simplices<dim>::all(triangulation))
+        {
+          std::array<unsigned int, dim + 1> corners = {};
+          unsigned int                      n       = 0;
+          for (int k = 0; k <= dim; ++k)
+            if (!triangulation.is_infinite(simplex->vertex(k)))
+              corners[n++] = simplex->vertex(k)->info();
+          if (n == corners.size())
+            {
+              visit(corners);
+              continue;
+            }
+          std::array<unsigned int, dim> side;
+          std::copy_n(corners.begin(), dim, side.begin());
+          const auto inside =
+            simplex->neighbor(simplex->index(triangulation.infinite_vertex()));
+          open(side, inside->vertex(inside->index(simplex))->info());
+        }
     }
   } // namespace
 
@@ -435,7 +422,7 @@ namespace Morula
                 });
       return corners;
     };
-    for_simplices(
+    for_simplices<dim>(
       triangulation,
       [&](const auto &corners) { add_parts(diagram, by_ids(corners)); },
       [&](const auto &side, const unsigned int inner) {

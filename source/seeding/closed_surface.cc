@@ -288,8 +288,8 @@ namespace Morula
 
 
   template <int dim>
-  Enclosure<dim>
-  enclose(const AllCells<dim> &cells, const double gap)
+  ClosedSurface<dim>
+  enclose(const AllCells<dim> &cells, const double gap, std::string &misfit)
   {
     // The steps of doc/theory.md, section 1.7: wrap, half of the filling,
     // volume. Lines are cut before their vertices move, so that they can
@@ -300,9 +300,19 @@ namespace Morula
       cut_segments(0.5 * cells.length, surface);
     move_to_half(cells, surface);
     match_volume(cells, surface);
-    const std::size_t n_parts = count_parts(surface);
-    const double      ratio   = enclosed_volume(surface) / cells.volume;
-    return {std::move(surface), n_parts, ratio};
+    // The text says what the surface is: parts and volume tell overlapping
+    // cells from gaps, and a wrong unit shows in either.
+    const std::size_t n     = count_parts(surface);
+    const double      ratio = enclosed_volume(surface) / cells.volume;
+    misfit.clear();
+    if (!(ratio > 0.5 && ratio < 2. &&
+          (n == 1 || 2 * n <= cells.volumes.size())))
+      misfit = "It would have " + std::to_string(n) +
+               (n == 1 ? " part" : " parts") + " for " +
+               std::to_string(cells.volumes.size()) + " cells and enclose " +
+               as_text(ratio) + " of their volume: they " +
+               (ratio > 0.5 ? "leave gaps" : "overlap") + '.';
+    return surface;
   }
 
 

@@ -31,23 +31,16 @@ namespace Morula
     checked_surface(const TissueParameters &parameters,
                     const AllCells<dim>    &cells)
     {
-      const Enclosure<dim> enclosure = enclose(cells, parameters.closed_gap);
-      if (enclosure.fits(cells.volumes.size()))
-        return enclosure.surface;
-      // The message says what the surface would be: parts and volume tell
-      // overlapping cells from gaps, and a wrong unit shows in either.
-      const std::size_t  n     = enclosure.n_parts;
-      const double       ratio = enclosure.volume_ratio;
-      std::ostringstream found;
-      found << "It would have " << n << (n == 1 ? " part" : " parts") << " for "
-            << cells.volumes.size() << " cells and enclose " << as_text(ratio)
-            << " of their volume: they "
-            << (ratio > 0.5 ? "leave gaps" : "overlap") << '.';
+      std::string        misfit;
+      ClosedSurface<dim> surface =
+        enclose(cells, parameters.closed_gap, misfit);
+      if (misfit.empty())
+        return surface;
       parameters.points_file.refuse(
         "cells side by side, as there is a surface around them (Tissue/Points "
         "surface = " +
           parameters.points_surface + ')',
-        found.str() +
+        misfit +
           " If the file is in another unit, scale it to um; else give each "
           "cell its volume, or set Tissue/Cell spacing to their length; or set "
           "Points surface = none.");
@@ -213,14 +206,15 @@ namespace Morula
                  const std::vector<double>     &volumes,
                  const SurfaceWish             &wish)
   {
-    const Enclosure<dim> enclosure =
-      // Called on one rank, with all cells: so there is nothing to exchange,
-      // and the result is the same for any number of ranks.
-      enclose(AllCells<dim>(positions, volumes, wish.length), wish.gap);
-    if (!enclosure.fits(volumes.size()))
+    // Called on one rank, with all cells: so there is nothing to exchange, and
+    // the result is the same for any number of ranks.
+    std::string              misfit;
+    const ClosedSurface<dim> surface =
+      enclose(AllCells<dim>(positions, volumes, wish.length), wish.gap, misfit);
+    if (!misfit.empty())
       return {};
     SurfacePatches<dim> patches =
-      tiled(enclosure.surface, total_area(enclosure.surface) / wish.patch_area);
+      tiled(surface, total_area(surface) / wish.patch_area);
     if (wish.volume > 0.)
       enclose_exactly(wish.volume, patches);
     return patches;

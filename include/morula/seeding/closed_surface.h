@@ -58,28 +58,15 @@ namespace Morula
   double
   total_area(const ClosedSurface<dim> &surface);
 
-  /** A surface around cells, and how it fits them. */
+  /**
+   * A surface where the cells end, with gaps narrower than @p gap lengths
+   * closed.
+   * @param misfit why it is not one around all cells, with a full stop, rather
+   *        than around each; empty if it is
+   */
   template <int dim>
-  struct Enclosure
-  {
-    ClosedSurface<dim> surface;
-    std::size_t        n_parts;
-    double             volume_ratio; // of what it encloses to the cells'
-
-    /** Whether it is one around all cells rather than around each. */
-    bool
-    fits(const std::size_t n_cells) const
-    {
-      return volume_ratio > 0.5 && volume_ratio < 2. &&
-             (n_parts == 1 || 2 * n_parts <= n_cells);
-    }
-  };
-
-  /** A surface where the cells end, with gaps narrower than @p gap lengths
-   *  closed. */
-  template <int dim>
-  Enclosure<dim>
-  enclose(const AllCells<dim> &cells, const double gap);
+  ClosedSurface<dim>
+  enclose(const AllCells<dim> &cells, const double gap, std::string &misfit);
 
   /** The surface in about so many patches. */
   template <int dim>

@@ -361,17 +361,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  Tensor<1, dim>
-  Expression::vector(const Point<dim> &X, const double t) const
-  {
-    Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = value(X, t, d);
-    return result;
-  }
-
-
   bool
   Expression::follows_state() const
   {
@@ -432,8 +421,4 @@ namespace Morula
   Expression::value(const Point<2> &, const double, const unsigned int) const;
   template double
   Expression::value(const Point<3> &, const double, const unsigned int) const;
-  template Tensor<1, 2>
-  Expression::vector(const Point<2> &, const double) const;
-  template Tensor<1, 3>
-  Expression::vector(const Point<3> &, const double) const;
 } // namespace Morula

@@ -17,8 +17,6 @@
 #include <ostream>
 #include <regex>
 
-// Without this, json_parser.hpp of Boost 1.74 prints a note about placeholders.
-
 namespace Morula
 {
   namespace

@@ -17,12 +17,25 @@
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace Morula
 {
   namespace
   {
+    /** An id as it stands in a snapshot: HDF5 has names for the types of C, not
+     *  for those of fixed width. */
+    using SnapshotId =
+      std::conditional_t<sizeof(dealii::types::particle_index) ==
+                           sizeof(unsigned int),
+                         unsigned int,
+                         unsigned long long>;
+
+    /** Names of an attribute and of a table. */
+    constexpr const char *snapshot_format_name  = "Morula snapshot format";
+    constexpr const char *snapshot_weights_name = "grid weights";
+
     template <int dim>
     void
     write_points(Hdf5File             &file,

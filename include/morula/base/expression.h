@@ -191,7 +191,13 @@ namespace Morula
      */
     template <int dim>
     Tensor<1, dim>
-    vector(const Point<dim> &X, const double t) const;
+    vector(const Point<dim> &X, const double t) const
+    {
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = value(X, t, d);
+      return result;
+    }
 
     /** Sets the rule that values for cells must obey. */
     void

@@ -8,31 +8,14 @@
 #include <morula/particles/columns.h>
 #include <morula/particles/point_list.h>
 
-#include <deal.II/particles/property_pool.h>
-
 #include <mpi.h>
 
 #include <map>
 #include <string>
-#include <type_traits>
 #include <vector>
-
-// What reading and writing a snapshot have in common.
 
 namespace Morula
 {
-  /** An id as it stands in a snapshot: HDF5 has names for the types of C, not
-   *  for those of fixed width. */
-  using SnapshotId = std::conditional_t<sizeof(dealii::types::particle_index) ==
-                                          sizeof(unsigned int),
-                                        unsigned int,
-                                        unsigned long long>;
-
-  /** Names of an attribute and of a table. */
-  constexpr const char *snapshot_format_name  = "Morula snapshot format";
-  constexpr const char *snapshot_weights_name = "grid weights";
-
-
   /** Raised whenever older programs could not read the file. */
   constexpr int snapshot_format = 3;
 

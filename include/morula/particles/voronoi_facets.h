@@ -29,8 +29,8 @@ namespace Morula
    * that are farther than @p reach (µm) from each other; sorted by a, then b.
    * What of a facet is farther than @p radius (µm) from its points does not
    * count, so that facets at the hull have an end, and that no point farther
-   *
-   * points in one place all but one have no facet.
+   * away than twice the radius counts. Of points in one place all but one have
+   * no facet.
    */
   template <int dim>
   std::vector<VoronoiFacet>

@@ -167,6 +167,23 @@ namespace Morula
   seeding_limits(const TissueParameters &tissue,
                  const double            h,
                  const MemoryCheck      &check_memory);
+
+
+  /**
+   * Adds to the surface both faces of cuts that have no width: each patch of a
+   * cut becomes two at one place with opposite normals, about as large as those
+   * of the surface. What lies outside of the tissue is left out. Collective.
+   * @param file its cuts at t = 0, in µm: in 2-D lines as well-known text
+   * (WKT), in 3-D open surfaces of triangles as STL, OFF, PLY or OBJ
+   * @return how far the tissue is cut, in words
+   * @throws InputError if the file cannot be read, or cuts no tissue
+   */
+  template <int dim>
+  std::string
+  add_cuts(const Key<std::string> &file,
+           const Founders<dim>    &founders,
+           const MPI_Comm          comm,
+           SurfacePatches<dim>    &surface);
 } // namespace Morula
 
 #endif

@@ -246,13 +246,13 @@ namespace Morula
           for (const Variable variable : parsers.back()->used())
             used_.push_back(variable);
         }
-      catch (const ExpressionParser::Error &error)
+      catch (const std::invalid_argument &error)
         {
           throw InputError(key,
                            text,
                            "an expression that muParser understands",
-                           component_name(c, components.size()) +
-                             error.message + remedy(components[c], vocabulary) +
+                           component_name(c, components.size()) + error.what() +
+                             remedy(components[c], vocabulary) +
                              advice(vocabulary));
         }
     make_unique(used_);

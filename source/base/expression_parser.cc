@@ -14,6 +14,7 @@
 #include <cmath>
 #include <map>
 #include <regex>
+#include <stdexcept>
 #include <vector>
 
 namespace Morula
@@ -426,9 +427,9 @@ namespace Morula
           message.erase(message.size() - std::string(" found").size());
         const std::size_t place =
           std::min<std::size_t>(error.GetPos(), readable.text.size());
-        throw Error{"character " +
-                    std::to_string(1 + readable.positions[place]) + ": " +
-                    message + "." + guess(parser, error.GetToken())};
+        throw std::invalid_argument(
+          "character " + std::to_string(1 + readable.positions[place]) + ": " +
+          message + "." + guess(parser, error.GetToken()));
       }
     std::sort(used_.begin(), used_.end());
   }

@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace Morula
 {
@@ -192,90 +193,64 @@ namespace Morula
       std::optional<PointBins<dim>> bins;
     };
 
-    /** Points by their body, which is the first number of each. */
+    /** Points by their body, which is the first number of each if they have
+     *  one; else all together. */
     template <int dim>
     std::map<unsigned int, PointsOfBody<dim>>
-    by_body(const PointList<dim> &list, const GridBox<dim> &box)
+    by_body(PointList<dim> list, const bool with_body, const GridBox<dim> &box)
     {
-      const unsigned int                        n = list.n_numbers - 1;
       std::map<unsigned int, PointsOfBody<dim>> bodies;
-      for (unsigned int i = 0; i < list.size(); ++i)
-        {
-          PointList<dim> &one = bodies[list.row(i)[0]].list;
-          one.n_numbers       = n;
-          one.add(list.ids[i],
-                  list.positions[i],
-                  ArrayView<const double>(list.row(i).data() + 1, n));
-        }
+      if (with_body)
+        for (unsigned int i = 0; i < list.size(); ++i)
+          {
+            PointList<dim> &one = bodies[list.row(i)[0]].list;
+            one.n_numbers       = list.n_numbers - 1;
+            one.add(list.ids[i],
+                    list.positions[i],
+                    ArrayView<const double>(list.row(i).data() + 1,
+                                            one.n_numbers));
+          }
+      else
+        bodies[0].list = std::move(list);
       for (auto &[body, points] : bodies)
         points.bins.emplace(box, points.list.positions);
       return bodies;
     }
 
-    /** nearest_numbers() among points of the same side. */
+    /** The points of the query's side that are nearest, in the list of their
+     *  body, and their distance: none, and infinity, if there is none in grid
+     *  cells as near as @p radius. */
     template <int dim>
-    std::vector<double>
-    nearest_of_side(const std::vector<Point<dim>> &queries,
-                    const std::vector<Side<dim>>  &sides,
-                    const PointStore<dim>         &points,
-                    const NearestQuery            &wanted,
-                    const BackgroundGrid<dim>     &grid)
+    std::tuple<const PointList<dim> *, std::vector<unsigned int>, double>
+    nearest_of_side(const Point<dim>                                &query,
+                    const Side<dim>                                 &side,
+                    const std::map<unsigned int, PointsOfBody<dim>> &bodies,
+                    const GridBox<dim>                              &box,
+                    const int                                        radius)
     {
-      // The points come with their body in front of what is wanted. The radius
-      // doubles as in nearest_numbers(); if even the whole box holds no point
-      // of a query's body, that body is gone, and the nearest of all points
-      // counts. So does the nearest of the body where none is behind a surface
-      // within a few grid cells: such a surface has lost its tissue.
-      constexpr int       near_enough = 4;
-      const GridBox<dim> &box         = grid.box();
-      const NearestQuery  with_body{wanted.n + 1,
-                                   [&](const unsigned int   p,
-                                       std::vector<double> &numbers) {
-                                     numbers.push_back(points.body(p));
-                                     wanted.append(p, numbers);
-                                   },
-                                   wanted.ties};
-      const auto          look = [&](const Point<dim>        &query,
-                            const PointsOfBody<dim> &body,
-                            const Side<dim>         &side = {}) {
-        return nearest(query, body.list, *body.bins, box, side);
+      // If even the whole box holds no point of a query's body, that body is
+      // gone, and the nearest of all points counts. So does the nearest of the
+      // body where none is behind a surface within a few grid cells: such a
+      // surface has lost its tissue.
+      constexpr int near_enough = 4;
+      const auto    look        = [&](const PointsOfBody<dim> &points,
+                            const Side<dim>         &of_side = {}) {
+        return nearest(query, points.list, *points.bins, box, of_side);
       };
-      for (int radius = 1;; radius *= 2)
-        {
-          const std::map<unsigned int, PointsOfBody<dim>> bodies =
-            by_body(near_points(queries, points, with_body, grid, radius), box);
-          const bool everywhere_looked = radius > 2 * largest_of(box.n());
-          double     farthest          = 0.;
-          std::vector<double> numbers;
-          for (std::size_t q = 0; q < queries.size(); ++q)
-            {
-              auto body = bodies.find(sides[q].body);
-              if (body == bodies.end() && everywhere_looked)
-                body =
-                  std::min_element(bodies.begin(),
-                                   bodies.end(),
-                                   [&](const auto &a, auto &b) {
-                                     return look(queries[q], a.second).second <
-                                            look(queries[q], b.second).second;
-                                   });
-              std::vector<unsigned int> found;
-              double distance = std::numeric_limits<double>::infinity();
-              if (body != bodies.end())
-                std::tie(found, distance) =
-                  look(queries[q], body->second, sides[q]);
-              if (body != bodies.end() && found.empty() &&
-                  radius >= near_enough)
-                std::tie(found, distance) = look(queries[q], body->second);
-              farthest = std::max(farthest, distance);
-              if (found.empty())
-                break;
-              append_wanted(found, body->second.list, wanted.ties, numbers);
-            }
-          if (everywhere_looked ||
-              Utilities::MPI::max(farthest, grid.communicator()) <=
-                radius * box.spacing())
-            return numbers;
-        }
+      auto body = bodies.find(side.body);
+      if (body == bodies.end() && radius > 2 * largest_of(box.n()))
+        body = std::min_element(bodies.begin(),
+                                bodies.end(),
+                                [&](const auto &a, const auto &b) {
+                                  return look(a.second).second <
+                                         look(b.second).second;
+                                });
+      if (body == bodies.end())
+        return {nullptr, {}, std::numeric_limits<double>::infinity()};
+      auto [found, distance] = look(body->second, side);
+      if (found.empty() && radius >= near_enough)
+        std::tie(found, distance) = look(body->second);
+      return {&body->second.list, std::move(found), distance};
     }
   } // namespace
 
@@ -287,37 +262,52 @@ namespace Morula
                   const BackgroundGrid<dim>     &grid,
                   const std::vector<Side<dim>>  &sides)
   {
-    if (points.has_bodies() &&
-        Utilities::MPI::logical_or(!sides.empty(), grid.communicator()))
-      return nearest_of_side(queries, sides, points, wanted, grid);
     // The nearest point may be in any grid cell. So the radius doubles until
     // every query of every rank has found a point that is nearer than all that
     // may lie outside of the list. Mostly the first radius does. Ranks go on
-    // together, since each pass is collective.
-    const GridBox<dim> &box = grid.box();
+    // together, since each pass is collective. Where sides count points come
+    // with their body in front of what is wanted.
+    const MPI_Comm      comm = grid.communicator();
+    const GridBox<dim> &box  = grid.box();
+    const bool          by_side =
+      points.has_bodies() && Utilities::MPI::logical_or(!sides.empty(), comm);
+    NearestQuery of_point = wanted;
+    if (by_side)
+      of_point = {wanted.n + 1,
+                  [&](const unsigned int p, std::vector<double> &numbers) {
+                    numbers.push_back(points.body(p));
+                    wanted.append(p, numbers);
+                  },
+                  wanted.ties};
     for (int radius = 1;; radius *= 2)
       {
-        const PointList<dim> list =
-          near_points(queries, points, wanted, grid, radius);
-        const PointBins<dim> bins(box, list.positions);
-        std::vector<double>  numbers;
-        double               farthest = 0.;
-        for (const Point<dim> &query : queries)
+        const std::map<unsigned int, PointsOfBody<dim>> bodies =
+          by_body(near_points(queries, points, of_point, grid, radius),
+                  by_side,
+                  box);
+        std::vector<double> numbers;
+        double              farthest = 0.;
+        for (std::size_t q = 0; q < queries.size(); ++q)
           {
-            const auto [found, distance] = nearest(query, list, bins, box);
-            farthest                     = std::max(farthest, distance);
-            if (!found.empty())
-              append_wanted(found, list, wanted.ties, numbers);
+            const auto [list, found, distance] =
+              nearest_of_side(queries[q],
+                              by_side ? sides[q] : Side<dim>{},
+                              bodies,
+                              box,
+                              radius);
+            farthest = std::max(farthest, distance);
+            if (found.empty())
+              break;
+            append_wanted(found, *list, wanted.ties, numbers);
           }
         // A point of a grid cell outside of the radius is farther away than
-        // this.
-        const double sure = radius * box.spacing();
-        if (Utilities::MPI::max(farthest, grid.communicator()) <= sure)
+        // this. Nothing in the box is farther than its diagonal.
+        const bool is_all = radius > 2 * largest_of(box.n());
+        if (Utilities::MPI::max(farthest, comm) <= radius * box.spacing())
           return numbers;
-        // Nothing in the box is farther than its diagonal, so there is no point
-        // at all.
-        AssertThrow(radius <= 2 * largest_of(box.n()),
-                    ExcMessage("There are no cells."));
+        AssertThrow(by_side || !is_all, ExcMessage("There are no cells."));
+        if (is_all)
+          return numbers;
       }
   }
 

@@ -46,14 +46,8 @@ namespace Morula
   class ExpressionParser
   {
   public:
-    /** What is wrong with a text. */
-    struct Error
-    {
-      /** A full sentence, with the place in the text. */
-      std::string message;
-    };
-
-    /** @throws Error if muParser does not understand the text */
+    /** @throws std::invalid_argument if muParser does not understand the text:
+     *  a full sentence, with the place in the text */
     ExpressionParser(const std::string &text, const Vocabulary &vocabulary);
     ExpressionParser(const ExpressionParser &) = delete;
     ExpressionParser &

@@ -13,7 +13,6 @@
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 #include <morula/output/table.h>
-#include <morula/output/tissue_sums.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/tissue.h>
 

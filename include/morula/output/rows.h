@@ -4,16 +4,25 @@
 #ifndef morula_output_rows_h
 #define morula_output_rows_h
 
+#include <morula/grid/particle_domain.h>
+#include <morula/output/point_fields.h>
 #include <morula/output/table.h>
-#include <morula/output/tissue_sums.h>
 #include <morula/particles/cell_event.h>
 #include <morula/particles/detached_points.h>
 #include <morula/solver/condition_estimate.h>
 #include <morula/solver/newton.h>
 
+#include <deal.II/base/array_view.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <mpi.h>
+
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +32,222 @@
 
 namespace Morula
 {
+  using namespace dealii;
+
+  /** Sums and extremes over all cells, for statistics.csv. */
+  struct TissueTotals
+  {
+    double total_volume             = 0.; // Σ V⁰ det F, µm^dim
+    double grown_volume             = 0.; // Σ V⁰ det F_g, µm^dim
+    double mean_energy_density      = 0.; // weighted by V⁰, kPa
+    double cell_mean_energy_density = 0.; // each cell counted once, kPa
+    double max_energy_density       = 0.; // kPa
+    double min_elastic_volume_ratio = 0.;
+    double max_elastic_volume_ratio = 0.;
+    /**
+     * Smallest and largest coordinates of the boundary points, or of the cells
+     * if there are no boundary points, µm. In 2-D z is 0.
+     */
+    std::array<double, 3> lower = {{0., 0., 0.}};
+    std::array<double, 3> upper = {{0., 0., 0.}};
+  };
+
+  /** Collects TissueTotals point by point. */
+  template <int dim>
+  class TissueSums
+  {
+  public:
+    /** Adds one of this rank's cells. */
+    void
+    add_cell(const CellScalars &q, const Point<dim> &position)
+    {
+      // Energies have the initial volume as their weight: doc/theory.md,
+      // section 1.5.
+      n_cells += 1.;
+      initial_volume += q.initial_volume;
+      total_volume += q.volume;
+      grown_volume += q.initial_volume * q.growth_volume_ratio;
+      energy += q.initial_volume * q.energy_density;
+      energy_density_sum += q.energy_density;
+      max_energy_density = std::max(max_energy_density, q.energy_density);
+      min_volume_ratio   = std::min(min_volume_ratio, q.elastic_volume_ratio);
+      max_volume_ratio   = std::max(max_volume_ratio, q.elastic_volume_ratio);
+      include(position, cell_box);
+    }
+
+    /** Adds one of this rank's boundary points. */
+    void
+    add_boundary_point(const Point<dim> &position)
+    {
+      n_boundary_points += 1.;
+      include(position, boundary_box);
+    }
+
+    /** The totals over all ranks' points. Collective. */
+    TissueTotals
+    totals(const MPI_Comm comm) const
+    {
+      // One reduction for all sums; extremes take their own. Without cells, as
+      // at the end of a tissue that dies out, there is nothing to divide by.
+      // The extent is that of the surface, or of the cells where a scene has no
+      // boundary points.
+      std::array<double, 7> sums = {{n_cells,
+                                     initial_volume,
+                                     total_volume,
+                                     grown_volume,
+                                     energy,
+                                     energy_density_sum,
+                                     n_boundary_points}};
+      Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
+                          comm,
+                          ArrayView<double>(sums.data(), sums.size()));
+
+      TissueTotals all;
+      if (sums[0] == 0.)
+        return all;
+      all.total_volume             = sums[2];
+      all.grown_volume             = sums[3];
+      all.mean_energy_density      = sums[4] / sums[1];
+      all.cell_mean_energy_density = sums[5] / sums[0];
+      all.max_energy_density = Utilities::MPI::max(max_energy_density, comm);
+      all.min_elastic_volume_ratio =
+        Utilities::MPI::min(min_volume_ratio, comm);
+      all.max_elastic_volume_ratio =
+        Utilities::MPI::max(max_volume_ratio, comm);
+
+      const Box &box = sums[6] > 0. ? boundary_box : cell_box;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          all.lower[d] = Utilities::MPI::min(box[0][d], comm);
+          all.upper[d] = Utilities::MPI::max(box[1][d], comm);
+        }
+      return all;
+    }
+
+  private:
+    /** Smallest and largest coordinates of points. Without points the first are
+     *  above the second. */
+    using Box = std::array<std::array<double, dim>, 2>;
+
+    static Box
+    empty_box()
+    {
+      Box box;
+      box[0].fill(std::numeric_limits<double>::max());
+      box[1].fill(std::numeric_limits<double>::lowest());
+      return box;
+    }
+
+    /** Widens the box so that it holds @p x. */
+    static void
+    include(const Point<dim> &x, Box &box)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          box[0][d] = std::min(box[0][d], x[d]);
+          box[1][d] = std::max(box[1][d], x[d]);
+        }
+    }
+
+    double n_cells            = 0.;
+    double initial_volume     = 0.;
+    double total_volume       = 0.;
+    double grown_volume       = 0.;
+    double energy             = 0.; // Σ V⁰ Ψ
+    double energy_density_sum = 0.; // Σ Ψ
+    double max_energy_density = std::numeric_limits<double>::lowest();
+    double min_volume_ratio   = std::numeric_limits<double>::max();
+    double max_volume_ratio   = std::numeric_limits<double>::lowest();
+    double n_boundary_points  = 0.;
+    Box    cell_box           = empty_box();
+    Box    boundary_box       = empty_box();
+  };
+
+
+  /** How long the cells of the tissue are, compared with the grid spacing. */
+  struct CellLengths
+  {
+    /** Grid spacing over the length of the longest cell. */
+    double min_cells_per_spacing = 0.;
+    /** Position of that cell, µm; in 2-D z = 0. */
+    std::array<double, 3> place{};
+    /** Number of cells of which fewer than `fewest` fill a grid spacing. */
+    std::uint64_t n_too_long = 0;
+
+    /** Fewest cells along a grid spacing. With fewer cells, the splines of a
+     *  grid cell can deform in ways that one F per cell does not see:
+     *  doc/theory.md, section 2.1. */
+    static constexpr double fewest = 2.;
+  };
+
+  /** Finds the longest cell. */
+  template <int dim>
+  class LongestCell
+  {
+  public:
+    /** @param h grid spacing, µm */
+    explicit LongestCell(const double h)
+      : h(h)
+    {}
+
+    /** Adds a cell of this rank. */
+    void
+    add(const ParticleDomain<dim> &cell)
+    {
+      const double length = cell.length();
+      if (length > longest)
+        {
+          longest = length;
+          place   = cell.position();
+        }
+      if (length > limit())
+        ++n_too_long;
+    }
+
+    /** The same, of a cell at @p x, µm. Cheap, unless it may be the longest. */
+    void
+    add(const Point<dim> &x, const DeformedCube<dim> &cell)
+    {
+      // Most cells are shorter than the longest so far, which a bound shows
+      // without eigenvalues.
+      if (!cell.is_within_length(std::min(longest, limit())))
+        add(cell.at(x));
+    }
+
+    /** The result over all ranks. Collective. */
+    CellLengths
+    over_all_ranks(const MPI_Comm comm) const
+    {
+      const auto  over_ranks = Utilities::MPI::min_max_avg(longest, comm);
+      CellLengths all;
+      if (over_ranks.max > 0.)
+        all.min_cells_per_spacing = h / over_ranks.max;
+      for (unsigned int d = 0; d < dim; ++d)
+        all.place[d] = place[d];
+      all.place =
+        // The place is known on the rank with the longest cell.
+        Utilities::MPI::broadcast(comm, all.place, over_ranks.max_index);
+      all.n_too_long = Utilities::MPI::sum(n_too_long, comm);
+      return all;
+    }
+
+  private:
+    /** Longer than this is too long, µm. */
+    double
+    limit() const
+    {
+      // A cell at the limit, as in an even lattice, is not too long.
+      constexpr double slack = 1e-9; // for rounding
+      return h / (CellLengths::fewest - slack);
+    }
+
+    double        h;
+    double        longest = 0.; // µm
+    Point<dim>    place;
+    std::uint64_t n_too_long = 0;
+  };
+
+
   /** One row of statistics.csv: the state after a step, and the step's cost. */
   struct StatisticsRow
   {

@@ -30,6 +30,7 @@ def run_on_all(runs, name, scene, keys):
     return one
 
 
+@pytest.mark.release
 def test_cube(runs):
     """Fig. 3b with coarser cells, one day."""
     run_on_all(runs, "cube", PAPER / "fig-3b.prm", {

@@ -84,8 +84,10 @@ def test_resume(step):
 
 
 @pytest.mark.parametrize("key, value", [
-    (LAW + "Crowding", "0"), (LAW + "Crowding", "1"), (LAW + "Rate", "1 +"),
-    (RULE[:-13] + "Long axis/Least elongation", "0.5"), ("Growth/Law", "crowding"),
+    (LAW + "Crowding", "0"), (LAW + "Rate", "1 +"),
+    *(pytest.param(*words, marks=pytest.mark.release) for words in (
+        (LAW + "Crowding", "1"), ("Growth/Law", "crowding"),
+        (RULE[:-13] + "Long axis/Least elongation", "0.5"))),
     # Its expressions are asked before any work: Z is unknown in 2-D.
     (LAW + "Rate", "0.1 + Z")])
 def test_refusals(step, key, value):

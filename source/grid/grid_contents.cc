@@ -153,6 +153,8 @@ namespace Morula
     // As for the other sums, in two passes: counts go to the owners, who add
     // them up, and from there to all windows. Only the quadrature points travel
     // here: the rest has been summed before, and stays.
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return;
     struct Count
     {
       unsigned int number, part, n;

@@ -150,7 +150,7 @@ namespace Morula
     // Rows in x choose their candidates first, rows in y among what is left,
     // then rows in z. So the order of the directions is part of the rule.
     for (unsigned int d = 0; d < dim; ++d)
-      for_each_row(contents, d, [&](const std::vector<unsigned int> &row) {
+      for_each_row(*this, d, [&](const std::vector<unsigned int> &row) {
         measure(row, d);
       });
   }
@@ -169,18 +169,18 @@ namespace Morula
     std::int64_t sum = 0, largest = 0;
     for (const unsigned int number : row)
       {
-        sum += contents.volume(number);
+        sum += this->volume(number);
         if (candidates[number])
-          largest = std::max(largest, contents.volume(number));
+          largest = std::max(largest, this->volume(number));
       }
-    const float row_length = length(row, direction, contents);
+    const float row_length = length(row, direction, *this);
     bool        found      = false;
     // A longer row is not thin along itself, and its ends may lie outside of
     // the window.
     if (row.size() < long_row)
       {
         const float thickness = sum / GridContents<dim>::resolution /
-                                cross_section(row, direction, contents);
+                                cross_section(row, direction, *this);
         for (const unsigned int number : row)
           thicknesses[number] = std::min(thicknesses[number], thickness);
       }
@@ -190,7 +190,7 @@ namespace Morula
           lengths[number] = std::min(lengths[number], row_length);
           ++n_thin[number];
           candidates[number] = candidates[number] && !found &&
-                               contents.volume(number) >= about_equal * largest;
+                               this->volume(number) >= about_equal * largest;
           found = found || candidates[number];
         }
   }
@@ -199,7 +199,7 @@ namespace Morula
   double
   Occupancy<dim>::thickness(const unsigned int number) const
   {
-    return largest_around(thicknesses, number, contents) * window().spacing();
+    return largest_around(thicknesses, number, *this) * window().spacing();
   }
 
   template <int dim>
@@ -207,7 +207,7 @@ namespace Morula
   Occupancy<dim>::is_thin(const unsigned int number) const
   {
     return n_thin[number] > 0 &&
-           largest_around(lengths, number, contents) < thin_row;
+           largest_around(lengths, number, *this) < thin_row;
   }
 
 
@@ -226,7 +226,7 @@ namespace Morula
   {
     // The sums of one rank are complete. Rows follow from volumes and reaches;
     // the quadrature points of the second round depend on them.
-    contents.find_own();
+    this->find_own();
     find_crowded();
     find_rows();
   }
@@ -238,7 +238,7 @@ namespace Morula
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return sum();
     // The same follows as on one rank, but from the sums over ranks.
-    contents.sum(grid);
+    GridContents<dim>::sum(grid);
     find_crowded();
     find_rows();
   }
@@ -253,7 +253,7 @@ namespace Morula
     domain.for_quadrature_points(
       n_points_per_edge(domain, id), [&](const Point<dim> &point) {
         for_each_share(point, [&](const Point<dim> &share, unsigned int) {
-          contents.add_quadrature_point(share, id);
+          this->add_quadrature_point(share, id);
           ++n_points;
         });
       });
@@ -269,8 +269,8 @@ namespace Morula
     // may be in a grid cell of any rank when its patch is to be split. It is
     // short, as only crumpled surfaces have such grid cells.
     std::vector<unsigned int> found;
-    for (const unsigned int number : own())
-      if (contents.n_boundary_points(number) > Utilities::pow(4, dim))
+    for (const unsigned int number : this->own())
+      if (this->n_boundary_points(number) > Utilities::pow(4, dim))
         found.push_back(window().whole().number(nodes().index(number)));
     crowded_.clear();
     for (const auto &list : gather_everywhere(found, window().communicator()))
@@ -312,8 +312,8 @@ namespace Morula
     Point<dim> lower = window().corner(nodes().index(number)), upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        upper[d] += contents.up(number, d) * window().spacing();
-        lower[d] += (1. - contents.down(number, d)) * window().spacing();
+        upper[d] += this->up(number, d) * window().spacing();
+        lower[d] += (1. - this->down(number, d)) * window().spacing();
       }
     return {lower, upper};
   }

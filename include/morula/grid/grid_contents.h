@@ -182,11 +182,11 @@ namespace Morula
      *  @param id of its cell, by which its part is known */
     void
     add_particle(const ParticleDomain<dim>  &domain,
-                 const types::particle_index id);
+                 const types::particle_index id = 0);
 
-    /** Adds a boundary point at @p x. */
+    /** Adds a boundary point at @p x in a part of its grid cell. */
     void
-    add_boundary_point(const Point<dim> &x, const unsigned int part)
+    add_boundary_point(const Point<dim> &x, const unsigned int part = 0)
     {
       ++counts[nodes_.node(window_.locate(x), part)][boundary];
     }

@@ -98,9 +98,12 @@ namespace Morula
    * number of ranks.
    */
   template <int dim>
-  class Occupancy
+  class Occupancy : public GridContents<dim>
   {
   public:
+    using GridContents<dim>::nodes;
+    using GridContents<dim>::window;
+
     /** Thicknesses and rows are known so many rings inside of the window. */
     static constexpr int reach = 4;
 
@@ -115,30 +118,15 @@ namespace Morula
                        const unsigned int        points_per_cell = 1,
                        const bool                share_points    = false,
                        const SharedParting<dim> &parting         = {})
-      : points_per_cell(points_per_cell)
+      : GridContents<dim>(window, parting)
+      , points_per_cell(points_per_cell)
       , share_points(share_points)
-      , contents(window, parting)
     {}
 
     /** The occupancy of a box on one rank. */
     explicit Occupancy(const GridBox<dim> &box)
       : Occupancy(GridWindow<dim>(box))
     {}
-
-    /** Adds a particle. @param id of its cell, by which its part is known */
-    void
-    add_particle(const ParticleDomain<dim>  &domain,
-                 const types::particle_index id = 0)
-    {
-      contents.add_particle(domain, id);
-    }
-
-    /** Adds a boundary point at @p x in a part of its grid cell. */
-    void
-    add_boundary_point(const Point<dim> &x, const unsigned int part = 0)
-    {
-      contents.add_boundary_point(x, part);
-    }
 
     /** Ends the first round on one rank. */
     void
@@ -162,21 +150,13 @@ namespace Morula
       return subdivides_;
     }
 
-    /** Sums the second round over all ranks. Collective. */
-    void
-    sum_quadrature_points(const BackgroundGrid<dim> &grid)
-    {
-      if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-        contents.sum_quadrature_points(grid);
-    }
-
     /** Sees a wider window after both rounds, see GridWindow. Collective. */
     void
     widen(const BackgroundGrid<dim> &grid, const bool here)
     {
       // The contents travel to the wider window; rows are found anew from
       // these.
-      contents.widen(grid, here);
+      GridContents<dim>::widen(grid, here);
       find_rows();
     }
 
@@ -216,7 +196,7 @@ namespace Morula
     double
     fill(const unsigned int number) const
     {
-      return contents.volume(number) / GridContents<dim>::resolution;
+      return this->volume(number) / this->resolution;
     }
 
     /**
@@ -260,52 +240,10 @@ namespace Morula
     std::pair<Point<dim>, Point<dim>>
     bounds(const unsigned int number) const;
 
-    /** Particles in a grid cell. */
-    std::uint64_t
-    n_particles(const unsigned int number) const
-    {
-      return contents.n_particles(number);
-    }
-
-    /** Quadrature points in a grid cell. */
-    unsigned int
-    n_quadrature_points(const unsigned int number) const
-    {
-      return contents.n_quadrature_points(number);
-    }
-
     /** Whether the grid cell of @p x holds more than 4^dim boundary points,
      *  which is more than a surface needs. @p x may lie outside the box. */
     bool
     crowded(const Point<dim> &x) const;
-
-    /** Whether the grid cell holds a particle, a quadrature point or a
-     *  boundary point. */
-    bool
-    active(const unsigned int number) const
-    {
-      return contents.active(number);
-    }
-
-    const GridWindow<dim> &
-    window() const
-    {
-      return contents.window();
-    }
-
-    const GridNodes<dim> &
-    nodes() const
-    {
-      return contents.nodes();
-    }
-
-    /** Nodes with tissue or points that this rank owned when they were summed.
-     */
-    const std::vector<unsigned int> &
-    own() const
-    {
-      return contents.own();
-    }
 
   private:
     void
@@ -318,7 +256,6 @@ namespace Morula
     unsigned int              points_per_cell;
     bool                      share_points;
     bool                      subdivides_ = false;
-    GridContents<dim>         contents;
     std::vector<float>        thicknesses; // of rows, in h, at most 1
     std::vector<float>        lengths;     // of rows, in h; 2: no row is thin
     std::vector<char>         n_thin; // number of directions with a thin row

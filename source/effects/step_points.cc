@@ -304,7 +304,7 @@ namespace Morula
       occupancy.for_each_share(
         x, [&](const Point<dim> &share, const unsigned int n) {
           mean += values[occupancy.nodes().node_of_cell(
-                    occupancy.window().locate(share), id)] /
+                    occupancy.window().whole().locate(share), id)] /
                   n;
         });
       return mean;

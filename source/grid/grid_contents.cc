@@ -97,9 +97,9 @@ namespace Morula
                                   const types::particle_index id)
   {
     const Point<dim> lower = domain.lower(), upper = domain.upper();
-    const double     h = window_.spacing();
+    const double     h = window_.whole().spacing();
     window_.for_range(
-      {window_.locate(lower), window_.locate(upper)},
+      {window_.whole().locate(lower), window_.whole().locate(upper)},
       [&](const unsigned int, const GridIndex<dim> &index) {
         const unsigned int node = nodes_.node_of_cell(index, id);
         // The volume is spread over the axis-parallel cube of the particle,
@@ -107,7 +107,7 @@ namespace Morula
         // integer, so that sums do not depend on the order of the particles.
         // The reaches say how far the tissue comes from either side: their
         // maxima give the extents of pieces and rows.
-        const Point<dim> corner  = window_.corner(index);
+        const Point<dim> corner  = window_.whole().corner(index);
         double           overlap = 1.;
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -121,7 +121,7 @@ namespace Morula
           }
         volumes[node] += std::llround(overlap * resolution);
       });
-    ++counts[nodes_.node_of_cell(window_.locate(domain.position()), id)]
+    ++counts[nodes_.node_of_cell(window_.whole().locate(domain.position()), id)]
             [particle];
   }
 
@@ -136,10 +136,11 @@ namespace Morula
     Point<dim> lower = x, upper = x;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        lower[d] -= on_line * window_.spacing();
-        upper[d] += on_line * window_.spacing();
+        lower[d] -= on_line * window_.whole().spacing();
+        upper[d] += on_line * window_.whole().spacing();
       }
-    window_.for_range({window_.locate(lower), window_.locate(upper)},
+    window_.for_range({window_.whole().locate(lower),
+                       window_.whole().locate(upper)},
                       [&](const unsigned int, const GridIndex<dim> &index) {
                         ++counts[nodes_.node_of_cell(index, id)][quadrature];
                       });

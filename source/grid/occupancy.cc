@@ -199,7 +199,8 @@ namespace Morula
   double
   Occupancy<dim>::thickness(const unsigned int number) const
   {
-    return largest_around(thicknesses, number, *this) * window().spacing();
+    return largest_around(thicknesses, number, *this) *
+           window().whole().spacing();
   }
 
   template <int dim>
@@ -287,8 +288,8 @@ namespace Morula
     // section 3.2: two across a sheet, three across a rod, two where a rod is
     // two cells thick.
     const unsigned int number =
-      nodes().node_of_cell(window().locate(domain.position()), id);
-    const double h = window().spacing(), side = domain.side();
+      nodes().node_of_cell(window().whole().locate(domain.position()), id);
+    const double h = window().whole().spacing(), side = domain.side();
     const bool   rod   = n_thin[number] > 1; // or a cluster
     const auto   below = [&](const double n_layers) {
       // Most tissue is thick: the first test spares the neighbours' one.
@@ -309,11 +310,12 @@ namespace Morula
   {
     // The reaches are units of h from the lower and the upper end of the grid
     // cell.
-    Point<dim> lower = window().corner(nodes().index(number)), upper = lower;
+    Point<dim> lower = window().whole().corner(nodes().index(number)),
+               upper = lower;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        upper[d] += this->up(number, d) * window().spacing();
-        lower[d] += (1. - this->down(number, d)) * window().spacing();
+        upper[d] += this->up(number, d) * window().whole().spacing();
+        lower[d] += (1. - this->down(number, d)) * window().whole().spacing();
       }
     return {lower, upper};
   }

@@ -159,8 +159,7 @@ namespace Morula
     const GridIndex<dim> index = occupancy_.window().index(copy.spline);
     if (const auto found = small_pieces.find(copy.piece);
         found != small_pieces.end())
-      return found->second.expression(occupancy_.window().center(index),
-                                      occupancy_.window().spacing());
+      return found->second.expression(box().center(index), box().spacing());
     const std::vector<unsigned int> &inner_grid_cells = blocks.at(c);
     AssertThrow(!inner_grid_cells.empty(), ExcInternalError());
     // This is the mean over all blocks, doc/theory.md (3.3b). The weights are
@@ -294,7 +293,7 @@ namespace Morula
     for (unsigned int c = 0; c < copies.list().size(); ++c)
       if (numbers.has(c) && copies.list()[c].piece == piece)
         set(numbers[c],
-            value_at(occupancy_.window().center(
+            value_at(box().center(
               occupancy_.window().index(copies.list()[c].spline))));
     if (const auto found = small_pieces.find(piece);
         found != small_pieces.end())
@@ -302,8 +301,7 @@ namespace Morula
         const PiecePolynomial<dim> &polynomial = found->second;
         set(polynomial.first_unknown, value_at(polynomial.center));
         for (unsigned int d = 0; d < dim; ++d)
-          set(polynomial.first_unknown + 1 + d,
-              gradient[d] * occupancy_.window().spacing());
+          set(polynomial.first_unknown + 1 + d, gradient[d] * box().spacing());
       }
     return coefficients;
   }

@@ -104,9 +104,10 @@ namespace Morula
     // section 3.5. All ranks have all pieces' sums, so they find the same small
     // pieces and the same polynomials, also of pieces of which they hold
     // nothing.
-    const double     h         = occupancy.window().spacing();
-    const Point<dim> grid_line = occupancy.window().corner(GridIndex<dim>{});
-    const auto       all       = extents(occupancy, classes, copies, comm);
+    const double     h = occupancy.window().whole().spacing();
+    const Point<dim> grid_line =
+      occupancy.window().whole().corner(GridIndex<dim>{});
+    const auto all = extents(occupancy, classes, copies, comm);
     std::map<unsigned int, PiecePolynomial<dim>> result;
     for (unsigned int piece = 0; piece < copies.n_pieces(); ++piece)
       {

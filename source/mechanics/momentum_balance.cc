@@ -326,24 +326,13 @@ namespace Morula
       return {(*best)[0], Point<3>((*best)[1], (*best)[2], (*best)[3])};
     }
 
-    Point<3>
-    in_space(const Point<2> &x)
-    {
-      return Point<3>(x[0], x[1], 0.);
-    }
-
-    Point<3>
-    in_space(const Point<3> &x)
-    {
-      return x;
-    }
-
-    template <int dim>
+    /** The point with another number of coordinates: further ones are 0. */
+    template <int dim, int former>
     Point<dim>
-    from_space(const Point<3> &x)
+    with_dimension(const Point<former> &x)
     {
       Point<dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
+      for (int d = 0; d < std::min(dim, former); ++d)
         result[d] = x[d];
       return result;
     }
@@ -358,8 +347,8 @@ namespace Morula
     // Terms know places only as coordinates in their grid cell. Places of the
     // configuration at t are needed where ranks compare.
     const auto place = [&](const Point<dim> &xi) {
-      return in_space(space.box().corner(space.box().index(number)) +
-                      space.box().spacing() * Tensor<1, dim>(xi));
+      return with_dimension<3>(space.box().corner(space.box().index(number)) +
+                               space.box().spacing() * Tensor<1, dim>(xi));
     };
     if (system.smallest_J.value < evaluation.smallest_J.value)
       evaluation.smallest_J = {system.smallest_J.value,
@@ -375,7 +364,7 @@ namespace Morula
   {
     const Extreme gap =
       best_of_ranks(evaluation.largest_gap, std::greater<double>(), comm);
-    return {gap.value, from_space<dim>(gap.place)};
+    return {gap.value, with_dimension<dim>(gap.place)};
   }
 
   template <int dim>
@@ -428,8 +417,10 @@ namespace Morula
         for (unsigned int d = 0; d < dim; ++d)
           place[d] = places[piece][unknown * dim + d];
       }
-    return from_space<dim>(
-      best_of_ranks({largest, in_space(place)}, std::greater<double>(), comm)
+    return with_dimension<dim>(
+      best_of_ranks({largest, with_dimension<3>(place)},
+                    std::greater<double>(),
+                    comm)
         .place);
   }
 
@@ -441,7 +432,7 @@ namespace Morula
     const Evaluation   evaluation = residual(u, R);
     const Extreme      J          = smallest_J(evaluation);
     const auto         gap        = largest_gap(evaluation);
-    const Point<dim>   place      = from_space<dim>(J.place);
+    const Point<dim>   place      = with_dimension<dim>(J.place);
     std::ostringstream text;
     if (J.value > 0.)
       text << "The smallest J_e is " << J.value << ", at (" << place << ") um";

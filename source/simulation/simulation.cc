@@ -91,18 +91,18 @@ namespace Morula
     const auto                            encounters = this->encounters(space);
     const std::optional<SplineSpace<dim>> unparted =
       splines_of_equations(space);
-    const SplineSpace<dim> &of_equations = unparted ? *unparted : space;
+    const SplineSpace<dim> &space_of_equations = unparted ? *unparted : space;
     watch(space);
     // The fields of t = 0 are known already: begin() needs them for the first
     // row of statistics.csv.
     if (run_state.n_steps > 1)
-      settle_equations(of_equations);
+      settle_equations(space_of_equations);
     for_moments(&Moments<dim>::before, time_steps.time(), 0.);
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();
     const auto solution = solve_step(space, encounters.get());
-    move(space, of_equations, solution);
+    move(space, space_of_equations, solution);
     rearrange(space);
     complete_row();
   }
@@ -139,7 +139,7 @@ namespace Morula
   template <int dim>
   void
   Simulation<dim>::move(const SplineSpace<dim> &space,
-                        const SplineSpace<dim> &of_equations,
+                        const SplineSpace<dim> &space_of_equations,
                         const typename StepEquilibrium<dim>::Solution &solution)
   {
     const DisplacementField<dim> displacement(space, solution.u, comm);
@@ -150,7 +150,7 @@ namespace Morula
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
-    commit(space, of_equations, solution);
+    commit(space, space_of_equations, solution);
     if (model.development.states_error())
       {
         row.step_error = mu;

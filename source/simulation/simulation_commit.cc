@@ -122,7 +122,7 @@ namespace Morula
   void
   Simulation<dim>::commit(
     const SplineSpace<dim>                        &space,
-    const SplineSpace<dim>                        &of_equations,
+    const SplineSpace<dim>                        &space_of_equations,
     const typename StepEquilibrium<dim>::Solution &solution)
   {
     // The first part only computes: the motions of cells and boundary points
@@ -179,7 +179,7 @@ namespace Morula
     solve_equations([&](EquationInRun<dim> &equation) {
       try
         {
-          equation.advance(tissue, of_equations, t, t_next);
+          equation.advance(tissue, space_of_equations, t, t_next);
         }
       catch (...)
         {

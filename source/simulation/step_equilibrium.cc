@@ -90,8 +90,8 @@ namespace Morula
     {
       std::vector<std::unique_ptr<PartOfStep<dim>>> list;
       /** Those of the list that have something of their own, or null. */
-      InteractionInStep<dim> *meeting   = nullptr;
-      Enclosure<dim>         *enclosure = nullptr;
+      InteractionInStep<dim> *interaction = nullptr;
+      Enclosure<dim>         *enclosure   = nullptr;
       /** As PartOfStep::is_exact() of any part. */
       bool is_exact = false;
     };
@@ -114,8 +114,8 @@ namespace Morula
                                    timer,
                                    comm,
                                    parts.enclosure,
-                                   parts.meeting != nullptr ?
-                                         &parts.meeting->pairs() :
+                                   parts.interaction != nullptr ?
+                                         &parts.interaction->pairs() :
                                          nullptr);
       const LinearProblem      linear =
         balance.linear_problem(attempt.typical_stiffness,
@@ -175,8 +175,8 @@ namespace Morula
       parts.list = model.boundary_conditions.parts_of_step(attempt);
       if (may_meet())
         {
-          auto part     = encounters->part_of_step(attempt);
-          parts.meeting = part.get();
+          auto part         = encounters->part_of_step(attempt);
+          parts.interaction = part.get();
           parts.list.push_back(std::move(part));
         }
       for (const auto &part : parts.list)
@@ -290,7 +290,7 @@ namespace Morula
         return;
       const TimerOutput::Scope section(timer, "forces");
       solution.forces = surface_forces(
-        model, attempt, solution.u, list, parts.list, parts.meeting);
+        model, attempt, solution.u, list, parts.list, parts.interaction);
     }
 
     /** Where Newton's iterations begin; nothing if they begin at u = 0. */
@@ -371,13 +371,13 @@ namespace Morula
                               model.scene.solver.kernel);
         });
       add_loads(attempt, list);
-      if (parts.meeting != nullptr || attempt.drag > 1.)
+      if (parts.interaction != nullptr || attempt.drag > 1.)
         {
           const TimerOutput::Scope section(timer, model.interaction->name);
           auto                     drag = weak_drag(attempt.typical_stiffness);
           drag->set_strength(attempt.drag);
-          if (parts.meeting != nullptr)
-            parts.meeting->take_drag(*drag, attempt.drag == 1.);
+          if (parts.interaction != nullptr)
+            parts.interaction->take_drag(*drag, attempt.drag == 1.);
           list.push_back(std::move(drag));
         }
       return list;

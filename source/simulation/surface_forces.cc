@@ -447,7 +447,7 @@ namespace Morula
                  const Equilibrium::Vector                           &u,
                  const std::vector<std::unique_ptr<Term<dim>>>       &terms,
                  const std::vector<std::unique_ptr<PartOfStep<dim>>> &parts,
-                 const InteractionInStep<dim>                        *meeting)
+                 const InteractionInStep<dim> *interaction)
   {
     // The terms of conditions that load are made anew, since each of them gets
     // a row of its own.
@@ -467,8 +467,8 @@ namespace Morula
     for (const auto &part : parts)
       if (const auto force = part->force())
         sums.add_part(*force);
-    if (meeting != nullptr)
-      sums.add_between(model.interaction->name, meeting->forces(u));
+    if (interaction != nullptr)
+      sums.add_between(model.interaction->name, interaction->forces(u));
     return sums.result();
   }
 

@@ -188,7 +188,7 @@ namespace Morula
     void
     add_boundary_point(const Point<dim> &x, const unsigned int part = 0)
     {
-      ++counts[nodes_.node(window_.locate(x), part)][boundary];
+      ++counts[nodes_.node(window_.whole().locate(x), part)][boundary];
     }
 
     /** Adds a quadrature point at @p x of the cell with this id. On a grid line

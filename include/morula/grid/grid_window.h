@@ -107,33 +107,6 @@ namespace Morula
       return begins[box];
     }
 
-    double
-    spacing() const
-    {
-      return whole_.spacing();
-    }
-
-    /** See GridBox. */
-    GridIndex<dim>
-    locate(const Point<dim> &x) const
-    {
-      return whole_.locate(x);
-    }
-
-    /** See GridBox. */
-    Point<dim>
-    center(const GridIndex<dim> &index) const
-    {
-      return whole_.center(index);
-    }
-
-    /** See GridBox. */
-    Point<dim>
-    corner(const GridIndex<dim> &index) const
-    {
-      return whole_.corner(index);
-    }
-
     /** Whether a grid cell is in one of the boxes. */
     bool
     contains(const GridIndex<dim> &index) const

@@ -120,7 +120,7 @@ namespace Morula
     /** Moves the tissue to the end of the step. Collective. */
     void
     move(const SplineSpace<dim>                        &space,
-         const SplineSpace<dim>                        &of_equations,
+         const SplineSpace<dim>                        &space_of_equations,
          const typename StepEquilibrium<dim>::Solution &solution);
     /** Divisions, deaths, exchanges of places and the surface at the end of the
      *  step. Collective. */
@@ -157,7 +157,7 @@ namespace Morula
     try_step(const StepEquilibrium<dim> &equilibrium);
     void
     commit(const SplineSpace<dim>                        &space,
-           const SplineSpace<dim>                        &of_equations,
+           const SplineSpace<dim>                        &space_of_equations,
            const typename StepEquilibrium<dim>::Solution &solution);
     /** Deforms the cells at the end of the step by their motions.
      *  @param volumes  det F_e of each cell where its grid cell has one, else

@@ -56,7 +56,7 @@ namespace Morula
    * and others, in this order. Collective.
    * @param attempt that has succeeded
    * @param parts   of effects in it
-   * @param meeting the one of what may meet, or null
+   * @param interaction the one of what may meet, or null
    */
   template <int dim>
   SurfaceForces<dim>
@@ -65,7 +65,7 @@ namespace Morula
                  const Equilibrium::Vector                           &u,
                  const std::vector<std::unique_ptr<Term<dim>>>       &terms,
                  const std::vector<std::unique_ptr<PartOfStep<dim>>> &parts,
-                 const InteractionInStep<dim>                        *meeting);
+                 const InteractionInStep<dim> *interaction);
 
   /**
    * The equilibrium of a step: the sum of the scene's terms on the splines of

@@ -272,19 +272,6 @@ namespace Morula
 
 
   template <int dim>
-  unsigned int
-  Parting<dim>::n_parts(const unsigned int number) const
-  {
-    const auto end = std::lower_bound(further.begin(),
-                                      further.end(),
-                                      GridCellPart(number + 1, 0));
-    return end != further.begin() && std::prev(end)->first == number ?
-             std::prev(end)->second + 1 :
-             1;
-  }
-
-
-  template <int dim>
   bool
   Parting<dim>::are_linked(const GridCellPart &a, const GridCellPart &b) const
   {

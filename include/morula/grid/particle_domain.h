@@ -114,13 +114,6 @@ namespace Morula
       return std::sqrt(std::isfinite(largest) ? largest : trace(square) / dim);
     }
 
-    /** A bound of length(), µm: see largest_stretch_bound(). */
-    double
-    length_bound() const
-    {
-      return largest_stretch_bound(edges);
-    }
-
     /**
      * Lower corner of the axis-parallel cube of the same volume, over which the
      * volume is spread. To cut a parallelepiped at grid lines would cost more

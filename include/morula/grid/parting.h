@@ -95,10 +95,6 @@ namespace Morula
       return std::binary_search(contested_.begin(), contested_.end(), number);
     }
 
-    /** How many parts a grid cell has. */
-    unsigned int
-    n_parts(const unsigned int number) const;
-
     /** All parts but those with number 0, in order. */
     const std::vector<GridCellPart> &
     further_parts() const

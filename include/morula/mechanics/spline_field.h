@@ -6,7 +6,7 @@
 
 #include <morula/base/halo.h>
 #include <morula/grid/spline_space.h>
-#include <morula/mechanics/local_system.h>
+#include <morula/mechanics/term.h>
 #include <morula/particles/point_store.h>
 
 #include <deal.II/base/index_set.h>

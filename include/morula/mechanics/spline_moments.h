@@ -4,7 +4,7 @@
 #ifndef morula_mechanics_spline_moments_h
 #define morula_mechanics_spline_moments_h
 
-#include <morula/mechanics/local_system.h>
+#include <morula/mechanics/term.h>
 
 #include <array>
 #include <vector>

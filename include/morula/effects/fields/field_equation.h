@@ -5,8 +5,8 @@
 #define morula_effects_fields_field_equation_h
 
 #include <morula/grid/spline_space.h>
-#include <morula/mechanics/local_system.h>
 #include <morula/mechanics/material_points.h>
+#include <morula/mechanics/term.h>
 
 #include <deal.II/base/tensor.h>
 

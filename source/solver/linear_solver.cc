@@ -286,6 +286,17 @@ namespace Morula
   };
 
 
+  /** K x = b; see solve(). */
+  struct LinearSolver::System
+  {
+    const Matrix               &K;
+    Vector                     &x;
+    const Vector               &b;
+    const double                tolerance;
+    unsigned int               &iterations;
+    const Equilibrium::RankOne *rank_one;
+  };
+
   LinearSolver::LinearSolver(const SolverParameters &parameters,
                              const LinearProblem    &problem,
                              TimerOutput            &timer)
@@ -328,14 +339,15 @@ namespace Morula
       product.emplace(K, problem.n_components, problem.symmetric);
     else if (!is_direct && !as_before)
       product->read();
+    const System system{K, x, b, tolerance, iterations, rank_one};
     try
       {
         if (is_direct)
-          solve_directly(K, x, b, iterations, rank_one);
+          solve_directly(system);
         else if (problem.symmetric)
-          solve_symmetric(K, x, b, tolerance, iterations, rank_one);
+          solve_symmetric(system);
         else
-          solve_unsymmetric(K, x, b, tolerance, iterations, rank_one);
+          solve_unsymmetric(system);
       }
     catch (const StepFailed &failure)
       {
@@ -348,32 +360,23 @@ namespace Morula
                            ("; " + std::to_string(b.size()) +
                             " unknowns are too many to factorise unless "
                             "Solver/Linear solver = direct"));
-        solve_directly(K, x, b, iterations, rank_one);
+        solve_directly(system);
       }
   }
 
   void
-  LinearSolver::solve_directly(const Matrix               &K,
-                               Vector                     &x,
-                               const Vector               &b,
-                               unsigned int               &iterations,
-                               const Equilibrium::RankOne *rank_one)
+  LinearSolver::solve_directly(const System &s)
   {
     // A direct solver's shift stands for the curvature that it has met.
     double shift = 0.;
-    direct->solve(K, x, b, iterations, shift, rank_one);
+    direct->solve(s.K, s.x, s.b, s.iterations, shift, s.rank_one);
     if (direct->has_shifted())
       curvature_ = std::min(curvature_, -shift);
     has_shifted_ = has_shifted_ || direct->has_shifted();
   }
 
   void
-  LinearSolver::solve_symmetric(const Matrix               &K,
-                                Vector                     &x,
-                                const Vector               &b,
-                                const double                tolerance,
-                                unsigned int               &iterations,
-                                const Equilibrium::RankOne *rank_one)
+  LinearSolver::solve_symmetric(const System &s)
   {
     // Each pass solves with one shift and one preconditioner. Negative
     // curvature asks for a larger shift, doc/theory.md (5.4); that the
@@ -387,17 +390,23 @@ namespace Morula
         const ShiftedSystem system{*product,
                                    problem.null_space,
                                    shift,
-                                   rank_one};
+                                   s.rank_one};
         const auto          iterate = [&](const auto &P) {
-          return conjugate_gradients(
-            system, P, x, b, tolerance, max_iterations, iterations, needed);
+          return conjugate_gradients(system,
+                                     P,
+                                     s.x,
+                                     s.b,
+                                     s.tolerance,
+                                     max_iterations,
+                                     s.iterations,
+                                     needed);
         };
         const OverlappingCholesky *const factorisation =
           shift < Shifts::for_jacobi ? preconditioner.factorisation() : nullptr;
         const CgOutcome outcome =
           factorisation != nullptr ?
             iterate(*factorisation) :
-            iterate(Jacobi(diagonal_magnitude(K, b), shift));
+            iterate(Jacobi(diagonal_magnitude(s.K, s.b), shift));
         has_shifted_ = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)
           return;
@@ -408,7 +417,7 @@ namespace Morula
                             Shifts::curvature_factor * needed,
                             Shifts::factor * shift});
         else if (factorisation != nullptr)
-          preconditioner.make_next(K); // that one was of no use
+          preconditioner.make_next(s.K); // that one was of no use
         else
           break;
       }
@@ -416,21 +425,16 @@ namespace Morula
   }
 
   void
-  LinearSolver::solve_unsymmetric(const Matrix               &K,
-                                  Vector                     &x,
-                                  const Vector               &b,
-                                  const double                tolerance,
-                                  unsigned int               &iterations,
-                                  const Equilibrium::RankOne *rank_one)
+  LinearSolver::solve_unsymmetric(const System &s)
   {
     // The system is solved in the space orthogonal to the unsupported motions:
     // right-hand side, matrix and preconditioner are projected, and the
     // solution in the end. The preconditioner is that of the symmetric part,
     // doc/theory.md, section 5.4. NoConvergence is that of deal.II's control;
     // its iterations count as well.
-    Vector balanced(b);
+    Vector balanced(s.b);
     remove_parts(balanced, problem.null_space);
-    SolverControl control(max_iterations, tolerance * balanced.l2_norm());
+    SolverControl control(max_iterations, s.tolerance * balanced.l2_norm());
     // The preconditioner acts from the right, so that the tolerance is one for
     // the residual. From the left it would be one for the preconditioned
     // residual, which can be far from it. The flexible form adds up the
@@ -439,28 +443,28 @@ namespace Morula
     // Restarting after 100 vectors bounds the memory.
     SolverFGMRES<Vector> gmres(control,
                                SolverFGMRES<Vector>::AdditionalData(100));
-    x = 0.;
+    s.x = 0.;
     try
       {
-        const Sum            sum{*product, rank_one};
+        const Sum            sum{*product, s.rank_one};
         const Projected<Sum> A{sum, problem.null_space};
         const auto           iterate = [&](const auto &P) {
           const Projected<std::decay_t<decltype(P)>> projected{
             P, problem.null_space};
-          gmres.solve(A, x, balanced, projected);
+          gmres.solve(A, s.x, balanced, projected);
         };
         if (preconditioner.factorisation() != nullptr)
           iterate(*preconditioner.factorisation());
         else
-          iterate(Jacobi(diagonal_magnitude(K, b), 0.));
-        remove_parts(x, problem.null_space);
+          iterate(Jacobi(diagonal_magnitude(s.K, s.b), 0.));
+        remove_parts(s.x, problem.null_space);
       }
     catch (const SolverControl::NoConvergence &)
       {
-        iterations += control.last_step();
+        s.iterations += control.last_step();
         throw StepFailed("GMRES did not converge");
       }
-    iterations += control.last_step();
+    s.iterations += control.last_step();
   }
 
 

@@ -34,67 +34,6 @@ namespace Morula
   } // namespace
 
 
-  ProximalEquilibrium::ProximalEquilibrium(Equilibrium &problem)
-    : problem(problem)
-    , proximity(0.)
-  {}
-
-
-  void
-  ProximalEquilibrium::set(const Vector &centre, const double proximity)
-  {
-    this->centre    = centre;
-    this->proximity = proximity;
-  }
-
-
-  Equilibrium::Evaluation
-  ProximalEquilibrium::residual(const Vector &u, Vector &R) const
-  {
-    Evaluation evaluation = problem.residual(u, R);
-    // The diagonal D comes with the first tangent. Before that nothing has
-    // moved from the centre, so the friction has no force.
-    if (!std::isfinite(evaluation.energy) || diagonal.size() == 0)
-      return evaluation;
-    Vector moved(u), force(u);
-    moved -= centre;
-    force = moved;
-    force.scale(diagonal);
-    // These are the force c D (u - u_k) and its energy, doc/theory.md (5.7).
-    force *= proximity;
-    const double energy = 0.5 * (moved * force);
-    evaluation.energy += energy;
-    evaluation.energy_magnitude += energy;
-    R += force;
-    return evaluation;
-  }
-
-
-  const Equilibrium::Matrix &
-  ProximalEquilibrium::tangent(const Vector &u, const GrowthAt growth)
-  {
-    const Matrix &K = problem.tangent(u, growth);
-    // D is that of the first tangent, and stays: else the friction would change
-    // within the path, and its energy with it.
-    if (diagonal.size() == 0)
-      diagonal = diagonal_magnitude(K, u);
-    if (proximity == 0.)
-      return K;
-    sum.copy_from(K);
-    for (const auto row : K.locally_owned_range_indices())
-      sum.add(row, row, proximity * diagonal(row));
-    sum.compress(VectorOperation::add);
-    return sum;
-  }
-
-
-  void
-  ProximalEquilibrium::use_growth_at_end()
-  {
-    problem.use_growth_at_end();
-  }
-
-
   // Each part starts where the last one has ended, and is as long as Newton's
   // method can do it at ease: c falls after a part of few iterations, rises
   // where one fails, which is then tried again, and stays for some parts after

@@ -81,28 +81,14 @@ namespace Morula
     }
 
   private:
-    void
-    solve_directly(const Matrix               &K,
-                   Vector                     &x,
-                   const Vector               &b,
-                   unsigned int               &iterations,
-                   const Equilibrium::RankOne *rank_one);
+    struct System; // that is being solved
 
     void
-    solve_symmetric(const Matrix               &K,
-                    Vector                     &x,
-                    const Vector               &b,
-                    const double                tolerance,
-                    unsigned int               &iterations,
-                    const Equilibrium::RankOne *rank_one);
-
+    solve_directly(const System &system);
     void
-    solve_unsymmetric(const Matrix               &K,
-                      Vector                     &x,
-                      const Vector               &b,
-                      const double                tolerance,
-                      unsigned int               &iterations,
-                      const Equilibrium::RankOne *rank_one);
+    solve_symmetric(const System &system);
+    void
+    solve_unsymmetric(const System &system);
 
     const bool                    is_direct;
     const bool                    automatic;

@@ -5,6 +5,9 @@
 #define morula_solver_proximal_path_h
 
 #include <morula/solver/newton.h>
+#include <morula/solver/preconditioner.h>
+
+#include <cmath>
 
 namespace Morula
 {
@@ -18,23 +21,68 @@ namespace Morula
   {
   public:
     /** @param problem kept as a reference */
-    explicit ProximalEquilibrium(Equilibrium &problem);
+    explicit ProximalEquilibrium(Equilibrium &problem)
+      : problem(problem)
+      , proximity(0.)
+    {}
 
     /** Sets the centre u_k (µm) and c. */
     void
-    set(const Vector &centre, const double proximity);
+    set(const Vector &centre, const double proximity)
+    {
+      this->centre    = centre;
+      this->proximity = proximity;
+    }
 
     Evaluation
-    residual(const Vector &u, Vector &R) const override;
+    residual(const Vector &u, Vector &R) const override
+    {
+      Evaluation evaluation = problem.residual(u, R);
+      // The diagonal D comes with the first tangent. Before that nothing has
+      // moved from the centre, so the friction has no force.
+      if (!std::isfinite(evaluation.energy) || diagonal.size() == 0)
+        return evaluation;
+      Vector moved(u), force(u);
+      moved -= centre;
+      force = moved;
+      force.scale(diagonal);
+      // These are the force c D (u - u_k) and its energy, doc/theory.md (5.7).
+      force *= proximity;
+      const double energy = 0.5 * (moved * force);
+      evaluation.energy += energy;
+      evaluation.energy_magnitude += energy;
+      R += force;
+      return evaluation;
+    }
+
     double
     residual_magnitude(const Vector &u) const override
     {
       return problem.residual_magnitude(u);
     }
     const Matrix &
-    tangent(const Vector &u, const GrowthAt growth) override;
+    tangent(const Vector &u, const GrowthAt growth) override
+    {
+      const Matrix &K = problem.tangent(u, growth);
+      // D is that of the first tangent, and stays: else the friction would
+      // change within the path, and its energy with it.
+      if (diagonal.size() == 0)
+        diagonal = diagonal_magnitude(K, u);
+      if (proximity == 0.)
+        return K;
+      sum.copy_from(K);
+      for (const auto row : K.locally_owned_range_indices())
+        sum.add(row, row, proximity * diagonal(row));
+      sum.compress(VectorOperation::add);
+      return sum;
+    }
+
     void
-    use_growth_at_end() override;
+    use_growth_at_end() override
+    {
+      problem.use_growth_at_end();
+    }
+
     const RankOne *
     rank_one() const override
     {

@@ -243,19 +243,12 @@ namespace Morula
     std::vector<Record> list;
     for (unsigned int node = 0; node < nodes_.size(); ++node)
       if (holds_something(node))
-        list.push_back(record(node));
+        list.push_back({window_.whole().number(nodes_.index(node)),
+                        nodes_.part(node),
+                        counts[node],
+                        reaches[node],
+                        volumes[node]});
     return list;
-  }
-
-  template <int dim>
-  typename GridContents<dim>::Record
-  GridContents<dim>::record(const unsigned int node) const
-  {
-    return {window_.whole().number(nodes_.index(node)),
-            nodes_.part(node),
-            counts[node],
-            reaches[node],
-            volumes[node]};
   }
 
   template <int dim>

@@ -299,9 +299,6 @@ namespace Morula
     bool
     holds_something(const unsigned int node) const;
 
-    Record
-    record(const unsigned int node) const;
-
     /** Records of all grid cells with something. */
     std::vector<Record>
     records() const;

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/catalogue.h>
-#include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/isotropic.h>
 #include <morula/effects/growth/rate_growth.h>
@@ -24,6 +23,8 @@ namespace Morula
   add_neighbours(Choices<StepEffect> &, const Catalogue::Settings &example);
   void
   add_present_depth(Choices<StepEffect> &, const Catalogue::Settings &example);
+  void
+  add_fields(Choices<Equation> &, const Catalogue::Settings &example);
 
   namespace
   {
@@ -55,8 +56,8 @@ namespace Morula
     const Settings uneven = {
       "Growth/Law=isotropic",
       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"};
-    const Settings growing   = {"Growth/Law=rate",
-                                "Growth/Rate/Rate=J_e + 0.1*X*Y"};
+    const Settings growing = {"Growth/Law=rate",
+                              "Growth/Rate/Rate=J_e + 0.1*X*Y"};
 
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
@@ -72,14 +73,13 @@ namespace Morula
     add_division_by_size(fates);
     add_death(fates);
     add_extrusion(fates);
-    add_own<Fields>(equations,
-                    "fields",
-                    {"Fields/Names=signal",
-                     "Fields/signal/Time=transient",
-                     "Fields/signal/Diffusion=1",
-                     "Fields/signal/Consumption=signal",
-                     "Fields/signal/Initial=1 + 0.1*X*Y",
-                     "Fields/signal/Fixed where=X + Y > 2"});
+    add_fields(equations,
+               {"Fields/Names=signal",
+                "Fields/signal/Time=transient",
+                "Fields/signal/Diffusion=1",
+                "Fields/signal/Consumption=signal",
+                "Fields/signal/Initial=1 + 0.1*X*Y",
+                "Fields/signal/Fixed where=X + Y > 2"});
     add_division_rules(division_rules);
     add_rearrangement(step_effects);
     add_neighbours(step_effects,

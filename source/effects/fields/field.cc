@@ -8,6 +8,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <boost/property_map/property_map.hpp>
+
 #include <algorithm>
 #include <sstream>
 #include <vector>
@@ -191,211 +195,98 @@ namespace Morula
   template class FieldSolver<3>;
 
 
+  template <int dim>
+  std::vector<std::vector<unsigned int>>
+  groups_of(const std::vector<Field<dim>> &fields)
+  {
+    // Boost's strong components are sets of fields that depend on each other,
+    // in the order that is wanted: what others depend on first. Fields of the
+    // other kind have their values already.
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> uses(
+      fields.size());
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      for (unsigned int other = 0; other < fields.size(); ++other)
+        if (fields[k].kind() == fields[other].kind() &&
+            fields[k].depends_on(other))
+          boost::add_edge(k, other, uses);
+    std::vector<unsigned int>              component(fields.size());
+    std::vector<std::vector<unsigned int>> groups(boost::strong_components(
+      uses,
+      boost::make_iterator_property_map(
+        component.begin(), boost::get(boost::vertex_index, uses))));
+    for (unsigned int k = 0; k < fields.size(); ++k)
+      groups[component[k]].push_back(k);
+    return groups;
+  }
+
+
   namespace
   {
-    /** A field that has grown by more in iterations that did not converge has
-     *  no steady state. */
-    constexpr double most_growth = 1e4;
-
-    /**
-     * The fields of a scene in the steps of a run. The solver is made for the
-     * first field of a configuration, shared by the others, and kept until the
-     * tissue moves. Keeps references to what it is made from.
-     */
-    template <int dim>
-    class StepFields : public EquationInRun<dim>
-    {
-    public:
-      StepFields(const Fields<dim> &fields, const RunTools<dim> &tools)
-        : fields(fields)
-        , parameters(fields.parameters())
-        , tools(tools)
-      {}
-
-      /** Resets the counts of clipped values. */
-      void
-      begin_step() override
-      {
-        clipped.clear();
-      }
-
-      /** Gives cells the steady fields. */
-      void
-      settle(Tissue<dim>            &tissue,
-             const SplineSpace<dim> &space,
-             const double            t) override
-      {
-        fields.set(tissue, find(FieldKind::steady, tissue, space, t, t));
-        // The transient fields of this step use the same configuration, and
-        // then the same solver. Without any nothing else will ask for it.
-        if (!fields.any(FieldKind::transient))
-          forget_configuration();
-      }
-
-      /** Gives cells the transient fields. The tissue is about to move, so the
-       *  solver is forgotten. */
-      void
-      advance(Tissue<dim>            &tissue,
-              const SplineSpace<dim> &space,
-              const double            t,
-              const double            t_next) override
-      {
-        // The tissue moves after this call. What the solver has summed belongs
-        // to the places before.
-        const FieldsOfStep<dim> found =
-          find(FieldKind::transient, tissue, space, t, t_next);
-        forget_configuration();
-        fields.set(tissue, found);
-      }
-
-      /** Forgets the solver. */
-      void
-      forget_configuration() override
-      {
-        solver.reset();
-      }
-
-      /** The fields' columns of statistics.csv. */
-      void
-      describe(const Tissue<dim> &tissue, NamedNumbers &columns) const override
-      {
-        // Before the first call of find() nothing was clipped.
-        fields.describe(tissue, columns);
-        for (std::size_t k = 0; k < parameters.fields.size(); ++k)
-          columns[parameters.fields[k].name + "_clipped"] =
-            k < clipped.size() ? double(clipped[k]) : 0.;
-      }
-
-    private:
-      /** The fields of one kind at @p t1. */
-      FieldsOfStep<dim>
-      find(const FieldKind         kind,
-           const Tissue<dim>      &tissue,
-           const SplineSpace<dim> &space,
-           const double            t,
-           const double            t1)
-      {
-        // The first call in a configuration makes the solver, with the sums
-        // over cells and the surface that all fields share. Each solution is
-        // then looked at for what the user should know: negative values that
-        // were cut off (doc/theory.md, section 11.3), and fields that are
-        // inexact. Collective; the solution is equal on all ranks as far as
-        // these warnings ask.
-        if (!fields.any(kind))
-          return {};
-        const TimerOutput::Scope section(tools.timer, "fields");
-        if (!solver)
-          solver.emplace(tissue, space, tools.reader(t), tools.make_solver);
-        FieldsOfStep<dim> found;
-        try
-          {
-            found = fields.find(kind, *solver, t, t1);
-          }
-        catch (const StepFailed &failure)
-          {
-            throw StepFailed("the equation of a field could not be solved: " +
-                             std::string(failure.what()));
-          }
-        clipped.resize(parameters.fields.size(), 0);
-        for (const FieldSolution<dim> &field : found)
-          {
-            clipped[field.number] += field.clipped;
-            warn_if_unsettled(field, t);
-            warn_if_raised(field, t);
-            warn_of_nothing(field, t);
-          }
-        return found;
-      }
-      /** @throws InputError about a field that has no steady state */
-      void
-      warn_if_unsettled(const FieldSolution<dim> &field, const double t)
-      {
-        if (field.converged)
-          return;
-        const std::string &name = parameters.fields[field.number].name;
-        // Iterations that fail to settle stay within bounds; here each makes
-        // more of the field than the one before.
-        if (field.growth > most_growth)
-          throw InputError(
-            "Fields/" + name + "/Production",
-            parameters.fields[field.number].production.text(),
-            "less than what cells use up, also where it depends on "
-            "the field itself or on fields that depend on it",
-            "The field grows with every iteration, by " +
-              as_text(field.growth) +
-              " so far, and has no steady state: lower Production, "
-              "raise Consumption, let Production saturate, or set "
-              "Time = transient with a shorter step.");
-        if (warned)
-          return;
-        warned = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day the field '"
-          << parameters.fields[field.number].name << "' still changed by "
-          << field.change << " of its largest value after " << field.iterations
-          << " iterations, as what cells do to it depends on itself. The next "
-             "step goes on from there; expressions without jumps converge "
-             "better. Later ones are not told of.";
-        tools.announce(text.str());
-      }
-      void
-      warn_if_raised(const FieldSolution<dim> &field, const double t)
-      {
-        if (!(field.raised > 1.) || warned_of_surface)
-          return;
-        warned_of_surface = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day the fixed value of the field '"
-          << parameters.fields[field.number].name << "' was enforced "
-          << field.raised
-          << " times as strongly as usual: the surface is rough, or the tissue "
-             "thin, within a grid spacing, and the field is inexact there. Take "
-             "a smaller Grid/Spacing with smaller cells, or keep the surface "
-             "smooth by Boundary conditions/Surface tension. Later times are "
-             "not told of.";
-        tools.announce(text.str());
-      }
-      void
-      warn_of_nothing(const FieldSolution<dim> &field, const double t)
-      {
-        if (field.pieces_of_nothing == 0 || warned_of_nothing)
-          return;
-        warned_of_nothing = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day "
-          << (field.pieces_of_nothing == 1 ?
-                "a separate piece" :
-                std::to_string(field.pieces_of_nothing) + " separate pieces")
-          << " of the tissue has neither source nor sink of the steady field '"
-          << parameters.fields[field.number].name
-          << "': its level there is not determined, and is set to 0. Give it a "
-             "Consumption, a fixed value or a Transfer there. Later ones are "
-             "not told of.";
-        tools.announce(text.str());
-      }
-
-      const Fields<dim>              &fields;
-      const FieldsParameters         &parameters;
-      const RunTools<dim>             tools;
-      std::optional<FieldSolver<dim>> solver;         // of the configuration
-      std::vector<std::uint64_t>      clipped;        // by field, in the step
-      bool                            warned = false; // of one not converged
-      bool                            warned_of_surface = false; // too rough
-      bool                            warned_of_nothing = false; // in a piece
-    };
+    /** Fields that depend on each other are found again until they change by so
+     *  little, relative to the largest value, but not more often. */
+    constexpr double       small_difference = 1e-9;
+    constexpr double       exact_difference = 1e-11;
+    constexpr unsigned int most_turns       = 50;
   } // namespace
 
 
   template <int dim>
-  std::unique_ptr<EquationInRun<dim>>
-  fields_in_run(const Fields<dim> &fields, const RunTools<dim> &tools)
+  FieldsOfStep<dim>
+  find_group(const std::vector<Field<dim>>   &fields,
+             const std::vector<unsigned int> &group,
+             FieldSolver<dim>                &solver,
+             const double                     t0,
+             const double                     t1)
   {
-    return std::make_unique<StepFields<dim>>(fields, tools);
+    // A field that depends on none of its group is solved once. Fields that
+    // depend on each other are solved in turns, each with the latest values of
+    // the others, until none changes any more. If they do not agree after many
+    // turns all are marked, and the caller says so.
+    const auto solve = [&]() {
+      FieldsOfStep<dim> found;
+      for (const unsigned int k : group)
+        found.push_back(solver.field(fields[k], k, t0, t1));
+      return found;
+    };
+    FieldsOfStep<dim> found = solve();
+    if (group.size() == 1)
+      return found;
+    std::vector<double> first;
+    for (const FieldSolution<dim> &field : found)
+      first.push_back(solver.size(field.values));
+    // Each sees the latest values of the others. Where all are linear their
+    // amounts can be balanced to rounding.
+    const bool is_exact =
+      std::none_of(group.begin(), group.end(), [&](const unsigned int k) {
+        return fields[k].kind() == FieldKind::steady ||
+               fields[k].is_nonlinear();
+      });
+    for (unsigned int turn = 0; turn < most_turns; ++turn)
+      {
+        const FieldsOfStep<dim> before = std::move(found);
+        found                          = solve();
+        double change                  = 0.;
+        for (std::size_t i = 0; i < found.size(); ++i)
+          {
+            found[i].change =
+              solver.relative_change(before[i].values, found[i].values);
+            found[i].iterations += before[i].iterations;
+            change = std::max(change, found[i].change);
+          }
+        // The last change is what the amounts of the group miss.
+        if (change <= (is_exact ? exact_difference : small_difference))
+          return found;
+      }
+    for (std::size_t i = 0; i < found.size(); ++i)
+      {
+        found[i].converged = false;
+        if (first[i] > 0.)
+          found[i].growth = solver.size(found[i].values) / first[i];
+      }
+    return found;
   }
 
 
-  MORULA_INSTANTIATE(fields_in_run);
+  MORULA_INSTANTIATE(groups_of);
+  MORULA_INSTANTIATE(find_group);
 } // namespace Morula

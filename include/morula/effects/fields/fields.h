@@ -222,152 +222,21 @@ namespace Morula
     std::optional<std::vector<char>> touching;
   };
 
+  /** Groups of fields, by their numbers, each after those on which it depends:
+   *  fields that depend on each other, or one alone. */
   template <int dim>
-  class Fields;
+  std::vector<std::vector<unsigned int>>
+  groups_of(const std::vector<Field<dim>> &fields);
 
-  /** The fields in the steps of a run. Keeps references to the arguments. */
+  /** Finds the fields of a group: those that depend on each other in turns,
+   *  until they agree. Collective. @throws InputError, StepFailed */
   template <int dim>
-  std::unique_ptr<EquationInRun<dim>>
-  fields_in_run(const Fields<dim> &fields, const RunTools<dim> &tools);
-
-  /**
-   * The fields of a scene: what diffuses through the tissue, is made and used
-   * up by cells, and moves with them: doc/theory.md (11.1). Cells keep the
-   * values in columns.
-   */
-  template <int dim>
-  class Fields : public Equation<dim>
-  {
-  public:
-    using Parameters = FieldsParameters;
-
-    /** Adds the columns of the fields. @throws InputError */
-    Fields(const FieldsParameters   &parameters,
-           const EffectSetting<dim> &setting);
-
-    /** Their names and expressions. */
-    const FieldsParameters &
-    parameters() const
-    {
-      return parameters_;
-    }
-
-    std::unique_ptr<EquationInRun<dim>>
-    in_run(const RunTools<dim> &tools) const override
-    {
-      return fields_in_run(*this, tools);
-    }
-
-    bool
-    is_steady() const override
-    {
-      return any(FieldKind::steady);
-    }
-
-    bool
-    is_transient() const override
-    {
-      return any(FieldKind::transient);
-    }
-
-    /** Gives a founder the initial values. @throws InputError */
-    void
-    begin(const CellView<dim, double> &cell) const override;
-
-    /** Refuses expressions that a founder has no values for. */
-    void
-    check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
-
-    /** Refuses values for the surface that it cannot have at t = 0, and
-     *  conditions that hold nowhere. */
-    void
-    check_surface(const std::vector<Point<dim>> &X,
-                  const MPI_Comm                 comm) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override
-    {
-      review_fields(parameters_, scene, review);
-    }
-
-    /** The columns of the fields that growth dilutes, doc/theory.md, section
-     *  11.4. */
-    std::vector<Column<double>>
-    densities() const override
-    {
-      std::vector<Column<double>> list;
-      for (unsigned int k = 0; k < fields.size(); ++k)
-        if (fields[k].is_diluted())
-          list.push_back(columns[k]);
-      return list;
-    }
-
-    /**
-     * Finds the fields of one kind at the end @p t1 of a step that begins at @p
-     * t0 with the tissue as the solver has it, in days; steady ones at t1 = t0.
-     * Those on which others depend come first, so that their order in the scene
-     * does not matter; those that depend on each other are found in turns until
-     * they agree. Collective.
-     * @throws InputError  for expressions without a value
-     * @throws StepFailed where there is no solution
-     */
-    FieldsOfStep<dim>
-    find(const FieldKind   kind,
-         FieldSolver<dim> &solver,
-         const double      t0,
-         const double      t1) const;
-
-    /** Gives cells the values that were found. */
-    void
-    set(Tissue<dim> &tissue, const FieldsOfStep<dim> &of_step) const;
-
-    /** Least, mean and largest values in statistics.csv, and how many were
-     *  clipped. */
-    void
-    declare(Tables<dim> &tables) const override
-    {
-      for (const Field<dim> &field : fields)
-        for (const std::string what : {"min", "mean", "max", "clipped"})
-          tables.add_number(field.name() + "_" + what);
-    }
-
-    /** Whether some are of this kind. */
-    bool
-    any(const FieldKind kind) const
-    {
-      return std::any_of(fields.begin(),
-                         fields.end(),
-                         [kind](const Field<dim> &field) {
-                           return field.kind() == kind;
-                         });
-    }
-
-    /** Gives their least, mean and largest values, 0 where there are no cells.
-     *  Collective. */
-    void
-    describe(const Tissue<dim> &tissue, NamedNumbers &columns) const;
-
-  private:
-    /** Finds the order in which fields can be found. */
-    void
-    order();
-
-    /** Fields that depend on each other, or one alone. */
-    FieldsOfStep<dim>
-    find_group(const std::vector<unsigned int> &group,
-               FieldSolver<dim>                &solver,
-               const double                     t0,
-               const double                     t1) const;
-
-    FieldsParameters parameters_;
-    /** Numbers of fields that depend on each other, in the order in which they
-     *  are found. */
-    std::vector<std::vector<unsigned int>> groups;
-    std::vector<Field<dim>>                fields;
-    std::vector<Column<double>>            columns;
-    std::vector<Column<Tensor<1, dim>>>    gradients;
-  };
+  FieldsOfStep<dim>
+  find_group(const std::vector<Field<dim>>   &fields,
+             const std::vector<unsigned int> &group,
+             FieldSolver<dim>                &solver,
+             const double                     t0,
+             const double                     t1);
 } // namespace Morula
 
 #endif

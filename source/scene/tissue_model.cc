@@ -17,6 +17,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -245,25 +246,19 @@ namespace Morula
         return effect;
       }
 
-      /** Makes those of a kind that are on. */
-      template <template <int> class Interface, typename Kind>
+      /** Makes those of a kind that are on, for a list of effects, or of
+       *  effects and names. */
+      template <template <int> class Interface, typename List>
       void
-      make_all(const Choices<Interface>                 &choices,
-               std::vector<std::unique_ptr<const Kind>> &list)
+      make_all(const Choices<Interface> &choices, List &list)
       {
         for (const auto &choice : choices)
-          if (choice.keys().is_on())
-            list.push_back(make(choice));
-      }
-
-      /** Makes those of a kind that are on, with their names. */
-      template <template <int> class Interface, typename Named>
-      void
-      make_all(const Choices<Interface> &choices, std::vector<Named> &list)
-      {
-        for (const auto &choice : choices)
-          if (choice.keys().is_on())
+          if (!choice.keys().is_on())
+            continue;
+          else if constexpr (std::is_aggregate_v<typename List::value_type>)
             list.push_back({choice.name(), make(choice)});
+          else
+            list.push_back(make(choice));
       }
 
       /** A column of cells that begins with the identity. */

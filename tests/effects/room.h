@@ -20,7 +20,7 @@
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/rearrangement/rearrangement.h>
-#include <morula/effects/state/surface_distance.h>
+#include <morula/effects/state/state_columns.h>
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>

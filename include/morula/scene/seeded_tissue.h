@@ -5,7 +5,7 @@
 #define morula_scene_seeded_tissue_h
 
 #include <morula/effects/development.h>
-#include <morula/effects/state/surface_distance.h>
+#include <morula/effects/state/state_columns.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/tissue_model.h>

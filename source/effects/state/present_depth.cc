@@ -4,7 +4,7 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/state/surface_distance.h>
+#include <morula/effects/state/state_columns.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/boost_adaptors/point.h>

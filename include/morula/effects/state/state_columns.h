@@ -8,6 +8,11 @@
 #include <morula/base/expression.h>
 #include <morula/particles/cell_state.h>
 
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <mpi.h>
+
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -202,6 +207,30 @@ namespace Morula
     std::vector<Variable>          used;           // sorted
     bool                           needs_normal = false;
   };
+
+  /** The surface near a place. */
+  template <int dim>
+  struct NearSurface
+  {
+    /** Distance from the plane of the nearest boundary point, µm; 0 outside. */
+    double depth = 0.;
+    /** Outward unit normal there. */
+    Tensor<1, dim> normal;
+  };
+
+  /**
+   * The surface near each place, at t = 0, over all ranks' boundary points.
+   * Without boundary points the surface is infinitely far. Collective.
+   * @param places  µm
+   * @param points  positions of this rank's boundary points, µm
+   * @param normals their outward unit normals
+   */
+  template <int dim>
+  std::vector<NearSurface<dim>>
+  near_surface(const std::vector<Point<dim>>     &places,
+               const std::vector<Point<dim>>     &points,
+               const std::vector<Tensor<1, dim>> &normals,
+               const MPI_Comm                     comm);
 } // namespace Morula
 
 #endif

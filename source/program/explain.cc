@@ -168,20 +168,6 @@ namespace Morula
       return out;
     }
 
-    /** The variables of an expression that only a present cell has. */
-    std::string
-    variables_of_cells(const Expression &expression)
-    {
-      std::string names;
-      // The variables of place and time, up to t, come first in the list; all
-      // behind them belong to cells.
-      for (const Variable variable : expression.used())
-        if (variable > Variable::t)
-          names += (names.empty() ? "" : ", ") +
-                   expression.vocabulary().name_of(variable);
-      return names;
-    }
-
     /** Prints the types of cells, and for each type the keys that it sets
      *  differently. Prints nothing without types. @param n_founders by type, on
      *  all ranks */
@@ -199,32 +185,6 @@ namespace Morula
             << scene.cell_types.details_of(i);
     }
 
-    /** Prints which expressions use variables of the present cell, which
-     *  variables these are, and when they are evaluated. Prints nothing if
-     * there are none. */
-    void
-    print_cell_expressions(std::ostream &out, const Scene &scene)
-    {
-      bool first = true;
-      for (const AnyKey *key : scene.list())
-        {
-          const auto *expression = dynamic_cast<const ExpressionKey *>(key);
-          if (expression == nullptr || expression->empty() ||
-              !expression->is_of_cells())
-            continue;
-          const std::string variables =
-            variables_of_cells(expression->expression(scene.dimension));
-          if (variables.empty())
-            continue;
-          if (first)
-            out << "Expressions of the present cell\n";
-          first = false;
-          out << "  " << key->path() << ", evaluated "
-              << description_of(expression->evaluated()) << ": " << variables
-              << '\n';
-        }
-    }
-
     /** So many bodies are described one by one. */
     constexpr std::size_t most_bodies_listed = 8;
 
@@ -237,19 +197,6 @@ namespace Morula
         if (!key->texts_by_method().empty())
           out << "    " << key->path() << " = " << key->shown()
               << (scene.has_set(*key) ? " (set by the scene)" : "") << '\n';
-    }
-
-    /** The size at t = 0. */
-    void
-    print_size(std::ostream      &out,
-               const unsigned int n_unknowns,
-               const unsigned int n_numbers,
-               const double       memory)
-    {
-      out << "Size\n  unknowns: " << n_unknowns
-          << " in the first step\n  numbers stored per cell: " << n_numbers
-          << " (" << 8 * n_numbers << " bytes)\n  memory: " << memory / 1e9
-          << " GB here\n";
     }
 
     /** Everything that is known of a scene before it runs, on rank 0. */
@@ -366,8 +313,10 @@ namespace Morula
       for (const EffectRow &row : found.effects)
         print(text, row);
       print_types(text, scene, found.n_of_types);
-      print_cell_expressions(text, scene);
-      print_size(text, found.n_unknowns, found.n_numbers, found.memory);
+      text << "Size\n  unknowns: " << found.n_unknowns
+           << " in the first step\n  numbers stored per cell: "
+           << found.n_numbers << " (" << 8 * found.n_numbers
+           << " bytes)\n  memory: " << found.memory / 1e9 << " GB here\n";
       for (const std::string &warning : found.tissue.warnings)
         text << warning << '\n';
     }

@@ -378,7 +378,8 @@ namespace Morula
     // of memory, and the rest. Every rank calls end_all_ranks(), which is
     // collective. The hint is empty until the scene is accepted: before that
     // there is nothing to go on from.
-    std::string resume_hint;
+    std::string resume_hint, message;
+    int         exit_code = 2;
     try
       {
         const CommandLine command = CommandLine::parse(words);
@@ -392,34 +393,27 @@ namespace Morula
       }
     catch (const InputError &error)
       {
-        return end_all_ranks(1, error.what(), MPI_COMM_WORLD);
+        exit_code = 1;
+        message   = error.what();
       }
     catch (const StoppedBySignal &stop)
       {
         stop_signal = stop.signal;
-        return end_all_ranks(2,
-                             std::string(stop.what()) + '\n' + resume_hint,
-                             MPI_COMM_WORLD);
+        message     = std::string(stop.what()) + '\n' + resume_hint;
       }
     catch (const std::bad_alloc &)
       {
-        return end_all_ranks(2,
-                             "The run failed: out of memory. " + resume_hint,
-                             MPI_COMM_WORLD);
+        message = "The run failed: out of memory. " + resume_hint;
       }
     catch (const std::exception &error)
       {
-        return end_all_ranks(2,
-                             std::string("The run failed: ") + error.what() +
-                               "\n" + resume_hint,
-                             MPI_COMM_WORLD);
+        message =
+          std::string("The run failed: ") + error.what() + "\n" + resume_hint;
       }
     catch (...)
       {
-        return end_all_ranks(2,
-                             "The run failed for an unknown reason. " +
-                               resume_hint,
-                             MPI_COMM_WORLD);
+        message = "The run failed for an unknown reason. " + resume_hint;
       }
+    return end_all_ranks(exit_code, message, MPI_COMM_WORLD);
   }
 } // namespace Morula

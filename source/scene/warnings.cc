@@ -4,8 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/scene/checks.h>
-#include <morula/seeding/pieces_at_start.h>
 #include <morula/scene/seeded_tissue.h>
+#include <morula/seeding/pieces_at_start.h>
 #include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
@@ -133,17 +133,21 @@ namespace Morula
       std::vector<CoupledRate> rates = coupled_rates(model);
       if (rates.empty())
         return;
-      for_first_cells<dim>(
-        model,
-        founders,
-        surface,
-        comm,
-        [&](const std::size_t, const PresentCell<dim> &founder) {
-          for (CoupledRate &coupled : rates)
-            if (!coupled.type || *coupled.type == founder.type())
-              coupled.largest =
-                std::max(coupled.largest, founder.value(coupled.rate, 0.));
-        });
+      for_first_cells<dim>(model,
+                           founders,
+                           surface,
+                           0.,
+                           comm,
+                           [&](const std::size_t,
+                               std::vector<double> &,
+                               const PresentCell<dim> &founder) {
+                             for (CoupledRate &coupled : rates)
+                               if (!coupled.type ||
+                                   *coupled.type == founder.type())
+                                 coupled.largest =
+                                   std::max(coupled.largest,
+                                            founder.value(coupled.rate, 0.));
+                           });
       for (const CoupledRate &coupled : rates)
         {
           const double largest = Utilities::MPI::max(coupled.largest, comm);
@@ -336,36 +340,6 @@ namespace Morula
         }
     }
 
-    /** Warns of a method that changes nothing, because the scene itself sets
-     * all keys that it stands for, to other values. A file made of the output
-     * of
-     *  --parameters does so. */
-    void
-    review_method(const Scene &scene, Review &review)
-    {
-      // One key that the scene does not set, or sets to the method's value,
-      // gives the method a meaning.
-      const std::string method = scene.method;
-      std::string       paths;
-      for (const AnyKey *key : scene.list())
-        {
-          const auto text = key->texts_by_method().find(method);
-          if (text == key->texts_by_method().end())
-            continue;
-          if (!review.has_set(*key) ||
-              same_value(scene.as_written.at(key->path()), text->second))
-            return;
-          paths += (paths.empty() ? "" : ", ") + key->path();
-        }
-      if (!paths.empty())
-        review.warn(scene.method.path(),
-                    method,
-                    "it changes nothing, as the scene itself sets all that it "
-                    "stands for: " +
-                      paths + ".",
-                    "Remove these keys, or this one.");
-    }
-
     /** Whether some surface is pulled or pressed. */
     template <int dim>
     bool
@@ -439,7 +413,6 @@ namespace Morula
       scene.nitsche.review(scene.material,
                            counts.points > 0 && counts.fixed == counts.points,
                            review);
-    review_method(scene, review);
     return review.warnings;
   }
 

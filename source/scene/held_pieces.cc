@@ -354,8 +354,10 @@ namespace Morula
         for_first_cells<dim>(model,
                              founders,
                              surface,
+                             0.,
                              comm,
-                             [&](const std::size_t       i,
+                             [&](const std::size_t i,
+                                 std::vector<double> &,
                                  const PresentCell<dim> &cell) {
                                add_body(model,
                                         cell,

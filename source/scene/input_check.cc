@@ -4,10 +4,10 @@
 #include <morula/base/input_error.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/point_fields.h>
-#include <morula/scene/scene.h>
-#include <morula/seeding/seeding.h>
 #include <morula/scene/checks.h>
+#include <morula/scene/scene.h>
 #include <morula/scene/tissue_model.h>
+#include <morula/seeding/seeding.h>
 
 #include <cmath>
 #include <map>

@@ -33,63 +33,45 @@ namespace Morula
         given.type = founders.types[i];
       return given;
     }
+
+    /** All columns of founder number @p i, at t = 0. @throws InputError */
+    template <int dim>
+    std::vector<double>
+    founder_row(const TissueModel<dim>              &model,
+                const Founders<dim>                 &founders,
+                const std::vector<NearSurface<dim>> &surface,
+                const std::size_t                    i,
+                const double                         step)
+    {
+      // The row begins with the defaults of all columns. What the surface and
+      // the file tell is set first, then fields and what else equations give,
+      // since expressions of effects may read all of these; the development
+      // comes last. The file's ids are global: the first of this rank plus i.
+      const CellDevelopment<dim> &development = model.development;
+      const CellColumns<dim>     &columns     = development.columns();
+      const StateColumns<dim>    &state       = development.state();
+      std::vector<double>         row =
+        columns.founder(founders.positions[i], founders.volumes[i]);
+      const CellView<dim, double> cell(make_array_view(row), columns);
+      if (state.depth.exists())
+        cell.set(state.depth, surface[i].depth);
+      if (state.present_depth.exists())
+        cell.set(state.present_depth, surface[i].depth);
+      if (state.surface_normal.exists())
+        cell.set(state.surface_normal, surface[i].normal);
+      if (columns.generation.exists() && !founders.generations.empty())
+        cell.set(columns.generation, founders.generations[i]);
+      if (columns.body.exists() && !founders.bodies.empty())
+        cell.set(columns.body, founders.bodies[i]);
+      for (const auto &[name, equation] : model.equations)
+        equation->begin(cell);
+      development.initialize(founders.first_id + i,
+                             cell,
+                             step,
+                             given_state(founders, i));
+      return row;
+    }
   } // namespace
-
-
-  template <int dim>
-  std::vector<NearSurface<dim>>
-  near_surface_of(const StateColumns<dim>   &state,
-                  const Founders<dim>       &founders,
-                  const SurfacePatches<dim> &patches,
-                  const MPI_Comm             comm)
-  {
-    // The search is collective, and whether it is needed is the same on all
-    // ranks.
-    if (!state.needs_surface())
-      return {};
-    return near_surface(founders.positions,
-                        patches.positions,
-                        patches.normals,
-                        comm);
-  }
-
-
-  template <int dim>
-  std::vector<double>
-  founder_row(const CellDevelopment<dim>          &development,
-              const NamedEffects<Equation<dim>>   &equations,
-              const Founders<dim>                 &founders,
-              const std::vector<NearSurface<dim>> &surface,
-              const std::size_t                    i,
-              const double                         step)
-  {
-    // The row begins with the defaults of all columns. What the surface and the
-    // file tell is set first, then fields and what else equations give, since
-    // expressions of effects may read all of these; the development comes last.
-    // The file's ids are global: the first of this rank plus i.
-    const CellColumns<dim>  &columns = development.columns();
-    const StateColumns<dim> &state   = development.state();
-    std::vector<double>      row =
-      columns.founder(founders.positions[i], founders.volumes[i]);
-    const CellView<dim, double> cell(make_array_view(row), columns);
-    if (state.depth.exists())
-      cell.set(state.depth, surface[i].depth);
-    if (state.present_depth.exists())
-      cell.set(state.present_depth, surface[i].depth);
-    if (state.surface_normal.exists())
-      cell.set(state.surface_normal, surface[i].normal);
-    if (columns.generation.exists() && !founders.generations.empty())
-      cell.set(columns.generation, founders.generations[i]);
-    if (columns.body.exists() && !founders.bodies.empty())
-      cell.set(columns.body, founders.bodies[i]);
-    for (const auto &[name, equation] : equations)
-      equation->begin(cell);
-    development.initialize(founders.first_id + i,
-                           cell,
-                           step,
-                           given_state(founders, i));
-    return row;
-  }
 
 
   template <int dim>
@@ -98,22 +80,30 @@ namespace Morula
     const TissueModel<dim>                                           &model,
     const Founders<dim>                                              &founders,
     const SurfacePatches<dim>                                        &patches,
+    const double                                                      step,
     const MPI_Comm                                                    comm,
-    const std::function<void(std::size_t, const PresentCell<dim> &)> &action)
+    const std::function<void(
+      std::size_t, std::vector<double> &, const PresentCell<dim> &)> &action)
   {
-    // The step of the row is 0, so that nothing is checked: that is done
-    // elsewhere. An expression may have no value at some founder; then all
-    // ranks throw.
-    const auto surface =
-      near_surface_of(model.development.state(), founders, patches, comm);
+    // The distance to the surface needs the patches of all ranks, so that its
+    // search is collective; whether it is needed is the same on all ranks. The
+    // loop is not, and an expression may have no value at some founder: then
+    // all ranks throw.
+    std::vector<NearSurface<dim>> surface;
+    if (model.development.state().needs_surface())
+      surface = near_surface(founders.positions,
+                             patches.positions,
+                             patches.normals,
+                             comm);
     const CellReader<dim> reader = model.development.reader(0.);
     everywhere(comm, [&]() {
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
         {
-          std::vector<double> row = founder_row(
-            model.development, model.equations, founders, surface, i, 0.);
+          std::vector<double> row =
+            founder_row(model, founders, surface, i, step);
           action(
             i,
+            row,
             PresentCell<dim>(CellView<dim, double>(make_array_view(row),
                                                    model.development.columns()),
                              founders.first_id + i,
@@ -124,8 +114,6 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(near_surface_of);
-  MORULA_INSTANTIATE(founder_row);
   MORULA_INSTANTIATE(for_first_cells);
 
 

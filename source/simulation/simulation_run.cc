@@ -36,50 +36,6 @@ namespace Morula
       std::vector<Birth<dim>> births;
     };
 
-    /** Adds founder number @p i. @throws InputError */
-    template <int dim>
-    void
-    add_founder(const TissueModel<dim>              &model,
-                const Founders<dim>                 &founders,
-                const std::size_t                    i,
-                const std::vector<NearSurface<dim>> &surface,
-                const CellReader<dim>               &reader,
-                FirstPoints<dim>                    &points)
-    {
-      // The row of the founder is complete before any effect sees it: an effect
-      // checks the cell that will be in the first step, and refuses what it
-      // cannot handle. The founder is added to the cells and to lineage.csv,
-      // where it has no mother (-1).
-      const Point<dim>            X     = founders.positions[i];
-      const types::particle_index id    = founders.first_id + i;
-      std::vector<double>         row   = founder_row(model.development,
-                                            model.equations,
-                                            founders,
-                                            surface,
-                                            i,
-                                            model.scene.time.step);
-      const StateColumns<dim>    &state = model.development.state();
-      const CellView<dim, double> cell(make_array_view(row),
-                                       model.development.columns());
-      const PresentCell<dim>      founder(cell, id, X, reader);
-      for (const auto &named : model.equations)
-        named.effect->check_cell(founder, model.scene.time.step);
-      for (const auto &trait : model.traits)
-        trait->check_cell(founder, model.scene.time.step);
-      for (const auto &named : model.step_effects)
-        named.effect->check_cell(founder, model.scene.time.step);
-      for (const auto &named : model.forces)
-        named.effect->check_cell(founder, model.scene.time.step);
-      points.cells.add(id, X, make_array_view(row));
-      points.births.push_back(
-        {id,
-         -1,
-         founders.generations.empty() ? 0 : founders.generations[i],
-         0.,
-         X,
-         state.type.exists() ? cell.get(state.type) : 0});
-    }
-
     /** Gives founders and patches the state in which they begin. Collective.
      *  @throws InputError on all ranks if an effect cannot handle a founder */
     template <int dim>
@@ -102,15 +58,38 @@ namespace Morula
                                         {}};
       points.cells.reserve(founders.positions.size());
       points.births.reserve(founders.positions.size());
-      // The distance to the surface needs the patches of all ranks, so that the
-      // call is collective. The loop below is not, and may throw on one rank.
-      const auto surface =
-        near_surface_of(model.development.state(), founders, patches, comm);
-      const CellReader<dim> reader = model.development.reader(0.);
-      everywhere(comm, [&]() {
-        for (std::size_t i = 0; i < founders.positions.size(); ++i)
-          add_founder(model, founders, i, surface, reader, points);
-      });
+      // The row of a founder is complete before any effect sees it: an effect
+      // checks the cell that will be in the first step, and refuses what it
+      // cannot handle. The founder is added to the cells and to lineage.csv,
+      // where it has no mother (-1).
+      const double step = model.scene.time.step;
+      for_first_cells<dim>(
+        model,
+        founders,
+        patches,
+        step,
+        comm,
+        [&](const std::size_t       i,
+            std::vector<double>    &row,
+            const PresentCell<dim> &founder) {
+          for (const auto &named : model.equations)
+            named.effect->check_cell(founder, step);
+          for (const auto &trait : model.traits)
+            trait->check_cell(founder, step);
+          for (const auto &named : model.step_effects)
+            named.effect->check_cell(founder, step);
+          for (const auto &named : model.forces)
+            named.effect->check_cell(founder, step);
+          const Point<dim> X = founders.positions[i];
+          points.cells.add(founder.id(), X, make_array_view(row));
+          points.births.push_back(
+            {founder.id(),
+             -1,
+             founders.generations.empty() ? 0 : founders.generations[i],
+             0.,
+             X,
+             founder.type()});
+        });
       for (std::size_t i = 0; i < patches.positions.size(); ++i)
         {
           // The condition of a patch is decided here, once for the whole run:

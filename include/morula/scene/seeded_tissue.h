@@ -55,42 +55,24 @@ namespace Morula
                   const LoadedPoints<dim>      &loaded,
                   const double                  t);
 
-  /** Where founders stand to the surface; empty if nothing asks for it.
-   *  Collective. */
-  template <int dim>
-  std::vector<NearSurface<dim>>
-  near_surface_of(const StateColumns<dim>   &state,
-                  const Founders<dim>       &founders,
-                  const SurfacePatches<dim> &patches,
-                  const MPI_Comm             comm);
-
   /**
-   * All columns of founder number @p i, at t = 0.
-   * @param surface what near_surface_of() has said
-   * @param step    of the run, day, if effects are to refuse what they cannot
-   *                do with it; else 0
+   * Calls @p action for each founder of this rank in its state at t = 0: with
+   * its number, its columns and the cell as expressions see it. Collective; all
+   * throw together.
+   * @param step of the run, day, if effects are to refuse what they cannot do
+   *             with it; 0 for what is said of a scene before the run
    * @throws InputError
    */
-  template <int dim>
-  std::vector<double>
-  founder_row(const CellDevelopment<dim>          &development,
-              const NamedEffects<Equation<dim>>   &equations,
-              const Founders<dim>                 &founders,
-              const std::vector<NearSurface<dim>> &surface,
-              const std::size_t                    i,
-              const double                         step);
-
-  /** Calls @p action for each founder of this rank in its state at t = 0, with
-   *  its number: for what is said of a scene before the run. Collective; all
-   *  throw together. @throws InputError */
   template <int dim>
   void
   for_first_cells(
     const TissueModel<dim>                                           &model,
     const Founders<dim>                                              &founders,
     const SurfacePatches<dim>                                        &patches,
+    const double                                                      step,
     const MPI_Comm                                                    comm,
-    const std::function<void(std::size_t, const PresentCell<dim> &)> &action);
+    const std::function<void(
+      std::size_t, std::vector<double> &, const PresentCell<dim> &)> &action);
 
   /** The tissue of a scene at t = 0, on this rank, and what the checks of the
    *  scene have found there. */

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/growth/isotropic.h>
-#include <morula/effects/growth/rate_growth.h>
 #include <morula/effects/library_effects.h>
-#include <morula/effects/state/neighbour_columns.h>
 
 #include <algorithm>
 #include <cctype>
@@ -14,79 +10,25 @@
 
 namespace Morula
 {
-  // Effects that only their own files know.
-  void
-  add_contraction(Choices<GrowthFactor> &, const Catalogue::Settings &example);
-  void
-  add_relaxation(Choices<Flow> &, const Catalogue::Settings &example);
-  void
-  add_neighbours(Choices<StepEffect> &, const Catalogue::Settings &example);
-  void
-  add_present_depth(Choices<StepEffect> &, const Catalogue::Settings &example);
-  void
-  add_fields(Choices<Equation> &, const Catalogue::Settings &example);
-
-  namespace
-  {
-    Catalogue::Settings
-    with(Catalogue::Settings settings, const Catalogue::Settings &more)
-    {
-      settings.insert(settings.end(), more.begin(), more.end());
-      return settings;
-    }
-
-
-    /** Adds one of the library's own effects. Its section is empty, as its keys
-     *  know their full paths; an effect of a user's program gets a section. */
-    template <template <int> class Effect, template <int> class Interface>
-    void
-    add_own(Choices<Interface>        &choices,
-            const std::string         &name,
-            const Catalogue::Settings &example)
-    {
-      choices.push_back(
-        Choice<Interface>::template of<Effect>(name, "", example));
-    }
-  } // namespace
-
-
   Catalogue::Catalogue()
   {
-    // Parts of the examples.
-    const Settings uneven = {
-      "Growth/Law=isotropic",
-      "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"};
-    const Settings growing = {"Growth/Law=rate",
-                              "Growth/Rate/Rate=J_e + 0.1*X*Y"};
-
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
     // factors and flows are applied in it as well, so a new effect belongs at
     // the end of its kind.
-    add_own<IsotropicGrowth>(growth_laws, "isotropic", uneven);
-    add_own<RateGrowth>(growth_laws, "rate", growing);
-    add_contraction(growth_factors,
-                    {"Contraction/Stretch=1 - 0.2*t",
-                     "Contraction/Direction=1; 1; 0"});
-    add_relaxation(flows, with(uneven, {"Material/Relaxation time=0.2"}));
+    add_isotropic_growth(growth_laws);
+    add_rate_growth(growth_laws);
+    add_contraction(growth_factors);
+    add_relaxation(flows);
     add_cell_cycle(fates);
     add_division_by_size(fates);
     add_death(fates);
     add_extrusion(fates);
-    add_fields(equations,
-               {"Fields/Names=signal",
-                "Fields/signal/Time=transient",
-                "Fields/signal/Diffusion=1",
-                "Fields/signal/Consumption=signal",
-                "Fields/signal/Initial=1 + 0.1*X*Y",
-                "Fields/signal/Fixed where=X + Y > 2"});
+    add_fields(equations);
     add_division_rules(division_rules);
     add_rearrangement(step_effects);
-    add_neighbours(step_effects,
-                   {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"});
-    add_present_depth(step_effects,
-                      {"Growth/Law=rate",
-                       "Growth/Rate/Rate=0.2*present_depth"});
+    add_neighbours(step_effects);
+    add_present_depth(step_effects);
     add_body_force(forces);
     add_friction(forces);
     add_type_tension(forces);

@@ -13,6 +13,7 @@
 #include <morula/particles/neighbours.h>
 #include <morula/particles/tissue.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -83,7 +84,16 @@ namespace Morula
 
     /** Adds a fate, behind those before. */
     void
-    add_fate(std::unique_ptr<const Fate<dim>> fate);
+    add_fate(std::unique_ptr<const Fate<dim>> fate)
+    {
+      if (const auto *cycle =
+            dynamic_cast<const Proliferation<dim> *>(fate.get()))
+        proliferation = cycle;
+      if (const auto *of_types =
+            dynamic_cast<const CellTypes<dim> *>(fate.get()))
+        types = of_types;
+      fates.add(std::move(fate));
+    }
 
     /** Whether the law follows the cells' state, so that a step can miss some
      *  growth. */
@@ -96,7 +106,13 @@ namespace Morula
     /** Whether a step's error is known: growth follows the state, or tissue
      *  flows. */
     bool
-    states_error() const;
+    states_error() const
+    {
+      return law_follows_state() ||
+             std::any_of(flows.begin(), flows.end(), [](const auto &flow) {
+               return flow->has_forecast();
+             });
+    }
   };
 
   /**
@@ -188,7 +204,10 @@ namespace Morula
     /** Sets a cell's clock. Only with a cycle. */
     void
     set_clock(const CellView<dim, double> &cell,
-              const CycleState<dim>       &state) const;
+              const CycleState<dim>       &state) const
+    {
+      effects.proliferation->set_clock(cell, state);
+    }
 
     /**
      * Sets a founder's columns at t = 0, and refuses a founder that some effect
@@ -223,7 +242,11 @@ namespace Morula
      *  @param f of the step, at the cell */
     void
     remember_motion(const CellView<dim, double> &cell,
-                    const Tensor<2, dim>        &f) const;
+                    const Tensor<2, dim>        &f) const
+    {
+      for (const auto &flow : effects.flows)
+        flow->remember_motion(cell, f);
+    }
 
     /**
      * By how much the forecast of a step's motion was wrong about what has
@@ -325,7 +348,11 @@ namespace Morula
      *  t = 0, when the steady fields are known. */
     void
     choose_first_axis(const PresentCell<dim>      &founder,
-                      const CellView<dim, double> &cell) const;
+                      const CellView<dim, double> &cell) const
+    {
+      if (effects.proliferation)
+        effects.proliferation->choose_first_axis(founder, cell);
+    }
 
   private:
     /** What is known of errors when a cell develops. */
@@ -377,7 +404,10 @@ namespace Morula
 
     /** Whether cells of the type of this one grow by the law. */
     bool
-    grows_by_law(const PresentCell<dim> &cell) const;
+    grows_by_law(const PresentCell<dim> &cell) const
+    {
+      return effects.grows.empty() || effects.grows[cell.type()];
+    }
 
     /** What the law sees of a cell in its state at t0. */
     GrowingCell<dim>
@@ -395,7 +425,17 @@ namespace Morula
      *  the clock: the cycle's part and what has relaxed. */
     Tensor<2, dim>
     growth_behind_law(const CellView<dim, const double> &cell,
-                      const double                       t) const;
+                      const double                       t) const
+    {
+      // This is F_cycle F_r, all that stands to the right of the law's factor.
+      // Where there is a cell cycle it keeps F_r within its own growth before
+      // the cycle.
+      if (effects.proliferation)
+        return effects.proliferation->growth(cell, t);
+      return effects.relaxed.exists() ?
+               cell.get(effects.relaxed) :
+               Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    }
 
     /**
      * F_g of law, cycle and factors at @p t1, also written to @p after.

@@ -5,16 +5,21 @@
 #define morula_effects_library_effects_h
 
 #include <morula/effects/catalogue.h>
-#include <morula/effects/forces/force.h>
-#include <morula/effects/interaction.h>
-#include <morula/effects/step_effect.h>
-#include <morula/effects/surface/boundary_condition.h>
 
 namespace Morula
 {
   // Each of these adds the effect of the library that its name says: keys,
   // effect and example stand together in the file of that name. The keys know
   // their full paths, so that the effect's section is empty.
+
+  void
+  add_isotropic_growth(Choices<GrowthLaw> &laws);
+  void
+  add_rate_growth(Choices<GrowthLaw> &laws);
+  void
+  add_contraction(Choices<GrowthFactor> &factors);
+  void
+  add_relaxation(Choices<Flow> &flows);
 
   void
   add_cell_cycle(Choices<Fate> &fates);
@@ -30,6 +35,13 @@ namespace Morula
 
   void
   add_rearrangement(Choices<StepEffect> &step_effects);
+  void
+  add_neighbours(Choices<StepEffect> &step_effects);
+  void
+  add_present_depth(Choices<StepEffect> &step_effects);
+
+  void
+  add_fields(Choices<Equation> &equations);
 
   void
   add_body_force(Choices<Force> &forces);

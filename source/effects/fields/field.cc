@@ -24,19 +24,6 @@ namespace Morula
      *  field's scale. They are so small that k does not change its kind, as at
      *  a threshold, and so large that k is told from rounding. */
     constexpr double difference = 1e-6, smallest_difference = 1e-9;
-
-    /** The value at a place, as the expression's rule wants it. */
-    template <int dim>
-    double
-    at_place(const Expression &expression, const Point<dim> &X, const double t)
-    {
-      // In 2-D Z is 0.
-      VariableValues values;
-      for (unsigned int d = 0; d < 3; ++d)
-        values[d] = d < dim ? X[d] : 0.;
-      values[static_cast<unsigned int>(Variable::t)] = t;
-      return expression.value(values);
-    }
   } // namespace
 
 
@@ -61,14 +48,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  Field<dim>::initial(const Point<dim> &X) const
-  {
-    return at_place(initial_, X, 0.);
-  }
-
-
-  template <int dim>
   Uptake
   Field<dim>::uptake(PresentCell<dim> &cell,
                      const double      t,
@@ -88,47 +67,6 @@ namespace Morula
       c + std::max(difference * c, smallest_difference * scale);
     const double used_more = used(cell, t, more), used_now = used(cell, t, c);
     return {used_now, std::max(0., (used_more - used_now) / (more - c))};
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::is_fixed(const Point<dim> &X) const
-  {
-    return fixed_where && at_place(*fixed_where, X, 0.) > 0.;
-  }
-
-
-  template <int dim>
-  double
-  Field<dim>::value(const Point<dim> &X, const double t) const
-  {
-    return at_place(value_, X, t);
-  }
-
-
-  template <int dim>
-  double
-  Field<dim>::transfer(const Point<dim> &X, const double t) const
-  {
-    return transfer_ ? at_place(*transfer_, X, t) : 0.;
-  }
-
-
-  template <int dim>
-  bool
-  Field<dim>::takes_flux(const Point<dim> &X) const
-  {
-    // A point that has the Value takes no flux.
-    return flux_where && at_place(*flux_where, X, 0.) > 0. && !is_fixed(X);
-  }
-
-
-  template <int dim>
-  double
-  Field<dim>::flux(const Point<dim> &X, const double t) const
-  {
-    return takes_flux(X) ? at_place(*flux_, X, t) : 0.;
   }
 
 

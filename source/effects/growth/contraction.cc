@@ -4,6 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/contraction.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -163,11 +164,12 @@ namespace Morula
 
 
   void
-  add_contraction(Choices<GrowthFactor>     &choices,
-                  const Catalogue::Settings &example)
+  add_contraction(Choices<GrowthFactor> &factors)
   {
-    choices.push_back(
-      Choice<GrowthFactor>::of<Contraction>("contraction", "", example));
+    factors.push_back(Choice<GrowthFactor>::of<Contraction>(
+      "contraction",
+      "",
+      {"Contraction/Stretch=1 - 0.2*t", "Contraction/Direction=1; 1; 0"}));
   }
 
 

@@ -75,21 +75,6 @@ namespace Morula
 
 
   template <int dim>
-  GrowthOfStep<dim>
-  GrowthLaw<dim>::grow(const GrowingCell<dim>      &cell,
-                       const double                 t0,
-                       const double                 t1,
-                       const CellView<dim, double> &after) const
-  {
-    // By default a law misses nothing: its growth does not follow the state. A
-    // law for which growth() and remember() compute the same overrides this.
-    const Tensor<2, dim> F = growth(cell, t0, t1);
-    remember(cell, t0, t1, after);
-    return {F};
-  }
-
-
-  template <int dim>
   void
   GrowthLaw<dim>::check(const Preview<dim> &scene) const
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/effect.h>
 #include <morula/effects/growth/isotropic.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -53,6 +53,17 @@ namespace Morula
   {
     GrowthLaw<dim>::review(scene, review);
     review_growth({&theta}, 1., scene, review);
+  }
+
+
+  void
+  add_isotropic_growth(Choices<GrowthLaw> &laws)
+  {
+    laws.push_back(Choice<GrowthLaw>::of<IsotropicGrowth>(
+      "isotropic",
+      "",
+      {"Growth/Law=isotropic",
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"}));
   }
 
 

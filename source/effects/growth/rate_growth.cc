@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/effects/growth/rate_growth.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
@@ -155,17 +156,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  RateGrowth<dim>::is_known_before() const
-  {
-    // Only the size has to be known, so a direction that follows the state does
-    // no harm.
-    return !rate.depends_on_state() && !homeostasis &&
-           (!share || !share->depends_on_state());
-  }
-
-
-  template <int dim>
   GrowthFeedback
   RateGrowth<dim>::Rates::all() const
   {
@@ -250,19 +240,6 @@ namespace Morula
     return rate_along_and_across(direction->of(*cell, t),
                                  s * k,
                                  (1. - s) * k / (dim - 1));
-  }
-
-
-  template <int dim>
-  SymmetricTensor<2, dim>
-  RateGrowth<dim>::tensor_of(const Rates            &now,
-                             const PresentCell<dim> &cell,
-                             const double            t) const
-  {
-    // This is L of doc/theory.md (10.1): the rate of the volume in its
-    // directions, and H as deviator and trace.
-    return directed(now.of_rate.rate, &cell, t) + now.shape +
-           now.of_homeostasis.rate / dim * unit_symmetric_tensor<dim>();
   }
 
 
@@ -417,15 +394,6 @@ namespace Morula
 
   template <int dim>
   void
-  RateGrowth<dim>::check(const Preview<dim> &scene) const
-  {
-    if (is_known_before())
-      GrowthLaw<dim>::check(scene);
-  }
-
-
-  template <int dim>
-  void
   RateGrowth<dim>::check_cell(const PresentCell<dim> &founder,
                               const double            step) const
   {
@@ -452,6 +420,14 @@ namespace Morula
     if (homeostasis)
       rates.push_back(&*homeostasis);
     review_growth(rates, 0., scene, review);
+  }
+
+
+  void
+  add_rate_growth(Choices<GrowthLaw> &laws)
+  {
+    laws.push_back(Choice<GrowthLaw>::of<RateGrowth>(
+      "rate", "", {"Growth/Law=rate", "Growth/Rate/Rate=J_e + 0.1*X*Y"}));
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <morula/base/time_parameters.h>
 #include <morula/effects/growth/relaxation.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/relaxation.h>
@@ -246,9 +247,14 @@ namespace Morula
 
 
   void
-  add_relaxation(Choices<Flow> &choices, const Catalogue::Settings &example)
+  add_relaxation(Choices<Flow> &flows)
   {
-    choices.push_back(Choice<Flow>::of<Relaxation>("relaxation", "", example));
+    flows.push_back(Choice<Flow>::of<Relaxation>(
+      "relaxation",
+      "",
+      {"Growth/Law=isotropic",
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+       "Material/Relaxation time=0.2"}));
   }
 
 

@@ -121,23 +121,6 @@ namespace Morula
 
 
   void
-  CellDirectionKey::check_field(const std::string &path,
-                                const std::string &text) const
-  {
-    // The names of fields are known only after the whole file is read, so this
-    // cannot be checked when the key is assigned.
-    const std::string name = field_of_gradient(text);
-    const auto       &all  = field_names();
-    if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end())
-      throw InputError(path,
-                       text,
-                       "the gradient of a field of the scene",
-                       "There is no field '" + name +
-                         "': name it in Fields/Names.");
-  }
-
-
-  void
   CellDirectionKey::check(const unsigned int dim) const
   {
     // First the words: a gradient has to be that of a field of the scene. Then

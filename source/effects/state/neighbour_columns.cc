@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/fate/types_around.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
@@ -274,10 +275,11 @@ namespace Morula
 
 
   void
-  add_neighbours(Choices<StepEffect>       &choices,
-                 const Catalogue::Settings &example)
+  add_neighbours(Choices<StepEffect> &step_effects)
   {
-    choices.push_back(
-      Choice<StepEffect>::of<NeighbourColumns>("neighbours", "", example));
+    step_effects.push_back(Choice<StepEffect>::of<NeighbourColumns>(
+      "neighbours",
+      "",
+      {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"}));
   }
 } // namespace Morula

@@ -62,46 +62,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  PresentCell<dim>::set_field(const unsigned int field, const double value)
-  {
-    // The value is put where provide() would put it, and counts as known. No
-    // other variable depends on fields, so nothing else has to be computed
-    // again.
-    const auto variable = static_cast<unsigned int>(field_variable(field));
-    values[variable]    = value;
-    known |= std::uint64_t(1) << variable;
-  }
-
-
-  template <int dim>
-  Lame
-  PresentCell<dim>::lame() const
-  {
-    // Moduli that depend on X alone are those of the founder and need no state.
-    // Else they are expressions of the present cell; they cannot read the
-    // stress, which needs them.
-    const TissueMaterial &material = reader_.material;
-    if (!material.depends_on_state())
-      return material.lame_at(cell_.founder_position());
-    return Morula::lame(value(material.youngs_modulus(), reader_.time),
-                        value(material.poissons_ratio(), reader_.time));
-  }
-
-
-  template <int dim>
-  CellScalars
-  PresentCell<dim>::scalars() const
-  {
-    // If the stress was computed before, the scalars are part of it; otherwise
-    // the cheaper computation without the tensors is enough.
-    return has_quantities ?
-             quantities_ :
-             cell_scalars(cell_, reader_.material.material(), lame());
-  }
-
-
-  template <int dim>
   const CellQuantities &
   PresentCell<dim>::quantities() const
   {
@@ -115,23 +75,6 @@ namespace Morula
                                     reader_.material.per_grown_volume());
     has_quantities = true;
     return quantities_;
-  }
-
-
-  template <int dim>
-  double
-  PresentCell<dim>::value_if_grown(const Expression &expression,
-                                   const double      t,
-                                   const double      ratio) const
-  {
-    // The cell is copied with a larger F_g and the same F, as if it had grown
-    // in a place that does not give way: doc/theory.md (10.4). The volume of
-    // growth is multiplied by `ratio`, so each length by its root.
-    const CellColumns<dim>     &columns = cell_.columns();
-    std::vector<double>         row(cell_.row().begin(), cell_.row().end());
-    const CellView<dim, double> grown(make_array_view(row), columns);
-    grown.set(columns.growth, std::pow(ratio, 1. / dim) * cell_.growth());
-    return PresentCell(grown, id_, position_, reader_).value(expression, t);
   }
 
 

@@ -4,6 +4,7 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/catalogue.h>
+#include <morula/effects/library_effects.h>
 #include <morula/effects/state/state_columns.h>
 
 #include <deal.II/base/mpi.h>
@@ -143,10 +144,11 @@ namespace Morula
 
 
   void
-  add_present_depth(Choices<StepEffect>       &choices,
-                    const Catalogue::Settings &example)
+  add_present_depth(Choices<StepEffect> &step_effects)
   {
-    choices.push_back(
-      Choice<StepEffect>::of<PresentDepth>("present depth", "", example));
+    step_effects.push_back(Choice<StepEffect>::of<PresentDepth>(
+      "present depth",
+      "",
+      {"Growth/Law=rate", "Growth/Rate/Rate=0.2*present_depth"}));
   }
 } // namespace Morula

@@ -120,34 +120,6 @@ namespace Morula
 
 
   template <int dim>
-  Expression
-  StateColumns<dim>::use(const ExpressionKey &key)
-  {
-    // The list stays sorted, as uses() searches it by halves and any_in_use()
-    // looks at its last entry.
-    const Expression &expression = key.expression(dim);
-    for (const Variable variable : expression.used())
-      need(variable);
-    return expression;
-  }
-
-
-  template <int dim>
-  unsigned int
-  StateColumns<dim>::need_gradient(const std::string &field)
-  {
-    const unsigned int k =
-      std::find(names_of_fields.begin(), names_of_fields.end(), field) -
-      names_of_fields.begin();
-    // An effect that is only made to check its keys may have no fields around
-    // it; then the number is past the end and is never used.
-    if (k < needs_gradient.size())
-      needs_gradient[k] = true;
-    return k;
-  }
-
-
-  template <int dim>
   void
   StateColumns<dim>::declare_fields(CellColumns<dim> &columns)
   {

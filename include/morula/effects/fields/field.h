@@ -289,7 +289,10 @@ namespace Morula
 
     /** The value at a founder at @p X, at t = 0. @throws InputError */
     double
-    initial(const Point<dim> &X) const;
+    initial(const Point<dim> &X) const
+    {
+      return initial_.value(X, 0.);
+    }
 
     /** D of a cell, µm²/day. @throws InputError */
     double
@@ -336,24 +339,40 @@ namespace Morula
 
     /** Whether it has the Value at a boundary point. */
     bool
-    is_fixed(const Point<dim> &X) const;
+    is_fixed(const Point<dim> &X) const
+    {
+      return fixed_where && fixed_where->value(X, 0.) > 0.;
+    }
 
     /** The Value there. @throws InputError */
     double
-    value(const Point<dim> &X, const double t) const;
+    value(const Point<dim> &X, const double t) const
+    {
+      return value_.value(X, t);
+    }
 
     /** The Transfer there, 0 if there is none, µm/day. @throws InputError */
     double
-    transfer(const Point<dim> &X, const double t) const;
+    transfer(const Point<dim> &X, const double t) const
+    {
+      return transfer_ ? transfer_->value(X, t) : 0.;
+    }
 
     /** Whether the Flux comes in at a boundary point. */
     bool
-    takes_flux(const Point<dim> &X) const;
+    takes_flux(const Point<dim> &X) const
+    {
+      // A point that has the Value takes no flux.
+      return flux_where && flux_where->value(X, 0.) > 0. && !is_fixed(X);
+    }
 
     /** The Flux there, 0 where none comes in, in the field's unit times µm/day.
      *  @throws InputError */
     double
-    flux(const Point<dim> &X, const double t) const;
+    flux(const Point<dim> &X, const double t) const
+    {
+      return takes_flux(X) ? flux_->value(X, t) : 0.;
+    }
 
   private:
     std::string               name_;

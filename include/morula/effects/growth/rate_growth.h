@@ -168,7 +168,13 @@ namespace Morula
 
     /** Whether place and time alone tell growth. */
     bool
-    is_known_before() const;
+    is_known_before() const
+    {
+      // Only the size has to be known, so a direction that follows the state
+      // does no harm.
+      return !rate.depends_on_state() && !homeostasis &&
+             (!share || !share->depends_on_state());
+    }
 
     void
     remember(const GrowingCell<dim>      &cell,
@@ -195,7 +201,11 @@ namespace Morula
     }
 
     void
-    check(const Preview<dim> &scene) const override;
+    check(const Preview<dim> &scene) const override
+    {
+      if (is_known_before())
+        GrowthLaw<dim>::check(scene);
+    }
 
     void
     check_cell(const PresentCell<dim> &founder,
@@ -244,7 +254,13 @@ namespace Morula
     SymmetricTensor<2, dim>
     tensor_of(const Rates            &now,
               const PresentCell<dim> &cell,
-              const double            t) const;
+              const double            t) const
+    {
+      // This is L of doc/theory.md (10.1): the rate of the volume in its
+      // directions, and H as deviator and trace.
+      return directed(now.of_rate.rate, &cell, t) + now.shape +
+             now.of_homeostasis.rate / dim * unit_symmetric_tensor<dim>();
+    }
 
     /**
      * The growth that the step before missed, doc/theory.md (5.9).

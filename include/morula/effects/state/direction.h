@@ -5,11 +5,13 @@
 #define morula_effects_state_direction_h
 
 #include <morula/base/expression_key.h>
+#include <morula/base/input_error.h>
 #include <morula/effects/effect.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -73,7 +75,19 @@ namespace Morula
   private:
     /** @throws InputError for the gradient of a field that does not exist */
     void
-    check_field(const std::string &path, const std::string &text) const;
+    check_field(const std::string &path, const std::string &text) const
+    {
+      // The names of fields are known only after the whole file is read, so
+      // this cannot be checked when the key is assigned.
+      const std::string name = field_of_gradient(text);
+      const auto       &all  = field_names();
+      if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end())
+        throw InputError(path,
+                         text,
+                         "the gradient of a field of the scene",
+                         "There is no field '" + name +
+                           "': name it in Fields/Names.");
+    }
 
     std::string written;
     /** Paths and texts of types' own directions. */

@@ -13,6 +13,7 @@
 
 #include <deal.II/particles/property_pool.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace Morula
@@ -124,7 +125,15 @@ namespace Morula
     /** Sets the value of a field, which is given by its number, in this object.
      */
     void
-    set_field(const unsigned int field, const double value);
+    set_field(const unsigned int field, const double value)
+    {
+      // The value is put where provide() would put it, and counts as known. No
+      // other variable depends on fields, so nothing else has to be computed
+      // again.
+      const auto variable = static_cast<unsigned int>(field_variable(field));
+      values[variable]    = value;
+      known |= std::uint64_t(1) << variable;
+    }
 
     /** F_e, equation (1.3). */
     Tensor<2, dim>
@@ -135,7 +144,14 @@ namespace Morula
 
     /** Volumes and Ψ: cheaper than quantities(). */
     CellScalars
-    scalars() const;
+    scalars() const
+    {
+      // If the stress was computed before, the scalars are part of it;
+      // otherwise the cheaper computation without the tensors is enough.
+      return has_quantities ?
+               quantities_ :
+               cell_scalars(cell_, reader_.material.material(), lame());
+    }
 
     /** Volumes, Ψ and the true stress σ, kPa. */
     const CellQuantities &
@@ -143,7 +159,17 @@ namespace Morula
 
     /** λ and μ, kPa. @throws InputError for E or ν out of range */
     Lame
-    lame() const;
+    lame() const
+    {
+      // Moduli that depend on X alone are those of the founder and need no
+      // state. Else they are expressions of the present cell; they cannot read
+      // the stress, which needs them.
+      const TissueMaterial &material = reader_.material;
+      if (!material.depends_on_state())
+        return material.lame_at(cell_.founder_position());
+      return Morula::lame(value(material.youngs_modulus(), reader_.time),
+                          value(material.poissons_ratio(), reader_.time));
+    }
 
     /** The value of an expression that came from StateColumns::use(), at time
      *  @p t (day). @throws InputError if it is not finite */
@@ -191,7 +217,17 @@ namespace Morula
     double
     value_if_grown(const Expression &expression,
                    const double      t,
-                   const double      ratio) const;
+                   const double      ratio) const
+    {
+      // The cell is copied with a larger F_g and the same F, as if it had grown
+      // in a place that does not give way: doc/theory.md (10.4). The volume of
+      // growth is multiplied by `ratio`, so each length by its root.
+      const CellColumns<dim>     &columns = cell_.columns();
+      std::vector<double>         row(cell_.row().begin(), cell_.row().end());
+      const CellView<dim, double> grown(make_array_view(row), columns);
+      grown.set(columns.growth, std::pow(ratio, 1. / dim) * cell_.growth());
+      return PresentCell(grown, id_, position_, reader_).value(expression, t);
+    }
 
   private:
     /** Sets the values that are in the list, if they are not yet known. */

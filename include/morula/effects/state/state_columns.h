@@ -4,8 +4,8 @@
 #ifndef morula_effects_state_state_columns_h
 #define morula_effects_state_state_columns_h
 
-#include <morula/base/expression_key.h>
 #include <morula/base/expression.h>
+#include <morula/base/expression_key.h>
 #include <morula/particles/cell_state.h>
 
 #include <deal.II/base/point.h>
@@ -80,7 +80,15 @@ namespace Morula
     /** The key's expression, whose variables cells will have. An effect takes
      *  all its expressions of cells from here. @throws InputError */
     Expression
-    use(const ExpressionKey &key);
+    use(const ExpressionKey &key)
+    {
+      // The list stays sorted, as uses() searches it by halves and any_in_use()
+      // looks at its last entry.
+      const Expression &expression = key.expression(dim);
+      for (const Variable variable : expression.used())
+        need(variable);
+      return expression;
+    }
 
     /** Asks for a variable, for code that reads it without an expression. */
     void
@@ -102,7 +110,17 @@ namespace Morula
     /** Asks for the gradient of a field at the cells. @return the field's
      *  number */
     unsigned int
-    need_gradient(const std::string &field);
+    need_gradient(const std::string &field)
+    {
+      const unsigned int k =
+        std::find(names_of_fields.begin(), names_of_fields.end(), field) -
+        names_of_fields.begin();
+      // An effect that is only made to check its keys may have no fields around
+      // it; then the number is past the end and is never used.
+      if (k < needs_gradient.size())
+        needs_gradient[k] = true;
+      return k;
+    }
 
     /** Declares the columns of the fields. */
     void

@@ -6,12 +6,12 @@
 
 #include <morula/effects/contact/contact_pairs.h>
 #include <morula/effects/contact/contact_points.h>
-#include <morula/effects/fields/fields.h>
 #include <morula/effects/division/directions.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/fields/field_equation.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/growth/contraction.h>

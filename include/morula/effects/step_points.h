@@ -5,9 +5,9 @@
 #define morula_effects_step_points_h
 
 #include <morula/effects/development.h>
+#include <morula/grid/spline_space.h>
 #include <morula/mechanics/material.h>
 #include <morula/mechanics/material_points.h>
-#include <morula/grid/spline_space.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/particles/tissue.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fields/fields.h>
-#include <morula/mechanics/point_term.h>
 #include <morula/base/expression_key.h>
+#include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/force.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
+#include <morula/mechanics/point_term.h>
 
 #include <utility>
 #include <vector>

@@ -6,8 +6,8 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/growth/growth_law.h>
-#include <morula/mechanics/material.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/mechanics/material.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -110,8 +110,7 @@ namespace Morula
     const CellReader<dim> reader = this->reader(0.);
     const Point<dim>      X      = cell.founder_position();
     if (effects.types)
-      cell.set(state_.type,
-               given.type ? *given.type : effects.types->founder_type(X));
+      cell.set(state_.type, given.type ? *given.type : effects.founder_type(X));
     if (columns_.lineage_key.exists())
       cell.set(columns_.lineage_key, Random::founder_key(random_seed, id));
     const PresentCell<dim> founder(cell, id, X, reader);

@@ -268,7 +268,7 @@ namespace Morula
       return given;
     std::vector<unsigned int> list;
     for (const Point<dim> &X : founders)
-      list.push_back(model.types->founder_type(X));
+      list.push_back(model.scene.cell_types.founder_type(X));
     return list;
   }
 

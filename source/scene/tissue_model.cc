@@ -127,7 +127,13 @@ namespace Morula
       void
       make_types()
       {
-        types = std::make_unique<CellTypes<dim>>(scene.cell_types, setting);
+        types                    = make_cell_types(scene.cell_types, setting);
+        development.types        = types.get();
+        development.founder_type = [types =
+                                      scene.cell_types](const Point<dim> &X) {
+          return types.founder_type(X);
+        };
+
         for (unsigned int type = 0; type < scene.cell_types.types.size();
              ++type)
           {
@@ -275,7 +281,7 @@ namespace Morula
       DevelopmentEffects<dim>                 &development;
       const EffectSetting<dim>                 setting;
       std::vector<std::unique_ptr<Fate<dim>>>  fates;
-      std::unique_ptr<CellTypes<dim>>          types;
+      std::unique_ptr<Fate<dim>>               types;
       std::shared_ptr<const DivisionAxes<dim>> axes;
     };
   } // namespace

@@ -14,6 +14,7 @@
 #include <morula/particles/tissue.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -61,9 +62,12 @@ namespace Morula
   {
     /** The fates, in the order in which they are asked. */
     Fates<dim> fates;
-    /** Two of the fates, to which other parts speak, or null. */
+    /** Two of the fates, to which other parts speak, or null: the cell cycle
+     *  and the changes of type. */
     const Proliferation<dim> *proliferation = nullptr;
-    const CellTypes<dim>     *types         = nullptr;
+    const Fate<dim>          *types         = nullptr;
+    /** The type of a founder, if there are types. */
+    std::function<unsigned int(const Point<dim> &)> founder_type = {};
     /** The law of growth, or null. */
     std::unique_ptr<const GrowthLaw<dim>> law;
     /** Whether cells grow by the law, by type; empty: all do. */
@@ -89,9 +93,6 @@ namespace Morula
       if (const auto *cycle =
             dynamic_cast<const Proliferation<dim> *>(fate.get()))
         proliferation = cycle;
-      if (const auto *of_types =
-            dynamic_cast<const CellTypes<dim> *>(fate.get()))
-        types = of_types;
       fates.add(std::move(fate));
     }
 

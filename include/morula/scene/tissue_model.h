@@ -89,7 +89,7 @@ namespace Morula
     /** SceneEffects::all() */
     const std::vector<const Effect<dim> *> all_effects;
     /** The types of cells, or null. */
-    const CellTypes<dim> *const types;
+    const Fate<dim> *const types;
     /** Whether changes of type see the types of the cells around. */
     const bool                                           sees_neighbours;
     const TissueMaterial                                 material;

@@ -26,17 +26,6 @@ namespace Morula
 
   namespace
   {
-    /** A rule that has no keys of its own. */
-    struct NoAxisKeys : public EffectKeys
-    {
-      using Keys::list;
-      KeyList
-      list() override
-      {
-        return {};
-      }
-    };
-
     /** `Division axis = fixed`: along a vector in the reference configuration.
      *  @throws InputError from axis() if the vector is zero */
     template <int dim>
@@ -99,7 +88,7 @@ namespace Morula
     class PresentAxis : public DivisionRule<dim>
     {
     public:
-      using Parameters = NoAxisKeys;
+      using Parameters = EffectKeys;
 
       bool
       is_present() const override
@@ -127,7 +116,7 @@ namespace Morula
     class StretchAxis : public PresentAxis<dim>
     {
     public:
-      explicit StretchAxis(const NoAxisKeys &) {}
+      explicit StretchAxis(const EffectKeys &) {}
 
     protected:
       std::optional<Tensor<1, dim>>
@@ -146,7 +135,7 @@ namespace Morula
     class StressAxis : public PresentAxis<dim>
     {
     public:
-      explicit StressAxis(const NoAxisKeys &) {}
+      explicit StressAxis(const EffectKeys &) {}
 
     protected:
       std::optional<Tensor<1, dim>>
@@ -204,7 +193,7 @@ namespace Morula
     class SurfaceNormalAxis : public PresentAxis<dim>
     {
     public:
-      SurfaceNormalAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
+      SurfaceNormalAxis(const EffectKeys &, const EffectSetting<dim> &setting)
       {
         // The columns for the normal exist only where an effect asks for them.
         setting.state.need_surface_normal();
@@ -251,7 +240,7 @@ namespace Morula
     class CellShapeAxis : public PresentAxis<dim>
     {
     public:
-      CellShapeAxis(const NoAxisKeys &, const EffectSetting<dim> &setting)
+      CellShapeAxis(const EffectKeys &, const EffectSetting<dim> &setting)
       {
         setting.columns.need_shape();
       }

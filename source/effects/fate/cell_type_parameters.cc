@@ -38,18 +38,20 @@ namespace Morula
           const unsigned int i = *open.begin();
           open.erase(open.begin());
           reached.insert(i);
-          std::set<std::string> names;
-          for (const ExpressionKey &to : types[i].transitions)
-            if (to.is_changed())
-              names.insert(to.path().substr(to.path().rfind(" ") + 1));
+          const auto lead = [&](const unsigned int to) {
+            if (reached.count(to) == 0)
+              open.insert(to);
+          };
+          // The list of a type leaves the type itself out.
+          for (unsigned int k = 0; k < types[i].transitions.size(); ++k)
+            if (types[i].transitions[k].is_changed())
+              lead(k < i ? k : k + 1);
           if (cells_divide)
             {
               const auto [one, other] = parameters.daughters(i);
-              names.insert({types[one].name, types[other].name});
+              lead(one);
+              lead(other);
             }
-          for (unsigned int j = 0; j < types.size(); ++j)
-            if (names.count(types[j].name) > 0 && reached.count(j) == 0)
-              open.insert(j);
         }
       return reached;
     }

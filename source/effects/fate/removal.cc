@@ -19,6 +19,7 @@
 #include <iterator>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace Morula
 {
@@ -311,29 +312,25 @@ namespace Morula
       return list;
     }
 
-    /** A cell, by its place in the store, and what takes it at once. */
+    /** Cells, by their places in the store, and what takes each at once. */
     template <int dim>
-    struct Taken
-    {
-      unsigned int     p;
-      const Dies<dim> *by;
-    };
+    using Taken = std::vector<std::pair<unsigned int, const Dies<dim> *>>;
 
     /** Living cells of this rank that are removed at once in the reader's
      * state. Collective. @throws InputError on all ranks */
     template <int dim>
-    std::vector<Taken<dim>>
+    Taken<dim>
     cells_taken(const Tissue<dim>     &tissue,
                 const Fates<dim>      &fates,
                 const CellReader<dim> &reader)
     {
-      std::vector<Taken<dim>> list;
+      Taken<dim> list;
       everywhere(tissue.communicator(), [&]() {
         for (unsigned int p = 0; p < tissue.cells().size(); ++p)
           if (!fates.is_dead(tissue.cells()[p]))
             if (const Dies<dim> *fate = takes_at_once(
                   fates, present_cell(tissue, p, reader), reader.time))
-              list.push_back({p, fate});
+              list.emplace_back(p, fate);
       });
       return list;
     }
@@ -342,7 +339,7 @@ namespace Morula
      *  Where a condition has no value nothing is taken, and the next step
      *  reports the error. Collective. */
     template <int dim>
-    std::vector<Taken<dim>>
+    Taken<dim>
     cells_to_cut(const Tissue<dim>     &tissue,
                  const Fates<dim>      &fates,
                  const CellReader<dim> &reader)

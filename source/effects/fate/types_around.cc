@@ -86,14 +86,6 @@ namespace Morula
 
   template <int dim>
   std::size_t
-  TypesAround<dim>::size() const
-  {
-    return changes.size();
-  }
-
-
-  template <int dim>
-  std::size_t
   TypesAround<dim>::n_before(const double t) const
   {
     const auto end =
@@ -101,14 +93,6 @@ namespace Morula
         return change.time > t || !change.comes_first;
       });
     return end - changes.begin();
-  }
-
-
-  template <int dim>
-  double
-  TypesAround<dim>::time(const std::size_t k) const
-  {
-    return changes[k].time;
   }
 
 

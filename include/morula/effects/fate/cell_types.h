@@ -8,7 +8,7 @@
 #include <morula/effects/fate/fate.h>
 
 #include <deque>
-#include <optional>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,6 +114,12 @@ namespace Morula
     void
     apply(const std::vector<ExpressionKey *> &of_cells);
 
+    /** The type of a founder at @p X: the last one whose `Where` holds, or the
+     *  first. */
+    template <int dim>
+    unsigned int
+    founder_type(const Point<dim> &X) const;
+
     /** Numbers of the daughters' types of a type. @throws InputError */
     std::pair<unsigned int, unsigned int>
     daughters(const unsigned int type) const;
@@ -133,52 +139,12 @@ namespace Morula
                const bool                 of_file,
                Review                    &review);
 
-  /**
-   * The types of cells, and how cells change their type. Each way out of a type
-   * is a hazard with a rate (1/day), an expression of the cell's state at the
-   * beginning of the step, integrated since the cell got its type:
-   * doc/theory.md, section 6.8. So events have exact times, and if the rates do
-   * not depend on steps, neither do the events.
-   */
+  /** The fate by which cells change their types. The scene must have at least
+   *  one. @throws InputError */
   template <int dim>
-  class CellTypes : public Fate<dim>
-  {
-  public:
-    /** The scene must have at least one type. @throws InputError */
-    CellTypes(const CellTypesParameters &parameters,
-              const EffectSetting<dim>  &setting);
-
-    /** The type of a founder at @p X: the last one whose `Where` holds, or the
-     *  first. */
-    unsigned int
-    founder_type(const Point<dim> &X) const;
-
-    LifeAfter
-    happen(const PresentCell<dim>      &cell,
-           const CellView<dim, double> &row,
-           const Stretch               &stretch,
-           const double                 s,
-           std::vector<CellEvent>      &events) const override;
-
-    void
-    inherit(const CellView<dim, double> &daughter,
-            const StateColumns<dim>     &columns,
-            const unsigned int           which,
-            const double                 birth) const override;
-
-    void
-    declare(Tables<dim> &tables) const override;
-
-  private:
-    std::vector<std::string>                           names;
-    std::vector<std::optional<Expression>>             where;
-    std::vector<std::pair<unsigned int, unsigned int>> daughters;
-    /** To which type the ways out of a type lead. */
-    std::vector<std::vector<unsigned int>> targets;
-    Column<unsigned int>                   n_changes;
-    /** Of the rates, by the number of the way. */
-    std::vector<Column<double>> integrals;
-  };
+  std::unique_ptr<Fate<dim>>
+  make_cell_types(const CellTypesParameters &parameters,
+                  const EffectSetting<dim>  &setting);
 } // namespace Morula
 
 #endif

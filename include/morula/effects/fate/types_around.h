@@ -72,7 +72,10 @@ namespace Morula
 
     /** Number of changes. */
     std::size_t
-    size() const;
+    size() const
+    {
+      return changes.size();
+    }
 
     /** How many changes count at the beginning @p t (day) of the step. */
     std::size_t
@@ -80,7 +83,10 @@ namespace Morula
 
     /** When change number @p k happens, day. */
     double
-    time(const std::size_t k) const;
+    time(const std::size_t k) const
+    {
+      return changes[k].time;
+    }
 
     /** Sets the columns of the cell as they are after its first @p k changes.
      */

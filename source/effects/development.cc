@@ -72,13 +72,7 @@ namespace Morula
     // The reader has all that an expression may ask for besides the cell
     // itself. It has no clock without a cell cycle; then every cell counts as
     // its own founder.
-    return {state_,
-            material,
-            effects.proliferation ? &effects.proliferation->columns() : nullptr,
-            cycle(),
-            random_seed,
-            t,
-            past};
+    return {state_, material, effects.proliferation, random_seed, t, past};
   }
 
 

@@ -15,7 +15,7 @@ namespace Morula
     explicit LoneCell(
       const MaterialParameters &parameters = MaterialParameters())
       : material(parameters)
-      , reader{state, material, nullptr, nullptr, 42, 0.}
+      , reader{state, material, nullptr, 42, 0.}
     {
       columns.need_growth();
     }

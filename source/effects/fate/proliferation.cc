@@ -17,122 +17,6 @@
 namespace Morula
 {
   template <int dim>
-  CycleColumns<dim>::CycleColumns(CellColumns<dim>     &columns,
-                                  const CellCycle<dim> *cycle)
-  {
-    // The first five columns are always there. The others are numbers that only
-    // some scenes need, so each is declared on its condition; load() puts a
-    // default in its place.
-    columns.need_growth();
-    columns.need_lineage();
-    phase = columns.template add<CyclePhase>(
-      {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
-    event_time = columns.template add<double>(
-      {"event_time", "day", "end of the G0 wait, or onset of S"});
-    columns.need_lineage_key();
-    lineage_key_  = columns.lineage_key;
-    division_axis = columns.template add<Tensor<1, dim>>(
-      {"division_axis", "", "n_s of the running cycle"});
-    growth_pre = columns.template add<Tensor<2, dim>>(
-      {"growth_before_the_cycle",
-       "",
-       "F_g of the cycle before the onset of S",
-       Tensor<2, dim>(unit_symmetric_tensor<dim>())});
-    if (cycle == nullptr)
-      return;
-    if (cycle->has_own_duration())
-      duration = columns.template add<double>(
-        {"cycle_duration", "day", "T of the running cycle"});
-    if (cycle->has_own_hazard())
-      hazard = columns.template add<double>(
-        {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
-    if (cycle->keeps_exit_rate())
-      exit_rate = columns.template add<double>(
-        {"wait_rate",
-         "1/day",
-         "rate of leaving G0 that the last step saw; -1: none",
-         not_expected});
-    if (cycle->has_checkpoint())
-      J_e_before = columns.template add<double>(
-        {"j_e_before", "", "J_e at the beginning of the step before", 1.});
-  }
-
-
-  template <int dim>
-  CycleState<dim>
-  CycleColumns<dim>::load(const CellView<dim, const double> &cell) const
-  {
-    // The order is that of the members of CycleState.
-    return {cell.get(phase),
-            cell.get(event_time),
-            cell.get(lineage_key_),
-            cell.get(division_axis),
-            cell.get(growth_pre),
-            duration.exists() ? cell.get(duration) : 0.,
-            hazard.exists() ? cell.get(hazard) : 0.};
-  }
-
-
-  template <int dim>
-  void
-  CycleColumns<dim>::store(const CycleState<dim>       &state,
-                           const CellView<dim, double> &cell) const
-  {
-    // What has no column is the same for all cells, or is not used.
-    cell.set(phase, state.phase);
-    cell.set(event_time, state.event_time);
-    cell.set(lineage_key_, state.key);
-    cell.set(division_axis, state.axis);
-    cell.set(growth_pre, state.growth_pre);
-    if (duration.exists())
-      cell.set(duration, state.duration);
-    if (hazard.exists())
-      cell.set(hazard, state.hazard);
-  }
-
-
-  template <int dim>
-  CellHazard<dim>
-  CycleColumns<dim>::exit_hazard(const Expression &rate) const
-  {
-    // The hazard runs while the cell waits and only the integral tells for how
-    // long.
-    const auto runs = [phase = phase, event_time = event_time](
-                        const CellView<dim, const double> &cell) {
-      return cell.get(phase) == CyclePhase::waiting &&
-             !std::isfinite(cell.get(event_time));
-    };
-    return {rate, hazard, exit_rate, {}, {}, runs};
-  }
-
-
-  template <int dim>
-  ElasticSize
-  CycleColumns<dim>::size(const CellView<dim, const double> &cell,
-                          const PastStep                    &past) const
-  {
-    // The slope is that of the last step, doc/theory.md (6.3g). In the first
-    // step there is none, and J_e counts as constant.
-    const double J_e = cell.elastic_volume_ratio();
-    if (!J_e_before.exists() || !past.exists())
-      return {J_e};
-    return {J_e, (J_e - cell.get(J_e_before)) / past.length(), past.begin};
-  }
-
-
-  template <int dim>
-  void
-  CycleColumns<dim>::remember_size(const CellView<dim, const double> &before,
-                                   const CellView<dim, double> &after) const
-  {
-    // `before` is the cell at the beginning of this step: for the next step
-    // that is the beginning of the step before.
-    if (J_e_before.exists())
-      after.set(J_e_before, before.elastic_volume_ratio());
-  }
-
-
-  template <int dim>
   Proliferation<dim>::Proliferation(const Parameters         &parameters,
                                     const EffectSetting<dim> &setting)
     : Proliferation(CellCycle<dim>(parameters,
@@ -151,12 +35,85 @@ namespace Morula
                                     CellColumns<dim>   &columns,
                                     const std::uint64_t seed)
     : cycle_(std::move(cycle))
-    , columns_(columns, &cycle_)
     , random_seed(seed)
   {
+    // The first five columns are always there. The others are numbers that only
+    // some scenes need, so each is declared on its condition; clock() puts
+    // a default in its place.
+    columns.need_growth();
+    columns.need_lineage();
+    phase = columns.template add<CyclePhase>(
+      {"phase", "", "where in the cycle, a CyclePhase", CyclePhase::never});
+    event_time = columns.template add<double>(
+      {"event_time", "day", "end of the G0 wait, or onset of S"});
+    columns.need_lineage_key();
+    lineage_key   = columns.lineage_key;
+    division_axis = columns.template add<Tensor<1, dim>>(
+      {"division_axis", "", "n_s of the running cycle"});
+    growth_pre = columns.template add<Tensor<2, dim>>(
+      {"growth_before_the_cycle",
+       "",
+       "F_g of the cycle before the onset of S",
+       Tensor<2, dim>(unit_symmetric_tensor<dim>())});
+    if (cycle_.has_own_duration())
+      duration = columns.template add<double>(
+        {"cycle_duration", "day", "T of the running cycle"});
+    if (cycle_.has_own_hazard())
+      hazard = columns.template add<double>(
+        {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
     if (cycle_.keeps_exit_rate())
-      this->hazards_of_types[0].push_back(
-        columns_.exit_hazard(cycle_.rate_of_exit()));
+      {
+        exit_rate = columns.template add<double>(
+          {"wait_rate",
+           "1/day",
+           "rate of leaving G0 that the last step saw; -1: none",
+           not_expected});
+        // The clock integrates this hazard itself, while the cell waits and
+        // only the integral tells for how long.
+        const auto runs = [phase = phase, event_time = event_time](
+                            const CellView<dim, const double> &cell) {
+          return cell.get(phase) == CyclePhase::waiting &&
+                 !std::isfinite(cell.get(event_time));
+        };
+        this->hazards_of_types[0].push_back(
+          {cycle_.rate_of_exit(), hazard, exit_rate, {}, {}, runs});
+      }
+    if (cycle_.has_checkpoint())
+      J_e_before = columns.template add<double>(
+        {"j_e_before", "", "J_e at the beginning of the step before", 1.});
+  }
+
+
+  template <int dim>
+  CycleState<dim>
+  Proliferation<dim>::clock(const CellView<dim, const double> &cell) const
+  {
+    // The order is that of the members of CycleState.
+    return {cell.get(phase),
+            cell.get(event_time),
+            cell.get(lineage_key),
+            cell.get(division_axis),
+            cell.get(growth_pre),
+            duration.exists() ? cell.get(duration) : 0.,
+            hazard.exists() ? cell.get(hazard) : 0.};
+  }
+
+
+  template <int dim>
+  void
+  Proliferation<dim>::set_clock(const CellView<dim, double> &cell,
+                                const CycleState<dim>       &state) const
+  {
+    // What has no column is the same for all cells, or is not used.
+    cell.set(phase, state.phase);
+    cell.set(event_time, state.event_time);
+    cell.set(lineage_key, state.key);
+    cell.set(division_axis, state.axis);
+    cell.set(growth_pre, state.growth_pre);
+    if (duration.exists())
+      cell.set(duration, state.duration);
+    if (hazard.exists())
+      cell.set(hazard, state.hazard);
   }
 
 
@@ -401,7 +358,8 @@ namespace Morula
                               const double,
                               const double) const
   {
-    columns_.remember_size(before.cell(), after);
+    if (J_e_before.exists())
+      after.set(J_e_before, before.cell().elastic_volume_ratio());
   }
 
 
@@ -424,12 +382,16 @@ namespace Morula
                                  const double            t0,
                                  const double            t1) const
   {
+    // The slope of J_e is that of the last step, doc/theory.md (6.3g). In the
+    // first step there is none, and J_e counts as constant.
+    const PastStep &past = cell.reader().past;
+    ElasticSize     size(cell.cell().elastic_volume_ratio());
+    if (J_e_before.exists() && past.exists())
+      size = {size.J_e,
+              (size.J_e - cell.cell().get(J_e_before)) / past.length(),
+              past.begin};
     CycleState<dim> after =
-      cycle_.advance(before,
-                     CellAt<dim>(cell, t0),
-                     t0,
-                     t1,
-                     columns_.size(cell.cell(), cell.reader().past));
+      cycle_.advance(before, CellAt<dim>(cell, t0), t0, t1, size);
     choose_axis(before, cell, t0, after);
     return after;
   }
@@ -491,8 +453,6 @@ namespace Morula
   }
 
 
-  template class CycleColumns<2>;
-  template class CycleColumns<3>;
   template class Proliferation<2>;
   template class Proliferation<3>;
 } // namespace Morula

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -30,10 +31,11 @@ namespace Morula
   {
     // This is the number that the outputs have for cells outside any cycle.
     constexpr unsigned int does_not_proliferate = 9;
-    return cycle == nullptr ? does_not_proliferate :
-                              cycle->phase_number(clock->load(cell),
-                                                  cell.founder_position(),
-                                                  time);
+    return cycle == nullptr ?
+             does_not_proliferate :
+             cycle->cycle().phase_number(cycle->clock(cell),
+                                         cell.founder_position(),
+                                         time);
   }
 
 

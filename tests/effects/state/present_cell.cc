@@ -21,19 +21,18 @@ namespace
   /** A cell in some state, in 3-D. */
   struct SomeCell
   {
-    StateColumns<3>                state;
-    CellColumns<3>                 columns;
-    TissueMaterial                 material{MaterialParameters()};
-    std::vector<double>            row;
-    Tensor<2, 3>                   F, F_g;
-    std::optional<CycleColumns<3>> clock;
-    CellCycle<3>                   cycle{CellCycleParameters(), 7, 1e-9};
+    StateColumns<3>                 state;
+    CellColumns<3>                  columns;
+    TissueMaterial                  material{MaterialParameters()};
+    std::vector<double>             row;
+    Tensor<2, 3>                    F, F_g;
+    std::optional<Proliferation<3>> cycle;
 
     SomeCell()
     {
       state.use(key(all));
       columns.need_growth();
-      clock.emplace(columns);
+      cycle.emplace(CellCycle<3>(CellCycleParameters(), 7, 1e-9), columns, 7);
       state.declare(columns);
       row = columns.founder(Point<3>(1., 2., 3.), 50.);
       F   = Tensor<2, 3>({{1.2, 0.1, 0.}, {0., 0.9, 0.2}, {0.05, 0., 1.1}});
@@ -48,7 +47,7 @@ namespace
       CycleState<3> waiting;
       waiting.phase = CyclePhase::waiting;
       waiting.key   = 99;
-      clock->store(waiting, cell);
+      cycle->set_clock(cell, waiting);
     }
 
     CellView<3, double>
@@ -60,7 +59,7 @@ namespace
     double
     value(const std::string &text, const double t = 2.)
     {
-      const CellReader<3>  reader{state, material, &*clock, &cycle, 7, t};
+      const CellReader<3>  reader{state, material, &*cycle, 7, t};
       const PresentCell<3> cell(view(), 5, Point<3>(4., 5., 6.), reader);
       return cell.value(state.use(key(text)), t);
     }
@@ -120,7 +119,7 @@ TEST(PresentCell, PressureInThePlaneCountsTheStressAcrossIt)
   const CellView<2, double> cell(make_array_view(row), columns);
   cell.set(columns.deformation, Tensor<2, 2>({{1.2, 0.}, {0., 1.}}));
   const TissueMaterial material{MaterialParameters()};
-  const CellReader<2>  reader{state, material, nullptr, nullptr, 7, 0.};
+  const CellReader<2>  reader{state, material, nullptr, 7, 0.};
   const PresentCell<2> present(cell, 5, Point<2>(), reader);
   const Lame           moduli = lame(1., 0.4);
   EXPECT_NEAR(present.value(pressure, 0.),
@@ -131,9 +130,8 @@ TEST(PresentCell, PressureInThePlaneCountsTheStressAcrossIt)
 
 TEST(PresentCell, KnowsWhatItWouldFeelIfItHadGrown)
 {
-  SomeCell            cell;
-  const CellReader<3> reader{
-    cell.state, cell.material, nullptr, nullptr, 7, 0.};
+  SomeCell             cell;
+  const CellReader<3>  reader{cell.state, cell.material, nullptr, 7, 0.};
   const PresentCell<3> present(cell.view(), 5, Point<3>(), reader);
   const Expression     J_e = cell.state.use(key("J_e"));
   EXPECT_NEAR(present.value_if_grown(J_e, 0., 1.1),

@@ -5,9 +5,7 @@
 #define morula_effects_fate_cell_cycle_h
 
 #include <morula/base/expression_key.h>
-#include <morula/base/past_step.h>
 #include <morula/effects/effect.h>
-#include <morula/effects/fate/hazard.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
@@ -190,54 +188,6 @@ namespace Morula
     Point<dim>              X;
     const PresentCell<dim> *cell = nullptr;
     double                  t    = 0.;
-  };
-
-  template <int dim>
-  class CellCycle;
-
-  /** The columns of a cell's clock: those that the cell cycle needs. */
-  template <int dim>
-  class CycleColumns
-  {
-  public:
-    /** Declares them, with all that a growing and dividing cell needs, and what
-     *  this cycle stores besides. */
-    explicit CycleColumns(CellColumns<dim>     &columns,
-                          const CellCycle<dim> *cycle = nullptr);
-
-    /** A cell's clock. */
-    CycleState<dim>
-    load(const CellView<dim, const double> &cell) const;
-
-    /** Sets it. */
-    void
-    store(const CycleState<dim>       &state,
-          const CellView<dim, double> &cell) const;
-
-    /** J_e at the beginning of a step, and its slope in the step @p past. */
-    ElasticSize
-    size(const CellView<dim, const double> &cell, const PastStep &past) const;
-
-    /** Keeps J_e of a cell at the beginning of the step, @p before, for the
-     *  next step. */
-    void
-    remember_size(const CellView<dim, const double> &before,
-                  const CellView<dim, double>       &after) const;
-
-    /** The rate of leaving G0 as a hazard that this clock integrates itself. */
-    CellHazard<dim>
-    exit_hazard(const Expression &rate) const;
-
-  private:
-    Column<CyclePhase>     phase;
-    Column<double>         event_time;
-    Column<std::uint64_t>  lineage_key_;
-    Column<Tensor<1, dim>> division_axis;
-    Column<Tensor<2, dim>> growth_pre;
-    Column<double>         duration;
-    Column<double>         hazard;
-    Column<double>         exit_rate;
-    Column<double>         J_e_before;
   };
 
   /**

@@ -39,12 +39,6 @@ namespace Morula
       return cycle_;
     }
 
-    const CycleColumns<dim> &
-    columns() const
-    {
-      return columns_;
-    }
-
     void
     check(const Preview<dim> &scene) const override;
 
@@ -53,18 +47,12 @@ namespace Morula
 
     /** A cell's clock. */
     CycleState<dim>
-    clock(const CellView<dim, const double> &cell) const
-    {
-      return columns_.load(cell);
-    }
+    clock(const CellView<dim, const double> &cell) const;
 
     /** Sets a cell's clock. */
     void
     set_clock(const CellView<dim, double> &cell,
-              const CycleState<dim>       &state) const
-    {
-      columns_.store(state, cell);
-    }
+              const CycleState<dim>       &state) const;
 
     /**
      * Sets the clock of a founder at t = 0.
@@ -183,9 +171,15 @@ namespace Morula
                 const double            t,
                 CycleState<dim>        &after) const;
 
-    CellCycle<dim>    cycle_;
-    CycleColumns<dim> columns_;
-    std::uint64_t     random_seed;
+    CellCycle<dim>         cycle_;
+    Column<CyclePhase>     phase;
+    Column<double>         event_time;
+    Column<std::uint64_t>  lineage_key;
+    Column<Tensor<1, dim>> division_axis;
+    Column<Tensor<2, dim>> growth_pre;
+    /** What only some cycles need; see CycleState and ElasticSize. */
+    Column<double> duration, hazard, exit_rate, J_e_before;
+    std::uint64_t  random_seed;
     /** The keys, in a scene. */
     std::optional<Parameters> parameters;
   };

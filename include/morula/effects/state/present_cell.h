@@ -5,7 +5,6 @@
 #define morula_effects_state_present_cell_h
 
 #include <morula/base/past_step.h>
-#include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/material.h>
@@ -20,6 +19,9 @@ namespace Morula
 {
   using namespace dealii;
 
+  template <int dim>
+  class Proliferation;
+
   /** What all cells of a scene share at one moment, for code that reads their
    *  variables. Refers to objects that must outlive it. */
   template <int dim>
@@ -29,10 +31,8 @@ namespace Morula
     const StateColumns<dim> &columns;
     /** The cells' material. */
     const TissueMaterial &material;
-    /** The columns of the cells' clocks; null without a cell cycle. */
-    const CycleColumns<dim> *clock;
     /** The cell cycle, or null. */
-    const CellCycle<dim> *cycle;
+    const Proliferation<dim> *cycle;
     /** The seed of the scene. */
     std::uint64_t random_seed;
     /** The time of the cells' state, day. */

@@ -60,6 +60,31 @@ namespace Morula
             add(s, a, grid_cell.weights[a * m + s]);
     }
 
+    /** Appends the unknowns of a point of this rank's store to an answer. */
+    template <int dim>
+    void
+    append_unknowns(const Tissue<dim>      &tissue,
+                    const SplineSpace<dim> &space,
+                    const unsigned int      p,
+                    std::vector<double>    &answer)
+    {
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      ContactPoint<dim>          point;
+      point.x         = store.position(p);
+      point.body      = store.body(p);
+      point.part      = store.part(p);
+      point.grid_cell = space.box().number(space.box().locate(point.x));
+      set_unknowns(space, point);
+      answer.push_back(point.unknowns.size());
+      for (std::size_t s = 0; s < point.unknowns.size(); ++s)
+        {
+          answer.push_back(
+            space.relevant().nth_index_in_set(point.unknowns[s]));
+          answer.push_back(point.values[s]);
+          append_flat(answer, point.gradients[s]);
+        }
+    }
+
     /** The boundary points of all ranks within @p reach (µm) of this rank's,
      * and some more, without their unknowns. Collective. */
     template <int dim>
@@ -245,26 +270,9 @@ namespace Morula
       if (point.owner != rank)
         questions[point.owner].push_back(point.p);
     std::map<unsigned int, std::vector<double>> answers;
-    const BoundaryPoints<dim> &store = tissue.boundary_points();
     for (const auto &[asking, list] : send_records(questions, comm))
       for (const unsigned int p : list)
-        {
-          ContactPoint<dim> point;
-          point.x         = store.position(p);
-          point.body      = store.body(p);
-          point.part      = store.part(p);
-          point.grid_cell = space.box().number(space.box().locate(point.x));
-          set_unknowns(space, point);
-          std::vector<double> &answer = answers[asking];
-          answer.push_back(point.unknowns.size());
-          for (std::size_t s = 0; s < point.unknowns.size(); ++s)
-            {
-              answer.push_back(
-                space.relevant().nth_index_in_set(point.unknowns[s]));
-              answer.push_back(point.values[s]);
-              append_flat(answer, point.gradients[s]);
-            }
-        }
+        append_unknowns(tissue, space, p, answers[asking]);
     const auto     received = send_records(answers, comm);
     constexpr auto width    = 2 + dim;        // numbers for each unknown
     std::map<unsigned int, std::size_t> next; // number to be read, by owner

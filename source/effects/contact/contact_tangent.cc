@@ -50,10 +50,47 @@ namespace Morula
 
   template <int dim>
   void
-  ContactPairs<dim>::add_tangent(
-    const std::vector<double>                                            &u,
-    const std::function<void(unsigned int, const std::vector<double> &)> &add)
-    const
+  ContactPairs<dim>::add_link(const unsigned int   link,
+                              const WithStiffness &list,
+                              const AddBlock      &add) const
+  {
+    // Pairs come in the order of their points b, so that those of one b
+    // stand together.
+    const unsigned int n = links_[link].rows.size(),
+                       m = links_[link].columns.size();
+    std::vector<std::vector<double>> columns(dim * dim);
+    std::vector<double>              matrix(dim * n * dim * m, 0.), transposed;
+    for (std::size_t first = 0, last; first < list.size(); first = last)
+      {
+        const unsigned int b = list[first].first->b;
+        for (std::vector<double> &column : columns)
+          column.assign(m, 0.);
+        for (last = first; last < list.size() && list[last].first->b == b;
+             ++last)
+          {
+            const std::vector<double> &of_c =
+              points.points()[list[last].first->c].values;
+            const Tensor<2, dim> &M = list[last].second;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                for (unsigned int t = 0; t < m; ++t)
+                  columns[i * dim + j][t] -= M[i][j] * of_c[t];
+          }
+        add_products(points.points()[b].values, columns, matrix);
+      }
+    add(link, matrix);
+    transposed.resize(matrix.size());
+    for (unsigned int i = 0; i < dim * n; ++i)
+      for (unsigned int j = 0; j < dim * m; ++j)
+        transposed[j * dim * n + i] = matrix[i * dim * m + j];
+    add(link + 1, transposed);
+  }
+
+
+  template <int dim>
+  void
+  ContactPairs<dim>::add_tangent(const std::vector<double> &u,
+                                 const AddBlock            &add) const
   {
     // A pair's jump is w = Σ_s q_s ũ_s, with the values φ of b, and minus those
     // of c; its part is A M q qᵀ with M = κ D⊗D + k_t P, doc/theory.md (4.8l).
@@ -63,8 +100,7 @@ namespace Morula
     const std::vector<Tensor<1, dim>>      ways = displacements(u);
     std::map<unsigned int, Tensor<2, dim>> of_points;
     std::map<unsigned int, unsigned int>   group_of;
-    std::vector<std::vector<std::pair<const Pair *, Tensor<2, dim>>>> of_links(
-      links_.size());
+    std::vector<WithStiffness>             of_links(links_.size());
     for (const Pair &pair : pairs)
       if (pair.drag + pair.slow > 0. || gap(pair, ways) < 0.)
         {
@@ -76,7 +112,7 @@ namespace Morula
           of_links[pair.link].emplace_back(&pair, M);
         }
     std::vector<std::vector<double>>                  columns(dim * dim);
-    std::vector<double>                               matrix, transposed;
+    std::vector<double>                               matrix;
     std::map<unsigned int, std::vector<unsigned int>> of_groups;
     for (const auto &[k, group] : group_of)
       of_groups[group].push_back(k);
@@ -100,51 +136,15 @@ namespace Morula
         add(group, matrix);
       }
     for (unsigned int link = 0; link < links_.size(); ++link)
-      {
-        // Pairs come in the order of their points b, so that those of one b
-        // stand together.
-        const auto &list = of_links[link];
-        if (list.empty())
-          continue;
-        const unsigned int n = links_[link].rows.size(),
-                           m = links_[link].columns.size();
-        matrix.assign(dim * n * dim * m, 0.);
-        for (std::size_t first = 0, last; first < list.size(); first = last)
-          {
-            const unsigned int b = list[first].first->b;
-            for (std::vector<double> &column : columns)
-              column.assign(m, 0.);
-            for (last = first; last < list.size() && list[last].first->b == b;
-                 ++last)
-              {
-                const std::vector<double> &of_c =
-                  points.points()[list[last].first->c].values;
-                const Tensor<2, dim> &M = list[last].second;
-                for (unsigned int i = 0; i < dim; ++i)
-                  for (unsigned int j = 0; j < dim; ++j)
-                    for (unsigned int t = 0; t < m; ++t)
-                      columns[i * dim + j][t] -= M[i][j] * of_c[t];
-              }
-            add_products(points.points()[b].values, columns, matrix);
-          }
-        add(link, matrix);
-        transposed.resize(matrix.size());
-        for (unsigned int i = 0; i < dim * n; ++i)
-          for (unsigned int j = 0; j < dim * m; ++j)
-            transposed[j * dim * n + i] = matrix[i * dim * m + j];
-        add(link + 1, transposed);
-      }
+      if (!of_links[link].empty())
+        add_link(link, of_links[link], add);
   }
 
 
   template void
-  ContactPairs<2>::add_tangent(
-    const std::vector<double> &,
-    const std::function<void(unsigned int, const std::vector<double> &)> &)
-    const;
+  ContactPairs<2>::add_tangent(const std::vector<double> &,
+                               const AddBlock &) const;
   template void
-  ContactPairs<3>::add_tangent(
-    const std::vector<double> &,
-    const std::function<void(unsigned int, const std::vector<double> &)> &)
-    const;
+  ContactPairs<3>::add_tangent(const std::vector<double> &,
+                               const AddBlock &) const;
 } // namespace Morula

@@ -45,6 +45,71 @@ namespace Morula
       types::particle_index place, other; // ids
       double                area, distance;
     };
+
+    /** The edges of this rank's places, and of those of others that this rank
+     *  asks for by their numbers there. Collective.
+     *  @param listeners get the ranks that have asked for a place */
+    template <int dim>
+    std::vector<EdgeRecord>
+    edges_around(
+      const PointList<dim>                                    &list,
+      const NeighbourGraph<dim>                               &graph,
+      const std::map<unsigned int, std::vector<unsigned int>> &wanted,
+      std::vector<std::vector<unsigned int>>                  &listeners,
+      const MPI_Comm                                           comm)
+    {
+      std::map<unsigned int, std::vector<EdgeRecord>> edges_to;
+      for (const auto &[rank, numbers] : send_records(wanted, comm))
+        for (const unsigned int p : numbers)
+          {
+            listeners[p].push_back(rank);
+            graph.for_neighbours(p, [&, rank = rank](const auto &e) {
+              edges_to[rank].push_back(
+                {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
+            });
+          }
+      std::vector<EdgeRecord> edges;
+      for (unsigned int p = 0; p < list.size(); ++p)
+        graph.for_neighbours(p, [&](const auto &e) {
+          edges.push_back(
+            {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
+        });
+      for (const auto &[rank, of_rank] : send_records(edges_to, comm))
+        edges.insert(edges.end(), of_rank.begin(), of_rank.end());
+      return edges;
+    }
+
+    /** Gives places their edges; those of which one end is not known here are
+     *  left out. @param spacing a, µm */
+    template <int dim>
+    void
+    join_edges(const std::vector<EdgeRecord>               &edges,
+               const std::array<const PointList<dim> *, 2> &parts,
+               const double                                 spacing,
+               Places                                      &around)
+    {
+      std::unordered_map<types::particle_index, unsigned int> place_of;
+      for (const PointList<dim> *part : parts)
+        for (const auto id : part->ids)
+          place_of.emplace(id, place_of.size());
+      std::vector<std::vector<Places::Edge>> of_place(around.size());
+      const double                           V = std::pow(spacing, dim);
+      const double cap = largest_ratio * std::pow(spacing, dim - 2);
+      for (const EdgeRecord &edge : edges)
+        if (const auto other = place_of.find(edge.other);
+            other != place_of.end())
+          of_place[place_of.at(edge.place)].push_back(
+            {other->second,
+             edge.area,
+             std::min(edge.area / edge.distance, cap) / V});
+      around.offsets.push_back(0);
+      for (const auto &of_one : of_place)
+        {
+          around.edges.insert(around.edges.end(), of_one.begin(), of_one.end());
+          around.offsets.push_back(around.edges.size());
+        }
+      around.sort_edges();
+    }
   } // namespace
 
 
@@ -73,7 +138,6 @@ namespace Morula
                           cells[p].number));
     search.least_part               = least_part;
     const NeighbourGraph<dim> graph = neighbours(tissue, list, search);
-    const double              a     = graph.spacing;
     const PointList<dim>      ghosts =
       halo(list, tissue.grid(), n_edges * graph.longest);
 
@@ -98,45 +162,10 @@ namespace Morula
           wanted[rank].push_back(number);
         }
     around.listeners.resize(n_own);
-    std::map<unsigned int, std::vector<EdgeRecord>> edges_to;
-    for (const auto &[rank, numbers] : send_records(wanted, comm))
-      for (const unsigned int p : numbers)
-        {
-          around.listeners[p].push_back(rank);
-          graph.for_neighbours(p, [&, rank = rank](const auto &e) {
-            edges_to[rank].push_back(
-              {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
-          });
-        }
-    std::vector<EdgeRecord> edges;
-    for (unsigned int p = 0; p < n_own; ++p)
-      graph.for_neighbours(p, [&](const auto &e) {
-        edges.push_back(
-          {list.ids[p], graph.points.ids[e.other], e.area, e.distance});
-      });
-    for (const auto &[rank, of_rank] : send_records(edges_to, comm))
-      edges.insert(edges.end(), of_rank.begin(), of_rank.end());
-
-    std::unordered_map<types::particle_index, unsigned int> place_of;
-    for (const PointList<dim> *part : parts)
-      for (const auto id : part->ids)
-        place_of.emplace(id, place_of.size());
-    std::vector<std::vector<Places::Edge>> of_place(around.size());
-    const double                           V = std::pow(a, dim);
-    const double cap = largest_ratio * std::pow(a, dim - 2);
-    for (const EdgeRecord &edge : edges)
-      if (const auto other = place_of.find(edge.other); other != place_of.end())
-        of_place[place_of.at(edge.place)].push_back(
-          {other->second,
-           edge.area,
-           std::min(edge.area / edge.distance, cap) / V});
-    around.offsets.push_back(0);
-    for (const auto &of_one : of_place)
-      {
-        around.edges.insert(around.edges.end(), of_one.begin(), of_one.end());
-        around.offsets.push_back(around.edges.size());
-      }
-    around.sort_edges();
+    join_edges(edges_around(list, graph, wanted, around.listeners, comm),
+               parts,
+               graph.spacing,
+               around);
     return around;
   }
 

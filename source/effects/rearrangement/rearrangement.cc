@@ -213,7 +213,6 @@ namespace Morula
         // number with it. The cells of this rank are moved at last, in one go.
         const MPI_Comm           comm    = tissue.communicator();
         const StateColumns<dim> &columns = moment.reader.columns;
-        const CellColumns<dim>  &of_cell = tissue.cells().columns();
         std::vector<Occupant>    cells;
         everywhere(comm, [&]() { cells = cells_of(tissue, moment.reader); });
         const std::size_t n_own  = cells.size();
@@ -246,30 +245,7 @@ namespace Morula
             for (const Column<double> &field : columns.fields)
               append_flat(list, place.get(field));
           }
-        std::vector<Point<dim>> positions = tissue.cells().positions();
-        const std::size_t       width =
-          1 + dim + 1 + dim * dim + columns.fields.size();
-        for (const auto &[rank, list] : send_records(sent, comm))
-          for (std::size_t i = 0; i < list.size(); i += width)
-            {
-              const double      *next = &list[i];
-              const unsigned int p    = static_cast<unsigned int>(next[0]);
-              positions[p]            = Flat<Point<dim>>::read(next + 1);
-              const double         V  = next[1 + dim];
-              const Tensor<2, dim> F_e =
-                Flat<Tensor<2, dim>>::read(next + 2 + dim);
-              const CellView<dim, double> cell   = tissue.cell(p);
-              const double                before = cell.volume();
-              cell.set(
-                of_cell.deformation,
-                deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
-              for (std::size_t k = 0; k < columns.fields.size(); ++k)
-                cell.set(columns.fields[k],
-                         columns.carried[k] ?
-                           cell.get(columns.fields[k]) * before / V :
-                           next[2 + dim + dim * dim + k]);
-            }
-        tissue.move(positions, tissue.boundary_points().positions());
+        take_places(tissue, sent, columns);
         tell(moment, places, rounds.occupants(), n_exchanges, comm);
         spread(tissue, moment);
       }
@@ -299,6 +275,41 @@ namespace Morula
               list.back().drive[d] = f[d];
           }
         return list;
+      }
+
+      /** Moves this rank's cells to what their new places keep. Collective.
+       *  @param kept numbers of this rank's places, by the ranks of the cells
+       *         that come there */
+      static void
+      take_places(Tissue<dim>                                       &tissue,
+                  const std::map<unsigned int, std::vector<double>> &kept,
+                  const StateColumns<dim>                           &columns)
+      {
+        std::vector<Point<dim>> positions = tissue.cells().positions();
+        const std::size_t       width =
+          1 + dim + 1 + dim * dim + columns.fields.size();
+        for (const auto &[rank, list] :
+             send_records(kept, tissue.communicator()))
+          for (std::size_t i = 0; i < list.size(); i += width)
+            {
+              const double      *next = &list[i];
+              const unsigned int p    = static_cast<unsigned int>(next[0]);
+              positions[p]            = Flat<Point<dim>>::read(next + 1);
+              const double         V  = next[1 + dim];
+              const Tensor<2, dim> F_e =
+                Flat<Tensor<2, dim>>::read(next + 2 + dim);
+              const CellView<dim, double> cell   = tissue.cell(p);
+              const double                before = cell.volume();
+              cell.set(
+                tissue.cells().columns().deformation,
+                deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
+              for (std::size_t k = 0; k < columns.fields.size(); ++k)
+                cell.set(columns.fields[k],
+                         columns.carried[k] ?
+                           cell.get(columns.fields[k]) * before / V :
+                           next[2 + dim + dim * dim + k]);
+            }
+        tissue.move(positions, tissue.boundary_points().positions());
       }
 
       /** Writes the numbers of the step. Collective. */

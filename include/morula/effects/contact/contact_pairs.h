@@ -7,9 +7,11 @@
 #include <morula/effects/contact/contact_points.h>
 #include <morula/effects/interaction.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -50,11 +52,11 @@ namespace Morula
     }
     void
     add_residual(const std::vector<double> &u, Sums &sums) const override;
+    using AddBlock =
+      std::function<void(unsigned int, const std::vector<double> &)>;
     void
-    add_tangent(
-      const std::vector<double>                                            &u,
-      const std::function<void(unsigned int, const std::vector<double> &)> &add)
-      const override;
+    add_tangent(const std::vector<double> &u,
+                const AddBlock            &add) const override;
 
     /** What a renewal has found, on this rank. */
     struct Renewal
@@ -168,6 +170,15 @@ namespace Morula
      *  cell are a group, as they have the same unknowns. */
     std::vector<UnknownLink>
     link(std::vector<Pair> &list) const;
+
+    /** Pairs, and minus the derivatives of their forces. */
+    using WithStiffness = std::vector<std::pair<const Pair *, Tensor<2, dim>>>;
+
+    /** Adds the block of a link, and that of the link behind it. */
+    void
+    add_link(const unsigned int   link,
+             const WithStiffness &list,
+             const AddBlock      &add) const;
 
     /** Adds (M φ) φᵀ, given row(i, j) = M_ij φ of the columns, to a matrix with
      *  these numbers of rows and columns. */

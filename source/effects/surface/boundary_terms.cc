@@ -14,11 +14,6 @@ namespace Morula
 {
   namespace
   {
-    /** F_g at t and t + dt, and λ and μ. */
-    template <int dim>
-    using CellState =
-      std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
-
     /** The states of the cells that carry boundary points. Cells that do not
      *  grow, or have a stiffness by their place, need not tell. */
     template <int dim>
@@ -45,67 +40,6 @@ namespace Morula
       return {std::get<2>(state), std::get<3>(state)};
     }
 
-    /** The held points of this rank, as far as they are the same for all forms:
-     *  without their penalty. */
-    template <int dim>
-    struct HeldPoints
-    {
-      PointGroups                                   groups;
-      std::vector<typename Nitsche<dim>::HeldPoint> list;
-      std::vector<double>                           youngs_moduli; // kPa
-      /** Empty if cells neither grow nor have a stiffness by their state. */
-      std::vector<CellState<dim>> carriers;
-    };
-
-    template <int dim>
-    HeldPoints<dim>
-    points_of_term(const BoundaryConditions<dim> &conditions,
-                   const TissueMaterial          &material,
-                   const Tissue<dim>             &tissue,
-                   const SplineSpace<dim>        &space,
-                   const DevelopmentOfStep<dim>  &growth,
-                   const double                   t)
-    {
-      // Where the points are and how far they belong to the tissue, and the
-      // state of the cells that carry them, may need other ranks; so both are
-      // asked for all points at once. Then each point gets its gap to where it
-      // is held at the end of the step, doc/theory.md (4.1), and its stiffness,
-      // by its place or as its cell has it.
-      const BoundaryPoints<dim> &store = tissue.boundary_points();
-      HeldPoints<dim>            held;
-      held.groups = held_groups(tissue, space);
-      const std::vector<Point<dim>> places =
-        store.positions_of(held.groups.points);
-      const std::vector<double> attached =
-        attachment(places, tissue, store.sides_of(held.groups.points));
-      if (growth.present || !growth.lame.empty())
-        held.carriers = states_of_carriers(held.groups.points, tissue, growth);
-      for (std::size_t k = 0; k < places.size(); ++k)
-        {
-          const BoundaryView<dim> point = store[held.groups.points[k]];
-          const Point<dim>        x = places[k], X = point.initial_position();
-          // A slip point is held in its initial plane.
-          Point<dim> target = X;
-          if (point.condition() == SurfaceCondition::fixed)
-            target += conditions.displacement(point, t);
-          const Tensor<1, dim>             area = point.area_vector();
-          typename Nitsche<dim>::HeldPoint of_term;
-          of_term.projection        = projection(point);
-          of_term.gap               = of_term.projection * (x - target);
-          of_term.position_scale    = std::max(x.norm(), target.norm());
-          of_term.area              = area.norm();
-          of_term.normal            = area / area.norm();
-          of_term.traction_fraction = attached[k];
-          const bool by_place       = growth.lame.empty();
-          of_term.lame =
-            by_place ? material.lame_at(X) : lame_of(held.carriers[k]);
-          held.youngs_moduli.push_back(by_place ? material.youngs_modulus(X) :
-                                                  youngs_modulus(of_term.lame));
-          held.list.push_back(of_term);
-        }
-      return held;
-    }
-
     /** State of a boundary point with its F and a cell's F_g. */
     template <int dim>
     ElasticState<dim>
@@ -130,6 +64,55 @@ namespace Morula
       return state.W * point.stiffness(held.normal);
     }
   } // namespace
+
+  template <int dim>
+  HeldPoints<dim>
+  points_of_term(const BoundaryConditions<dim> &conditions,
+                 const TissueMaterial          &material,
+                 const Tissue<dim>             &tissue,
+                 const SplineSpace<dim>        &space,
+                 const DevelopmentOfStep<dim>  &growth,
+                 const double                   t)
+  {
+    // Where the points are and how far they belong to the tissue, and the
+    // state of the cells that carry them, may need other ranks; so both are
+    // asked for all points at once. Then each point gets its gap to where it
+    // is held at the end of the step, doc/theory.md (4.1), and its stiffness,
+    // by its place or as its cell has it.
+    const BoundaryPoints<dim> &store = tissue.boundary_points();
+    HeldPoints<dim>            held;
+    held.groups = held_groups(tissue, space);
+    const std::vector<Point<dim>> places =
+      store.positions_of(held.groups.points);
+    const std::vector<double> attached =
+      attachment(places, tissue, store.sides_of(held.groups.points));
+    if (growth.present || !growth.lame.empty())
+      held.carriers = states_of_carriers(held.groups.points, tissue, growth);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      {
+        const BoundaryView<dim> point = store[held.groups.points[k]];
+        const Point<dim>        x = places[k], X = point.initial_position();
+        // A slip point is held in its initial plane.
+        Point<dim> target = X;
+        if (point.condition() == SurfaceCondition::fixed)
+          target += conditions.displacement(point, t);
+        const Tensor<1, dim>             area = point.area_vector();
+        typename Nitsche<dim>::HeldPoint of_term;
+        of_term.projection        = projection(point);
+        of_term.gap               = of_term.projection * (x - target);
+        of_term.position_scale    = std::max(x.norm(), target.norm());
+        of_term.area              = area.norm();
+        of_term.normal            = area / area.norm();
+        of_term.traction_fraction = attached[k];
+        const bool by_place       = growth.lame.empty();
+        of_term.lame =
+          by_place ? material.lame_at(X) : lame_of(held.carriers[k]);
+        held.youngs_moduli.push_back(by_place ? material.youngs_modulus(X) :
+                                                youngs_modulus(of_term.lame));
+        held.list.push_back(of_term);
+      }
+    return held;
+  }
 
   template <int dim>
   std::unique_ptr<Term<dim>>
@@ -192,35 +175,6 @@ namespace Morula
       std::move(current),
       std::move(previous),
       product_kernel<dim>(material.material(), kernel));
-  }
-
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  bounded_nitsche_term(const BoundaryConditions<dim>     &conditions,
-                       const TissueMaterial              &material,
-                       const Tissue<dim>                 &tissue,
-                       const SplineSpace<dim>            &space,
-                       const DevelopmentOfStep<dim>      &growth,
-                       const double                       t,
-                       const std::vector<double>         &stiffnesses,
-                       const std::vector<Tensor<1, dim>> &tractions)
-  {
-    // The stiffness comes from the cells around, so no state of the point
-    // itself is needed.
-    HeldPoints<dim> held =
-      points_of_term(conditions, material, tissue, space, growth, t);
-    for (std::size_t k = 0; k < held.list.size(); ++k)
-      held.list[k].penalty =
-        conditions.nitsche().penalty(held.youngs_moduli[k],
-                                     held.list[k].lame,
-                                     stiffnesses[k],
-                                     material.volumetric_form(),
-                                     space.box().spacing());
-    return bounded_nitsche<dim>(grouped_places(tissue.boundary_points(),
-                                               space,
-                                               held.groups),
-                                std::move(held.list),
-                                tractions);
   }
 
   template <int dim>
@@ -310,7 +264,7 @@ namespace Morula
   }
 
   MORULA_INSTANTIATE(nitsche_term);
-  MORULA_INSTANTIATE(bounded_nitsche_term);
+  MORULA_INSTANTIATE(points_of_term);
   MORULA_INSTANTIATE(loaded_points);
   MORULA_INSTANTIATE(supports);
   MORULA_INSTANTIATE(held_points);

@@ -22,14 +22,6 @@ namespace Morula
   } // namespace
 
 
-  bool
-  is_held(const SurfaceCondition condition)
-  {
-    return condition == SurfaceCondition::fixed ||
-           condition == SurfaceCondition::slip;
-  }
-
-
   template <int dim>
   bool
   is_mostly_held(const Tissue<dim> &tissue)

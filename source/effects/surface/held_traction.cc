@@ -11,7 +11,6 @@
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/mechanics/point_term.h>
-#include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
 
 #include <deal.II/base/mpi.h>
@@ -160,44 +159,35 @@ namespace Morula
         , surroundings(tissue.boundary_points().positions_of(points),
                        tissue,
                        tissue.boundary_points().sides_of(points))
-      {
-        // All lists here have the order of held_groups(): this rank's held
-        // points by active grid cell. Normals and areas are those at t, as the
-        // terms integrate over that configuration. Points away from the cells
-        // lose their traction (4.13).
-        const std::vector<double> attached =
-          attachment(tissue.boundary_points().positions_of(points),
-                     tissue,
-                     tissue.boundary_points().sides_of(points));
-        for (std::size_t k = 0; k < points.size(); ++k)
-          {
-            const BoundaryView<dim> point = tissue.boundary_points()[points[k]];
-            const Tensor<1, dim>    area  = point.area_vector();
-            held.push_back({projection(point),
-                            area / area.norm(),
-                            area.norm(),
-                            attached[k]});
-          }
-        T.resize(held.size());
-      }
+        // This comes last, as an expression may have no value on one rank.
+        , held(points_of_term(conditions,
+                              attempt.material,
+                              tissue,
+                              attempt.space,
+                              attempt.growth,
+                              attempt.t_next))
+        , T(points.size())
+      {}
 
       /** Nitsche's term with the traction, to which it keeps a reference. */
       std::unique_ptr<Term<dim>>
       term() override
       {
-        const TimerOutput::Scope   section(attempt.timer, "nitsche");
-        std::unique_ptr<Term<dim>> term;
+        const TimerOutput::Scope section(attempt.timer, "nitsche");
         everywhere(attempt.comm, [&]() {
-          term = bounded_nitsche_term(conditions,
-                                      attempt.material,
-                                      tissue,
-                                      attempt.space,
-                                      attempt.growth,
-                                      attempt.t_next,
-                                      stiffnesses(),
-                                      T);
+          const std::vector<double> k = stiffnesses();
+          for (std::size_t i = 0; i < k.size(); ++i)
+            held.list[i].penalty =
+              conditions.nitsche().penalty(held.youngs_moduli[i],
+                                           held.list[i].lame,
+                                           k[i],
+                                           attempt.material.volumetric_form(),
+                                           attempt.space.box().spacing());
         });
-        return term;
+        return std::make_unique<BoundedNitsche<dim>>(
+          grouped_places(tissue.boundary_points(), attempt.space, held.groups),
+          held.list,
+          T);
       }
 
       /** Sets the traction with which a step begins: that of the increment @p u
@@ -219,11 +209,11 @@ namespace Morula
         // (doc/theory.md, section 4.2).
         const std::vector<Tensor<1, dim>> now = tractions_of(u);
         double sums[3] = {0., 0., 0.}; // of changes, tractions and areas
-        for (std::size_t k = 0; k < held.size(); ++k)
+        for (std::size_t k = 0; k < held.list.size(); ++k)
           {
-            sums[0] += held[k].area * (now[k] - T[k]).norm_square();
-            sums[1] += held[k].area * now[k].norm_square();
-            sums[2] += held[k].area;
+            sums[0] += held.list[k].area * (now[k] - T[k]).norm_square();
+            sums[1] += held.list[k].area * now[k].norm_square();
+            sums[2] += held.list[k].area;
           }
         double totals[3];
         Utilities::MPI::sum(sums, tissue.communicator(), totals);
@@ -248,7 +238,7 @@ namespace Morula
         // list.
         const double part =
           attempt.jumps ? std::min(1., largest_step / change) : 1.;
-        for (std::size_t k = 0; k < held.size(); ++k)
+        for (std::size_t k = 0; k < held.list.size(); ++k)
           T[k] += part * (now[k] - T[k]);
         return true;
       }
@@ -264,15 +254,6 @@ namespace Morula
       }
 
     private:
-      /** A held point. */
-      struct Held
-      {
-        Tensor<2, dim> projection; // M
-        Tensor<1, dim> normal;     // n_t
-        double         area;       // a_t, µm^(dim-1)
-        double         fraction;   // of the traction that counts
-      };
-
       /** The tractions of the state after an increment u, with the growth at
        *  t + dt. */
       std::vector<Tensor<1, dim>>
@@ -320,9 +301,10 @@ namespace Morula
                                 transpose(invert(f)));
         });
         std::vector<Tensor<1, dim>> list;
-        for (std::size_t k = 0; k < held.size(); ++k)
-          list.push_back(held[k].fraction *
-                         (held[k].projection * (P[k] * held[k].normal)));
+        for (std::size_t k = 0; k < held.list.size(); ++k)
+          list.push_back(
+            held.list[k].traction_fraction *
+            (held.list[k].projection * (P[k] * held.list[k].normal)));
         return list;
       }
       /** Stiffnesses of a stretch along the normals with the growth at t, kPa,
@@ -349,18 +331,22 @@ namespace Morula
                                  (r.alpha + 2. * r.B) * b + r.C * (b * b)));
         });
         std::vector<double> list;
-        for (std::size_t k = 0; k < held.size(); ++k)
+        for (std::size_t k = 0; k < held.list.size(); ++k)
           list.push_back((attempt.jumps ? stiffening_of_jump : 1.) *
-                         (held[k].normal * (K[k] * held[k].normal)));
+                         (held.list[k].normal * (K[k] * held.list[k].normal)));
         return list;
       }
 
+      // All lists have the order of held_groups(): this rank's held points by
+      // active grid cell. Normals and areas are those at t, as the terms
+      // integrate over that configuration. Points away from the cells lose
+      // their traction (4.13).
       const BoundaryConditions<dim>  &conditions;
       const AttemptAtStep<dim>       &attempt;
       const Tissue<dim>              &tissue;
-      const std::vector<unsigned int> points; // held ones, as held_groups()
-      std::vector<Held>               held;
+      const std::vector<unsigned int> points;
       const Surroundings<dim>         surroundings;
+      HeldPoints<dim>                 held;
       std::vector<Tensor<1, dim>>     T;
       double                          change = 0.; // relative, by the last turn
       unsigned int                    n_turns = 0;

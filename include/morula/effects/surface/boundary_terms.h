@@ -15,10 +15,37 @@
 
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace Morula
 {
+  /** F_g at t and t + dt, and λ and μ. */
+  template <int dim>
+  using CellState = std::tuple<Tensor<2, dim>, Tensor<2, dim>, double, double>;
+
+  /** The held points of this rank, as far as they are the same for all forms:
+   *  without their penalty. */
+  template <int dim>
+  struct HeldPoints
+  {
+    PointGroups                                   groups;
+    std::vector<typename Nitsche<dim>::HeldPoint> list;
+    std::vector<double>                           youngs_moduli; // kPa
+    /** Empty if cells neither grow nor have a stiffness by their state. */
+    std::vector<CellState<dim>> carriers;
+  };
+
+  /** Collective; @p t is the end of the step, day. */
+  template <int dim>
+  HeldPoints<dim>
+  points_of_term(const BoundaryConditions<dim> &conditions,
+                 const TissueMaterial          &material,
+                 const Tissue<dim>             &tissue,
+                 const SplineSpace<dim>        &space,
+                 const DevelopmentOfStep<dim>  &growth,
+                 const double                   t);
+
   /**
    * Nitsche's term for the fixed and slip points, over the step up to time
    * @p t. Collective.
@@ -35,27 +62,10 @@ namespace Morula
                const std::string             &kernel);
 
   /**
-   * Nitsche's term with a traction that is renewed in turns: doc/theory.md
-   * (4.6a). Collective.
-   * @param stiffnesses of the tissue around the held points, along their
-   *        normals, by held_groups(), kPa: k in (4.6)
-   * @param tractions M T, kPa; a reference is kept
-   */
-  template <int dim>
-  std::unique_ptr<Term<dim>>
-  bounded_nitsche_term(const BoundaryConditions<dim>     &conditions,
-                       const TissueMaterial              &material,
-                       const Tissue<dim>                 &tissue,
-                       const SplineSpace<dim>            &space,
-                       const DevelopmentOfStep<dim>      &growth,
-                       const double                       t,
-                       const std::vector<double>         &stiffnesses,
-                       const std::vector<Tensor<1, dim>> &tractions);
-
-  /**
-   * The part of bounded_nitsche_term() in an attempt at a step: the traction
-   * of this rank's held points, which is zero until it begins. Keeps references
-   * to all that it is given. Collective.
+   * The bounded form in an attempt at a step: its term, and the traction of
+   * this rank's held points, which is zero until it begins and renewed in
+   * turns: doc/theory.md (4.6a). Keeps references to all that it is given.
+   * Collective.
    */
   template <int dim>
   std::unique_ptr<PartOfStep<dim>>

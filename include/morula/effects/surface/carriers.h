@@ -17,8 +17,12 @@ namespace Morula
   // traction of the point would jump whenever another cell comes nearer.
 
   /** Whether a boundary point is fixed or slips, and so is held. */
-  bool
-  is_held(const SurfaceCondition condition);
+  inline bool
+  is_held(const SurfaceCondition condition)
+  {
+    return condition == SurfaceCondition::fixed ||
+           condition == SurfaceCondition::slip;
+  }
 
   /** Whether conditions hold most of the surface's area, more than 0.55 of it.
    *  Collective. */

@@ -446,7 +446,7 @@ namespace Morula
     // Nitsche's term (4.2) needs F_g of a carrier. The bounded form needs none,
     // as its traction is that of all cells around a point.
     if (boundary_conditions.has_dirichlet() && development.grows() &&
-        boundary_conditions.nitsche().form() != NitscheForm::bounded)
+        boundary_conditions.nitsche().kind() != NitscheForm::bounded)
       add_carriers(columns);
     return columns;
   }

@@ -435,9 +435,9 @@ namespace Morula
     step.max_J       = before.tissue.max_elastic_volume_ratio;
     if (conditions.has_dirichlet())
       {
-        step.symmetric = conditions.nitsche().form() == NitscheForm::symmetric;
+        step.symmetric = conditions.nitsche().kind() == NitscheForm::symmetric;
         step.unsymmetric =
-          conditions.nitsche().form() == NitscheForm::unsymmetric;
+          conditions.nitsche().kind() == NitscheForm::unsymmetric;
       }
     step.pointwise =
       model.material.volumetric_form() == VolumetricStrain::pointwise;

@@ -360,7 +360,7 @@ namespace Morula
         if (auto term = part->term())
           list.push_back(std::move(term));
       if (model.boundary_conditions.has_dirichlet() &&
-          model.boundary_conditions.nitsche().form() != NitscheForm::bounded)
+          model.boundary_conditions.nitsche().kind() != NitscheForm::bounded)
         add("nitsche", [&]() {
           return nitsche_term(model.boundary_conditions,
                               model.material,

@@ -4,8 +4,6 @@
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
 #include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/effect.h>
-#include <morula/effects/interaction.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/particles/fusion.h>

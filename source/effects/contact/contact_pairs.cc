@@ -238,36 +238,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  ContactPairs<dim>::gap(const Pair                        &pair,
-                         const std::vector<Tensor<1, dim>> &u) const
-  {
-    return pair.gap + pair.across * (u[pair.b] - u[pair.c] - pair.jump);
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  ContactPairs<dim>::along(const Pair &pair, const Tensor<1, dim> &w)
-  {
-    return w - (pair.normal * w) * pair.normal;
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  ContactPairs<dim>::force(const Pair                        &pair,
-                           const std::vector<Tensor<1, dim>> &u) const
-  {
-    const Tensor<1, dim> w = u[pair.b] - u[pair.c] - pair.jump;
-    const double         g = gap(pair, u);
-    return -pair.weight * (law.kappa * std::min(g, 0.) * pair.across +
-                           pair.drag * along(pair, w) +
-                           pair.slow * along(pair, u[pair.b] - u[pair.c]));
-  }
-
-
-  template <int dim>
   void
   ContactPairs<dim>::add_residual(const std::vector<double> &u,
                                   Sums                      &sums) const
@@ -362,18 +332,6 @@ namespace Morula
           pair->overlap > result.crossed && pair->beside < pair->reach)
         result.crossed = pair->overlap;
     return result;
-  }
-
-
-  template <int dim>
-  void
-  ContactPairs<dim>::adopt()
-  {
-    // The numbers of the links change with them, so that the matrix needs a new
-    // pattern even where the same unknowns are linked.
-    pairs  = std::move(seen);
-    links_ = std::move(seen_links);
-    slides = std::move(seen_slides);
   }
 
 

@@ -6,27 +6,12 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <map>
-#include <utility>
 #include <vector>
 
 // The part of ContactPairs that makes the tangent.
 
 namespace Morula
 {
-  template <int dim>
-  Tensor<2, dim>
-  ContactPairs<dim>::stiffness(const Pair                        &pair,
-                               const std::vector<Tensor<1, dim>> &u) const
-  {
-    Tensor<2, dim> M =
-      (pair.drag + pair.slow) * (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
-                                 outer_product(pair.normal, pair.normal));
-    if (gap(pair, u) < 0.)
-      M += law.kappa * outer_product(pair.across, pair.across);
-    return pair.weight * M;
-  }
-
-
   template <int dim>
   void
   ContactPairs<dim>::add_products(

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/forces/force.h>
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
@@ -14,7 +13,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <deque>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -44,11 +42,7 @@ namespace Morula
       for (std::size_t i = 0; i < scene.founders.size(); ++i)
         mine.add(scene.founders[i], scene.volumes[i], scene.types[i]);
       for (const auto &sums : Utilities::MPI::all_gather(scene.comm, mine.sums))
-        {
-          TypeFractions<dim> part(box, n_types);
-          part.sums = sums;
-          all.add(part);
-        }
+        all.add(sums);
       return all.largest();
     }
 

@@ -4,11 +4,9 @@
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/effects/effect.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/boundary_condition.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/mechanics/point_term.h>
 

@@ -63,18 +63,6 @@ namespace Morula
   } // namespace
 
 
-  void
-  Places::sort_edges()
-  {
-    for (std::size_t p = 0; p < size(); ++p)
-      std::sort(edges.begin() + offsets[p],
-                edges.begin() + offsets[p + 1],
-                [this](const Edge &a, const Edge &b) {
-                  return keys[a.other] < keys[b.other];
-                });
-  }
-
-
   double
   AdhesionEnergy::change(const Places                &places,
                          const std::vector<Occupant> &occupants,
@@ -107,15 +95,6 @@ namespace Morula
       sum -= (i.drive[d] - j.drive[d]) *
              (places.positions[q][d] - places.positions[p][d]);
     return sum;
-  }
-
-
-  bool
-  AdhesionEnergy::accepts(const double change, const double u) const
-  {
-    if (temperature > 0.)
-      return u * (1. + std::exp(change / temperature)) <= 1.;
-    return change < 0. || (change == 0. && u <= 0.5);
   }
 
 

@@ -2,16 +2,13 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/base/expression_key.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
-#include <morula/effects/effect.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/effects/step_effect.h>
 #include <morula/particles/even_spread.h>
 #include <morula/particles/neighbours.h>
 
@@ -21,9 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <sstream>
-#include <string>
 #include <vector>
 
 namespace Morula

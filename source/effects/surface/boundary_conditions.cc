@@ -3,8 +3,6 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/part_of_step.h>
-#include <morula/effects/surface/boundary_condition.h>
-#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/effects/surface/boundary_terms.h>
 
 #include <algorithm>
@@ -14,38 +12,12 @@ namespace Morula
 {
   namespace
   {
-    /** Least penalty of the forms with an energy, in units of (λ + 2μ)/h, and
-     *  what is added for squeezed tissue, in units of the stiffness beyond that
-     *  at rest by h: doc/theory.md (4.6). Less leaves the symmetric form
-     *  indefinite; in the bounded one evenly squeezed tissue becomes uneven. */
-    constexpr double least_penalty    = NitscheParameters::least_penalty;
+    /** What is added to the least penalty for squeezed tissue, in units of the
+     *  stiffness beyond that at rest by h: doc/theory.md (4.6). Less leaves the
+     *  symmetric form indefinite; in the bounded one evenly squeezed tissue
+     *  becomes uneven. */
     constexpr double squeezed_penalty = 100.;
-
-    NitscheForm
-    form_called(const std::string &name)
-    {
-      return name == "symmetric"   ? NitscheForm::symmetric :
-             name == "unsymmetric" ? NitscheForm::unsymmetric :
-                                     NitscheForm::bounded;
-    }
   } // namespace
-
-
-  std::vector<std::string>
-  NitscheParameters::held_by()
-  {
-    return {"Boundary conditions/Fixed where",
-            "Boundary conditions/Slip where"};
-  }
-
-
-  NitscheParameters::NitscheParameters()
-  {
-    penalty.with("paper", "1000");
-    form.with("paper", "symmetric");
-    for (AnyKey *const key : list())
-      key->needs(held_by());
-  }
 
 
   void
@@ -55,8 +27,9 @@ namespace Morula
   {
     // The warnings concern values that do nothing, or that hold tissue too
     // softly.
-    const double least = NitschePenalty::least(
-      material.poissons_ratio.largest_number(3).value_or(0.));
+    const Lame unit =
+      lame(1., material.poissons_ratio.largest_number(3).value_or(0.));
+    const double least = least_penalty * (unit.lambda + 2. * unit.mu);
     if (material.volumetric_form() == VolumetricStrain::pointwise &&
         form == "symmetric" && review.has_set(penalty) && penalty < least)
       review.warn(penalty.path(),
@@ -81,14 +54,8 @@ namespace Morula
   }
 
 
-  NitschePenalty::NitschePenalty(const NitscheParameters &parameters)
-    : relative(parameters.penalty)
-    , form_(form_called(parameters.form))
-  {}
-
-
   double
-  NitschePenalty::penalty(const double           E,
+  NitscheParameters::beta(const double           E,
                           const Lame            &lame,
                           const double           stiffness,
                           const VolumetricStrain volumetric_form,
@@ -97,23 +64,15 @@ namespace Morula
     // This is doc/theory.md (4.6), and section 2.4 where the pressure is the
     // grid cell's.
     const double at_rest = lame.lambda + 2. * lame.mu;
-    if (form_ != NitscheForm::bounded &&
+    if (kind() != NitscheForm::bounded &&
         volumetric_form != VolumetricStrain::pointwise)
-      return relative * at_rest / h;
+      return penalty * at_rest / h;
     const double least =
-      form_ == NitscheForm::unsymmetric ?
+      kind() == NitscheForm::unsymmetric ?
         0. :
         least_penalty * at_rest +
           squeezed_penalty * std::max(0., stiffness - at_rest);
-    return std::max(relative * E, least) / h;
-  }
-
-
-  double
-  NitschePenalty::least(const double nu)
-  {
-    const Lame unit = lame(1., nu);
-    return least_penalty * (unit.lambda + 2. * unit.mu);
+    return std::max(penalty * E, least) / h;
   }
 
 
@@ -126,7 +85,7 @@ namespace Morula
     // together. Its term stands behind the forces on cells, so that it is the
     // first part.
     std::vector<std::unique_ptr<PartOfStep<dim>>> parts;
-    if (has_dirichlet() && nitsche_.form() == NitscheForm::bounded)
+    if (has_dirichlet() && nitsche_.kind() == NitscheForm::bounded)
       {
         const TimerOutput::Scope section(attempt.timer, "nitsche");
         everywhere(attempt.comm,

@@ -151,14 +151,15 @@ namespace Morula
           }
         auto &point = held.list[k];
         // A traction that does not count need not be held down by the penalty.
-        point.penalty = conditions.nitsche().penalty(
-          held.youngs_moduli[k],
-          point.lame,
-          point.traction_fraction > 0. ?
-            stiffness(current.back(), point, material) :
-            0.,
-          material.volumetric_form(),
-          space.box().spacing());
+        point.penalty = conditions.nitsche().beta(held.youngs_moduli[k],
+                                                  point.lame,
+                                                  point.traction_fraction > 0. ?
+                                                    stiffness(current.back(),
+                                                              point,
+                                                              material) :
+                                                    0.,
+                                                  material.volumetric_form(),
+                                                  space.box().spacing());
       }
     // Where the pressure is the grid cell's, ln J_e of the point itself says
     // nothing about it: only the distortional part enters T.
@@ -167,7 +168,7 @@ namespace Morula
         PartOfLaw::all :
         PartOfLaw::distortion;
     return std::make_unique<Nitsche<dim>>(
-      conditions.nitsche().form(),
+      conditions.nitsche().kind(),
       material.material(),
       part,
       grouped_places(store, space, held.groups),

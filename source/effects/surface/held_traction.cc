@@ -5,7 +5,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/part_of_step.h>
 #include <morula/effects/step_points.h>
-#include <morula/effects/surface/boundary_conditions.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/elastic_point.h>
@@ -178,11 +177,11 @@ namespace Morula
           const std::vector<double> k = stiffnesses();
           for (std::size_t i = 0; i < k.size(); ++i)
             held.list[i].penalty =
-              conditions.nitsche().penalty(held.youngs_moduli[i],
-                                           held.list[i].lame,
-                                           k[i],
-                                           attempt.material.volumetric_form(),
-                                           attempt.space.box().spacing());
+              conditions.nitsche().beta(held.youngs_moduli[i],
+                                        held.list[i].lame,
+                                        k[i],
+                                        attempt.material.volumetric_form(),
+                                        attempt.space.box().spacing());
         });
         return std::make_unique<BoundedNitsche<dim>>(
           grouped_places(tissue.boundary_points(), attempt.space, held.groups),

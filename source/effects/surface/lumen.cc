@@ -4,10 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/step_effect.h>
 #include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/surface/placed_condition.h>
-#include <morula/effects/tables.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -346,25 +346,6 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  Nitsche<dim>::Nitsche(const NitscheForm              form,
-                        const Material                &material,
-                        const PartOfLaw                part,
-                        GroupedPoints<dim>             points,
-                        std::vector<HeldPoint>         held_points,
-                        std::vector<ElasticState<dim>> current,
-                        std::vector<ElasticState<dim>> previous,
-                        const AddProducts<dim>         add_products)
-    : form(form)
-    , material(material)
-    , part(part)
-    , points(std::move(points))
-    , held_points(std::move(held_points))
-    , current(std::move(current))
-    , previous(std::move(previous))
-    , add_products(add_products)
-  {}
-
-  template <int dim>
   void
   Nitsche<dim>::add(const unsigned int     cell,
                     const LocalField<dim> &field,

@@ -4,13 +4,9 @@
 #include <morula/effects/forces/type_tension.h>
 #include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/boundary_condition.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/particles/nearest.h>
 
-#include <algorithm>
-#include <deque>
-#include <string>
 #include <utility>
 #include <vector>
 

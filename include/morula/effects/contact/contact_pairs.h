@@ -7,6 +7,9 @@
 #include <morula/effects/contact/contact_points.h>
 #include <morula/effects/interaction.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -89,7 +92,14 @@ namespace Morula
 
     /** Freezes the configuration that look() has seen last. */
     void
-    adopt();
+    adopt()
+    {
+      // The numbers of the links change with them, so that the matrix needs a
+      // new pattern even where the same unknowns are linked.
+      pairs  = std::move(seen);
+      links_ = std::move(seen_links);
+      slides = std::move(seen_slides);
+    }
 
     /** The force on each point that another body touches, by the points'
      *  numbers in points(). */
@@ -144,19 +154,40 @@ namespace Morula
 
     /** The gap at the displacements @p u of the points. */
     double
-    gap(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+    gap(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const
+    {
+      return pair.gap + pair.across * (u[pair.b] - u[pair.c] - pair.jump);
+    }
 
     /** The part of a jump along the pair's surface. */
     static Tensor<1, dim>
-    along(const Pair &pair, const Tensor<1, dim> &w);
+    along(const Pair &pair, const Tensor<1, dim> &w)
+    {
+      return w - (pair.normal * w) * pair.normal;
+    }
 
     /** The force on the pair's point b; that on c is opposite. */
     Tensor<1, dim>
-    force(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+    force(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const
+    {
+      const Tensor<1, dim> w = u[pair.b] - u[pair.c] - pair.jump;
+      const double         g = gap(pair, u);
+      return -pair.weight * (law.kappa * std::min(g, 0.) * pair.across +
+                             pair.drag * along(pair, w) +
+                             pair.slow * along(pair, u[pair.b] - u[pair.c]));
+    }
 
     /** Minus the derivative of force() by the displacement of b. */
     Tensor<2, dim>
-    stiffness(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const;
+    stiffness(const Pair &pair, const std::vector<Tensor<1, dim>> &u) const
+    {
+      Tensor<2, dim> M = (pair.drag + pair.slow) *
+                         (Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
+                          outer_product(pair.normal, pair.normal));
+      if (gap(pair, u) < 0.)
+        M += law.kappa * outer_product(pair.across, pair.across);
+      return pair.weight * M;
+    }
 
     /** The pairs of a configuration.
      *  @param first_contact whether pairs that nearly touch may turn into

@@ -303,17 +303,15 @@ namespace Morula
 
     /** Adds the sums of another part of the tissue. */
     void
-    add(const TypeFractions &other)
+    add(const std::map<std::array<int, dim>, std::vector<double>> &other)
     {
-      for (const auto &[center, more] : other.sums)
+      for (const auto &[center, more] : other)
         {
           Sums &of_spline = sums[center];
           of_spline.resize(1 + n_types, 0.);
           for (unsigned int k = 0; k <= n_types; ++k)
             of_spline[k] += more[k];
         }
-      for (const auto &[index, more] : other.counts)
-        counts[index] += more;
     }
 
     /** Sums of a spline: of all cells, then of each type, µm^dim. */

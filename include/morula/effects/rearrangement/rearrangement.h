@@ -11,6 +11,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -65,7 +67,15 @@ namespace Morula
 
     /** Sorts the edges of each place. To be called when all are there. */
     void
-    sort_edges();
+    sort_edges()
+    {
+      for (std::size_t p = 0; p < size(); ++p)
+        std::sort(edges.begin() + offsets[p],
+                  edges.begin() + offsets[p + 1],
+                  [this](const Edge &a, const Edge &b) {
+                    return keys[a.other] < keys[b.other];
+                  });
+    }
   };
 
   /** The energy E = Σ γ S of the contacts between cells and of their free
@@ -89,7 +99,12 @@ namespace Morula
     /** Whether an exchange that changes the energy so is accepted; @p u is
      *  uniform in (0, 1]. */
     bool
-    accepts(const double change, const double u) const;
+    accepts(const double change, const double u) const
+    {
+      if (temperature > 0.)
+        return u * (1. + std::exp(change / temperature)) <= 1.;
+      return change < 0. || (change == 0. && u <= 0.5);
+    }
 
     /** γ between two types. */
     double

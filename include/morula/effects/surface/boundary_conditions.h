@@ -142,7 +142,7 @@ namespace Morula
     }
 
     /** How stiffly points are held. */
-    const NitschePenalty &
+    const NitscheParameters &
     nitsche() const
     {
       return nitsche_;
@@ -150,7 +150,7 @@ namespace Morula
 
   private:
     std::vector<Named> list_;
-    NitschePenalty     nitsche_;
+    NitscheParameters  nitsche_;
   };
 } // namespace Morula
 

@@ -7,6 +7,7 @@
 #include <morula/mechanics/point_term.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -24,20 +25,33 @@ namespace Morula
     /**
      * @param forces of each point, kPa µm^(dim-1)
      */
-    DeadLoad(GroupedPoints<dim> points, std::vector<Tensor<1, dim>> forces);
+    DeadLoad(GroupedPoints<dim> points, std::vector<Tensor<1, dim>> forces)
+      : PointTerm<dim>(std::move(points))
+      , forces(std::move(forces))
+    {}
 
     void
-    add(const unsigned int     cell,
+    add(const unsigned int     grid_cell,
         const LocalField<dim> &field,
         const GrowthAt         growth,
-        LocalSystem<dim>      &system) const override;
+        LocalSystem<dim>      &system) const override
+    {
+      // A force that does not depend on u has no tangent.
+      if (system.wanted != LocalSystem<dim>::tangent)
+        PointTerm<dim>::add(grid_cell, field, growth, system);
+    }
 
   private:
     void
     add_point(const unsigned int       p,
               const SplineValues<dim> &splines,
               const LocalField<dim>   &field,
-              LocalSystem<dim>        &system) const override;
+              LocalSystem<dim>        &system) const override
+    {
+      // This is the force of doc/theory.md (4.7).
+      system.add_energy(-(forces[p] * field.value(splines)));
+      add_force_at(splines, -forces[p], system);
+    }
 
     const std::vector<Tensor<1, dim>> forces;
   };

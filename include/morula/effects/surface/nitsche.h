@@ -92,7 +92,16 @@ namespace Morula
             std::vector<HeldPoint>         held_points,
             std::vector<ElasticState<dim>> current,
             std::vector<ElasticState<dim>> previous,
-            const AddProducts<dim> add_products = &add_products_plainly<dim>);
+            const AddProducts<dim> add_products = &add_products_plainly<dim>)
+      : form(form)
+      , material(material)
+      , part(part)
+      , points(std::move(points))
+      , held_points(std::move(held_points))
+      , current(std::move(current))
+      , previous(std::move(previous))
+      , add_products(add_products)
+    {}
 
     void
     add(const unsigned int     cell,
@@ -143,7 +152,13 @@ namespace Morula
   /** The keys of Nitsche's term, in section "Boundary conditions". */
   struct NitscheParameters : public Keys
   {
-    NitscheParameters();
+    NitscheParameters()
+    {
+      penalty.with("paper", "1000");
+      form.with("paper", "symmetric");
+      for (AnyKey *const key : list())
+        key->needs(held_by());
+    }
 
     /** Least penalty of the forms with an energy, (λ + 2μ)/h. */
     static constexpr double least_penalty = 20.;
@@ -170,9 +185,32 @@ namespace Morula
       "surface.",
       {"symmetric|unsymmetric|bounded"}};
 
+    /** Which of Nitsche's terms. */
+    NitscheForm
+    kind() const
+    {
+      return form == "symmetric"   ? NitscheForm::symmetric :
+             form == "unsymmetric" ? NitscheForm::unsymmetric :
+                                     NitscheForm::bounded;
+    }
+
+    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
+     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
+     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
+    double
+    beta(const double           E,
+         const Lame            &lame,
+         const double           stiffness,
+         const VolumetricStrain volumetric_form,
+         const double           h) const;
+
     /** Full paths of the keys that hold points. */
     static std::vector<std::string>
-    held_by();
+    held_by()
+    {
+      return {"Boundary conditions/Fixed where",
+              "Boundary conditions/Slip where"};
+    }
 
     /** Warns of penalties that have no effect, or that are too low if
      *  @p all_is_fixed (all of the surface). For scenes that hold points. */
@@ -180,40 +218,6 @@ namespace Morula
     review(const MaterialParameters &material,
            const bool                all_is_fixed,
            Review                   &review) const;
-  };
-
-  /** How stiffly fixed and slip points are held. */
-  class NitschePenalty
-  {
-  public:
-    /** Takes the values of the keys. */
-    explicit NitschePenalty(const NitscheParameters &parameters);
-
-    /** Nitsche's penalty β, kPa/µm, for a point with Young's modulus @p E,
-     *  Lamé constants @p lame and the @p stiffness that it has now (kPa) on a
-     *  grid of spacing @p h (µm): doc/theory.md (4.6). */
-    double
-    penalty(const double           E,
-            const Lame            &lame,
-            const double           stiffness,
-            const VolumetricStrain volumetric_form,
-            const double           h) const;
-
-    /** The least penalty of the symmetric form for tissue at rest, in units of
-     *  E/h, with Poisson's ratio @p nu. */
-    static double
-    least(const double nu);
-
-    /** Which of Nitsche's terms. */
-    NitscheForm
-    form() const
-    {
-      return form_;
-    }
-
-  private:
-    double      relative; // β h / E
-    NitscheForm form_;
   };
 } // namespace Morula
 

@@ -5,6 +5,7 @@
 #define morula_effects_equation_h
 
 #include <morula/base/agreement.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/tables.h>
 #include <morula/mechanics/equilibrium.h>
 

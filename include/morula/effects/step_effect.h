@@ -4,6 +4,7 @@
 #ifndef morula_effects_step_effect_h
 #define morula_effects_step_effect_h
 
+#include <morula/effects/effect.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/effects/tables.h>
 

@@ -5,6 +5,7 @@
 #define morula_effects_state_neighbour_columns_h
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/effect.h>
 #include <morula/effects/step_effect.h>
 #include <morula/particles/neighbours.h>
 

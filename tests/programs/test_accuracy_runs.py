@@ -210,23 +210,6 @@ def test_names_of_columns(runs):
 
 
 @pytest.mark.release
-def test_ladders_of_the_page(runs, table):
-    """Few and coarse: what they are to show must show."""
-    runs.call([ROOT / "contrib/upkeep/accuracy-ladders", "--short",
-               "half-fixed-sphere", "grid-offsets", "--morula", runs.options.morula,
-               "--output", runs.work / "found"])
-    energy = {row["Grid/Spacing"]: float(row["value"])
-              for row in table("half-fixed-sphere.short/table.csv")
-              if row["measure"] == "mean_energy_density"}
-    # the clamp edge: too stiff a grid stores too much energy
-    assert energy["100"] > energy["75"]
-    # and less with the consistent method, wherever the grid lies
-    scatter = {row["Method"]: row for row in table("grid-offsets.short/scatter.csv")
-               if row["measure"] == "mean_energy_density"}
-    assert float(scatter["consistent"]["largest"]) < float(scatter["paper"]["smallest"])
-
-
-@pytest.mark.release
 def test_two_ranks(accuracy, table):
     """Keys that change together on two ranks; the solver makes no difference."""
     accuracy(SCENES.parent / "programs/small-cube.prm", "--ranks", "2", "--vary",

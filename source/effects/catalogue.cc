@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/library_effects.h>
 
 #include <algorithm>
 #include <cctype>
@@ -10,37 +10,49 @@
 
 namespace Morula
 {
+  // Each of these adds the effect of the library that its name says: keys,
+  // effect and example stand together in the file of that name.
+  using Addition = void(Catalogue &);
+  Addition add_isotropic_growth, add_rate_growth, add_contraction,
+    add_relaxation, add_cell_cycle, add_division_by_size, add_death,
+    add_extrusion, add_fields, add_division_rules, add_rearrangement,
+    add_neighbours, add_present_depth, add_body_force, add_friction,
+    add_type_tension, add_fixed, add_slip, add_traction, add_pressure,
+    add_surface_tension, add_lumen, add_obstacles, add_type_surface_tension,
+    add_contact;
+
+
   Catalogue::Catalogue()
   {
     // The order of these lines is the order in which effects of a kind are
     // made, declare their columns and stand in the printed parameters. Growth
     // factors and flows are applied in it as well, so a new effect belongs at
     // the end of its kind.
-    add_isotropic_growth(growth_laws);
-    add_rate_growth(growth_laws);
-    add_contraction(growth_factors);
-    add_relaxation(flows);
-    add_cell_cycle(fates);
-    add_division_by_size(fates);
-    add_death(fates);
-    add_extrusion(fates);
-    add_fields(equations);
-    add_division_rules(division_rules);
-    add_rearrangement(step_effects);
-    add_neighbours(step_effects);
-    add_present_depth(step_effects);
-    add_body_force(forces);
-    add_friction(forces);
-    add_type_tension(forces);
-    add_fixed(boundary_conditions);
-    add_slip(boundary_conditions);
-    add_traction(boundary_conditions);
-    add_pressure(boundary_conditions);
-    add_surface_tension(boundary_conditions);
-    add_lumen(boundary_conditions);
-    add_obstacles(boundary_conditions);
-    add_type_surface_tension(boundary_conditions);
-    add_contact(interactions);
+    add_isotropic_growth(*this);
+    add_rate_growth(*this);
+    add_contraction(*this);
+    add_relaxation(*this);
+    add_cell_cycle(*this);
+    add_division_by_size(*this);
+    add_death(*this);
+    add_extrusion(*this);
+    add_fields(*this);
+    add_division_rules(*this);
+    add_rearrangement(*this);
+    add_neighbours(*this);
+    add_present_depth(*this);
+    add_body_force(*this);
+    add_friction(*this);
+    add_type_tension(*this);
+    add_fixed(*this);
+    add_slip(*this);
+    add_traction(*this);
+    add_pressure(*this);
+    add_surface_tension(*this);
+    add_lumen(*this);
+    add_obstacles(*this);
+    add_type_surface_tension(*this);
+    add_contact(*this);
   }
 
 

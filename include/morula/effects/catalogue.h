@@ -228,11 +228,22 @@ namespace Morula
     add(const std::string &name, const Settings &example = {})
     {
       check_name(name);
+      add_own<Added>(name, example, true);
+    }
+
+    /** Adds an effect of the library: unless it @p has_section, its keys know
+     *  their full paths. */
+    template <template <int> class Added>
+    void
+    add_own(const std::string &name,
+            const Settings    &example,
+            const bool         has_section = false)
+    {
       for_each_kind(*this, [&](auto &choices, const std::string &around) {
         using Kind = typename std::decay_t<decltype(choices)>::value_type;
         if constexpr (Kind::template has<Added>())
-          choices.push_back(
-            Kind::template of<Added>(name, section(around, name), example));
+          choices.push_back(Kind::template of<Added>(
+            name, has_section ? section(around, name) : "", example));
       });
     }
 

@@ -3,8 +3,8 @@
 
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/particles/fusion.h>
 #include <morula/particles/nearest.h>
@@ -464,14 +464,13 @@ namespace Morula
 
 
   void
-  add_contact(Choices<Interaction> &interactions)
+  add_contact(Catalogue &catalogue)
   {
-    interactions.push_back(Choice<Interaction>::of<Contact>(
+    catalogue.add_own<Contact>(
       "contact",
-      "",
       {"Growth/Law=isotropic",
        "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
        "Contact/Between=all",
-       "Tissue/Refine surface=true"}));
+       "Tissue/Refine surface=true"});
   }
 } // namespace Morula

@@ -3,9 +3,9 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/division/directions.h>
 #include <morula/effects/division/division_rule.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <memory>
@@ -281,16 +281,14 @@ namespace Morula
     /** Adds a rule, by which small balls of growing cells divide. */
     template <template <int> class Rule>
     void
-    add_rule(Choices<DivisionRule> &rules, const std::string &name)
+    add_rule(Catalogue &catalogue, const std::string &name)
     {
-      rules.push_back(Choice<DivisionRule>::of<Rule>(
-        name,
-        "",
-        {"Growth/Law=rate",
-         "Growth/Rate/Rate=J_e + 0.1*X*Y",
-         "Division by size/Volume=1.1",
-         "Proliferation/Cell cycle/Division axis=" + name,
-         "Proliferation/Cell cycle/Least anisotropy=1"}));
+      catalogue.add_own<Rule>(name,
+                              {"Growth/Law=rate",
+                               "Growth/Rate/Rate=J_e + 0.1*X*Y",
+                               "Division by size/Volume=1.1",
+                               "Proliferation/Cell cycle/Division axis=" + name,
+                               "Proliferation/Cell cycle/Least anisotropy=1"});
     }
   } // namespace
 
@@ -304,22 +302,21 @@ namespace Morula
 
 
   void
-  add_division_rules(Choices<DivisionRule> &rules)
+  add_division_rules(Catalogue &catalogue)
   {
-    rules.push_back(Choice<DivisionRule>::of<FixedAxis>(
+    catalogue.add_own<FixedAxis>(
       "fixed",
-      "",
       {"Proliferation/Law=cell cycle",
        "Proliferation/Cell cycle/Start=together",
        "Proliferation/Cell cycle/Duration=0.4",
        "Proliferation/Cell cycle/Division axis=fixed",
-       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"}));
-    add_rule<StretchAxis>(rules, "stretch");
-    add_rule<StressAxis>(rules, "stress");
-    add_rule<RadialAxis>(rules, "radial");
-    add_rule<SurfaceNormalAxis>(rules, "surface normal");
-    add_rule<TangentialAxis>(rules, "tangential");
-    add_rule<CellShapeAxis>(rules, "cell shape");
+       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"});
+    add_rule<StretchAxis>(catalogue, "stretch");
+    add_rule<StressAxis>(catalogue, "stress");
+    add_rule<RadialAxis>(catalogue, "radial");
+    add_rule<SurfaceNormalAxis>(catalogue, "surface normal");
+    add_rule<TangentialAxis>(catalogue, "tangential");
+    add_rule<CellShapeAxis>(catalogue, "cell shape");
   }
 
 

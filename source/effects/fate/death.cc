@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/end_at_rate.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 
 #include <algorithm>
@@ -290,13 +290,11 @@ namespace Morula
 
 
   void
-  add_death(Choices<Fate> &fates)
+  add_death(Catalogue &catalogue)
   {
-    fates.push_back(
-      Choice<Fate>::of<Death>("death",
-                              "",
-                              {"Material/Energy per=grown volume",
-                               "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
-                               "Death/Shrinking time=0.2"}));
+    catalogue.add_own<Death>("death",
+                             {"Material/Energy per=grown volume",
+                              "Death/When=abs(X*Y - 0.75) < 0.1 && t > 0.05",
+                              "Death/Shrinking time=0.2"});
   }
 } // namespace Morula

@@ -3,10 +3,10 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/fate.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 
 #include <boost/math/special_functions/erf.hpp>
@@ -386,15 +386,14 @@ namespace Morula
 
 
   void
-  add_division_by_size(Choices<Fate> &fates)
+  add_division_by_size(Catalogue &catalogue)
   {
-    fates.push_back(Choice<Fate>::of<DivisionBySize>(
+    catalogue.add_own<DivisionBySize>(
       "division by size",
-      "",
       {"Growth/Law=rate",
        "Growth/Rate/Rate=J_e + 0.1*X*Y",
        "Division by size/Volume=1.1",
        "Proliferation/Cell cycle/Division axis=random",
-       "Proliferation/Cell cycle/Least anisotropy=1"}));
+       "Proliferation/Cell cycle/Least anisotropy=1"});
   }
 } // namespace Morula

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/end_at_rate.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/library_effects.h>
 
 #include <string>
 
@@ -92,9 +92,8 @@ namespace Morula
 
 
   void
-  add_extrusion(Choices<Fate> &fates)
+  add_extrusion(Catalogue &catalogue)
   {
-    fates.push_back(
-      Choice<Fate>::of<Extrusion>("extrusion", "", {"Extrusion/Rate=1"}));
+    catalogue.add_own<Extrusion>("extrusion", {"Extrusion/Rate=1"});
   }
 } // namespace Morula

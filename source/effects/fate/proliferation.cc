@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/time_parameters.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
@@ -440,16 +440,15 @@ namespace Morula
 
 
   void
-  add_cell_cycle(Choices<Fate> &fates)
+  add_cell_cycle(Catalogue &catalogue)
   {
-    fates.push_back(Choice<Fate>::of<Proliferation>(
+    catalogue.add_own<Proliferation>(
       "cell cycle",
-      "",
       {"Proliferation/Law=cell cycle",
        "Proliferation/Cell cycle/Start=together",
        "Proliferation/Cell cycle/Duration=0.4",
        "Proliferation/Cell cycle/Division axis=fixed",
-       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"}));
+       "Proliferation/Cell cycle/Fixed axis=1; 1; 0"});
   }
 
 

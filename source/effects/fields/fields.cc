@@ -6,7 +6,6 @@
 #include <morula/base/step_failed.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/library_effects.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -480,16 +479,14 @@ namespace Morula
 
 
   void
-  add_fields(Choices<Equation> &equations)
+  add_fields(Catalogue &catalogue)
   {
-    equations.push_back(
-      Choice<Equation>::of<Fields>("fields",
-                                   "",
-                                   {"Fields/Names=signal",
-                                    "Fields/signal/Time=transient",
-                                    "Fields/signal/Diffusion=1",
-                                    "Fields/signal/Consumption=signal",
-                                    "Fields/signal/Initial=1 + 0.1*X*Y",
-                                    "Fields/signal/Fixed where=X + Y > 2"}));
+    catalogue.add_own<Fields>("fields",
+                              {"Fields/Names=signal",
+                               "Fields/signal/Time=transient",
+                               "Fields/signal/Diffusion=1",
+                               "Fields/signal/Consumption=signal",
+                               "Fields/signal/Initial=1 + 0.1*X*Y",
+                               "Fields/signal/Fixed where=X + Y > 2"});
   }
 } // namespace Morula

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/body_force.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/mechanics/point_term.h>
@@ -213,12 +213,11 @@ namespace Morula
 
 
   void
-  add_body_force(Choices<Force> &forces)
+  add_body_force(Catalogue &catalogue)
   {
-    forces.push_back(Choice<Force>::of<BodyForce>(
+    catalogue.add_own<BodyForce>(
       "body force",
-      "",
       {"Boundary conditions/Fixed where=X + Y < -2",
-       "Body force/Force density=0.01*x; 0.01*y; 0"}));
+       "Body force/Force density=0.01*x; 0.01*y; 0"});
   }
 } // namespace Morula

@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression_key.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/force.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/mechanics/point_term.h>
 
@@ -115,13 +115,12 @@ namespace Morula
 
 
   void
-  add_friction(Choices<Force> &forces)
+  add_friction(Catalogue &catalogue)
   {
-    forces.push_back(Choice<Force>::of<Friction>(
+    catalogue.add_own<Friction>(
       "friction",
-      "",
       {"Growth/Law=isotropic",
        "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
-       "Friction/Coefficient=0.1"}));
+       "Friction/Coefficient=0.1"});
   }
 } // namespace Morula

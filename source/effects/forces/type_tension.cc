@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/particles/point_exchange.h>
@@ -248,13 +248,11 @@ namespace Morula
 
 
   void
-  add_type_tension(Choices<Force> &forces)
+  add_type_tension(Catalogue &catalogue)
   {
-    forces.push_back(
-      Choice<Force>::of<TypeTension>("type tension",
-                                     "",
-                                     {"Cell types/Names=a, b",
-                                      "Cell types/b/Where=X*Y > 0",
-                                      "Cell types/a/Tension/With b=0.1"}));
+    catalogue.add_own<TypeTension>("type tension",
+                                   {"Cell types/Names=a, b",
+                                    "Cell types/b/Where=X*Y > 0",
+                                    "Cell types/a/Tension/With b=0.1"});
   }
 } // namespace Morula

@@ -3,8 +3,8 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/contraction.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
@@ -164,12 +164,11 @@ namespace Morula
 
 
   void
-  add_contraction(Choices<GrowthFactor> &factors)
+  add_contraction(Catalogue &catalogue)
   {
-    factors.push_back(Choice<GrowthFactor>::of<Contraction>(
-      "contraction",
-      "",
-      {"Contraction/Stretch=1 - 0.2*t", "Contraction/Direction=1; 1; 0"}));
+    catalogue.add_own<Contraction>("contraction",
+                                   {"Contraction/Stretch=1 - 0.2*t",
+                                    "Contraction/Direction=1; 1; 0"});
   }
 
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/isotropic.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -57,13 +57,12 @@ namespace Morula
 
 
   void
-  add_isotropic_growth(Choices<GrowthLaw> &laws)
+  add_isotropic_growth(Catalogue &catalogue)
   {
-    laws.push_back(Choice<GrowthLaw>::of<IsotropicGrowth>(
+    catalogue.add_own<IsotropicGrowth>(
       "isotropic",
-      "",
       {"Growth/Law=isotropic",
-       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"}));
+       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)"});
   }
 
 

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/rate_growth.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
@@ -424,10 +424,11 @@ namespace Morula
 
 
   void
-  add_rate_growth(Choices<GrowthLaw> &laws)
+  add_rate_growth(Catalogue &catalogue)
   {
-    laws.push_back(Choice<GrowthLaw>::of<RateGrowth>(
-      "rate", "", {"Growth/Law=rate", "Growth/Rate/Rate=J_e + 0.1*X*Y"}));
+    catalogue.add_own<RateGrowth>("rate",
+                                  {"Growth/Law=rate",
+                                   "Growth/Rate/Rate=J_e + 0.1*X*Y"});
   }
 
 

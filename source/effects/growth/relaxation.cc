@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/time_parameters.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/relaxation.h>
@@ -247,14 +247,13 @@ namespace Morula
 
 
   void
-  add_relaxation(Choices<Flow> &flows)
+  add_relaxation(Catalogue &catalogue)
   {
-    flows.push_back(Choice<Flow>::of<Relaxation>(
+    catalogue.add_own<Relaxation>(
       "relaxation",
-      "",
       {"Growth/Law=isotropic",
        "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
-       "Material/Relaxation time=0.2"}));
+       "Material/Relaxation time=0.2"});
   }
 
 

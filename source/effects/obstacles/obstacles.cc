@@ -4,7 +4,7 @@
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/mechanics/equilibrium.h>
@@ -407,16 +407,15 @@ namespace Morula
 
 
   void
-  add_obstacles(Choices<BoundaryCondition> &conditions)
+  add_obstacles(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<Obstacles>(
+    catalogue.add_own<Obstacles>(
       "obstacles",
-      "",
       {"Growth/Law=isotropic",
        "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
        "Obstacles/Names=mould",
        "Obstacles/mould/Shape=sphere",
        "Obstacles/mould/Side=inside",
-       "Obstacles/mould/Radius=3.01"}));
+       "Obstacles/mould/Radius=3.01"});
   }
 } // namespace Morula

@@ -4,8 +4,8 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
@@ -407,9 +407,9 @@ namespace Morula
 
 
   void
-  add_rearrangement(Choices<StepEffect> &step_effects)
+  add_rearrangement(Catalogue &catalogue)
   {
-    step_effects.push_back(Choice<StepEffect>::of<Rearrangement>(
-      "rearrangement", "", {"Rearrangement/Diffusion=1"}));
+    catalogue.add_own<Rearrangement>("rearrangement",
+                                     {"Rearrangement/Diffusion=1"});
   }
 } // namespace Morula

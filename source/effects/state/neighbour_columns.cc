@@ -3,8 +3,8 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/types_around.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
@@ -275,11 +275,10 @@ namespace Morula
 
 
   void
-  add_neighbours(Choices<StepEffect> &step_effects)
+  add_neighbours(Catalogue &catalogue)
   {
-    step_effects.push_back(Choice<StepEffect>::of<NeighbourColumns>(
-      "neighbours",
-      "",
-      {"Growth/Law=rate", "Growth/Rate/Rate=0.1*neighbours"}));
+    catalogue.add_own<NeighbourColumns>("neighbours",
+                                        {"Growth/Law=rate",
+                                         "Growth/Rate/Rate=0.1*neighbours"});
   }
 } // namespace Morula

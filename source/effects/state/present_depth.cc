@@ -4,7 +4,6 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/state/state_columns.h>
 
 #include <deal.II/base/mpi.h>
@@ -144,11 +143,10 @@ namespace Morula
 
 
   void
-  add_present_depth(Choices<StepEffect> &step_effects)
+  add_present_depth(Catalogue &catalogue)
   {
-    step_effects.push_back(Choice<StepEffect>::of<PresentDepth>(
-      "present depth",
-      "",
-      {"Growth/Law=rate", "Growth/Rate/Rate=0.2*present_depth"}));
+    catalogue.add_own<PresentDepth>("present depth",
+                                    {"Growth/Law=rate",
+                                     "Growth/Rate/Rate=0.2*present_depth"});
   }
 } // namespace Morula

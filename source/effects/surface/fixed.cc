@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/surface/fixed.h>
 #include <morula/effects/surface/placed_condition.h>
 
@@ -40,12 +40,11 @@ namespace Morula
 
 
   void
-  add_fixed(Choices<BoundaryCondition> &conditions)
+  add_fixed(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<Fixed>(
+    catalogue.add_own<Fixed>(
       "fixed",
-      "",
       {"Boundary conditions/Fixed where=X + Y < -2",
-       "Boundary conditions/Displacement=0.2*t; 0.2*t; 0"}));
+       "Boundary conditions/Displacement=0.2*t; 0.2*t; 0"});
   }
 } // namespace Morula

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/surface/placed_condition.h>
@@ -302,15 +302,13 @@ namespace Morula
 
 
   void
-  add_lumen(Choices<BoundaryCondition> &conditions)
+  add_lumen(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<Lumen>(
-      "lumen",
-      "",
-      {"Dimension=2",
-       "Tissue/Radius=5",
-       "Tissue/Inner radius=3",
-       "Boundary conditions/Lumen where=X*X + Y*Y < 16",
-       "Boundary conditions/Lumen volume=1 + 0.01*t"}));
+    catalogue.add_own<Lumen>("lumen",
+                             {"Dimension=2",
+                              "Tissue/Radius=5",
+                              "Tissue/Inner radius=3",
+                              "Boundary conditions/Lumen where=X*X + Y*Y < 16",
+                              "Boundary conditions/Lumen volume=1 + 0.01*t"});
   }
 } // namespace Morula

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/unit_vector.h>
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/surface/placed_condition.h>
 
 #include <cmath>
@@ -71,14 +71,12 @@ namespace Morula
 
 
   void
-  add_slip(Choices<BoundaryCondition> &conditions)
+  add_slip(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<Slip>(
-      "slip",
-      "",
-      {"Growth/Law=isotropic",
-       "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
-       "Boundary conditions/Slip where=X + Y < -2",
-       "Friction/Coefficient=0.1"}));
+    catalogue.add_own<Slip>("slip",
+                            {"Growth/Law=isotropic",
+                             "Growth/Isotropic/Stretch=1 + 0.1*t*(1 + 0.1*X*Y)",
+                             "Boundary conditions/Slip where=X + Y < -2",
+                             "Friction/Coefficient=0.1"});
   }
 } // namespace Morula

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/placed_condition.h>
@@ -94,9 +94,9 @@ namespace Morula
 
 
   void
-  add_surface_tension(Choices<BoundaryCondition> &conditions)
+  add_surface_tension(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<SurfaceTension>(
-      "surface tension", "", {"Boundary conditions/Surface tension=0.1"}));
+    catalogue.add_own<SurfaceTension>(
+      "surface tension", {"Boundary conditions/Surface tension=0.1"});
   }
 } // namespace Morula

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/library_effects.h>
+#include <morula/effects/catalogue.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/placed_condition.h>
 
@@ -62,13 +62,11 @@ namespace Morula
 
 
   void
-  add_traction(Choices<BoundaryCondition> &conditions)
+  add_traction(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<Traction>(
-      "traction",
-      "",
-      {"Boundary conditions/Fixed where=X + Y < -2",
-       "Boundary conditions/Traction where=X + Y > 2",
-       "Boundary conditions/Traction=0.1; 0.1; 0.1"}));
+    catalogue.add_own<Traction>("traction",
+                                {"Boundary conditions/Fixed where=X + Y < -2",
+                                 "Boundary conditions/Traction where=X + Y > 2",
+                                 "Boundary conditions/Traction=0.1; 0.1; 0.1"});
   }
 } // namespace Morula

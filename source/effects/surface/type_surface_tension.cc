@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/type_tension.h>
-#include <morula/effects/library_effects.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/particles/nearest.h>
@@ -89,13 +89,12 @@ namespace Morula
 
 
   void
-  add_type_surface_tension(Choices<BoundaryCondition> &conditions)
+  add_type_surface_tension(Catalogue &catalogue)
   {
-    conditions.push_back(Choice<BoundaryCondition>::of<TypeSurfaceTension>(
+    catalogue.add_own<TypeSurfaceTension>(
       "type surface tension",
-      "",
       {"Cell types/Names=a, b",
        "Cell types/b/Where=X*Y > 0",
-       "Cell types/b/Tension/With surface=0.1"}));
+       "Cell types/b/Tension/With surface=0.1"});
   }
 } // namespace Morula

@@ -56,65 +56,12 @@ namespace Morula
   }
 
 
-  std::vector<EffectKeys *>
-  Catalogue::all_keys()
-  {
-    std::vector<EffectKeys *> list;
-    for_each(*this, [&list](auto &choice) { list.push_back(&choice.keys()); });
-    return list;
-  }
-
-
-  std::vector<const EffectKeys *>
-  Catalogue::all_keys() const
-  {
-    std::vector<const EffectKeys *> list;
-    for_each(*this,
-             [&list](const auto &choice) { list.push_back(&choice.keys()); });
-    return list;
-  }
-
-
-  std::vector<std::pair<std::string, Catalogue::Settings>>
-  Catalogue::examples() const
-  {
-    std::vector<std::pair<std::string, Settings>> list;
-    for_each(*this, [&list](const auto &choice) {
-      list.emplace_back(choice.name(), choice.example());
-    });
-    return list;
-  }
-
-
   TypeTensions
   Catalogue::tensions() const
   {
     const auto &with_surface = keys<TypeSurfaceTensionParameters>().tensions;
     return {keys<TypeTensionParameters>().matrix(),
             {with_surface.begin(), with_surface.end()}};
-  }
-
-
-  std::vector<NamedField>
-  Catalogue::named_fields() const
-  {
-    std::vector<NamedField> all;
-    for (const EffectKeys *const keys : all_keys())
-      for (const NamedField &field : keys->facts().fields)
-        all.push_back(field);
-    return all;
-  }
-
-
-  Catalogue
-  Catalogue::with_defaults() const
-  {
-    // The values of keys live in the choices, so a copy that is read into must
-    // begin with the defaults. Otherwise a scene would see what the one before
-    // it set.
-    Catalogue copy(*this);
-    for_each(copy, [](auto &choice) { choice.reset(); });
-    return copy;
   }
 
 
@@ -143,10 +90,4 @@ namespace Morula
   }
 
 
-  std::string
-  Catalogue::section(const std::string &around, std::string name)
-  {
-    name[0] = std::toupper(static_cast<unsigned char>(name[0]));
-    return around + name;
-  }
 } // namespace Morula

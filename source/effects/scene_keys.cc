@@ -39,65 +39,6 @@ namespace Morula
   {}
 
 
-  std::string
-  SceneKeys::law_of_growth() const
-  {
-    // A scene has one law. If it is not set for all cells, the first type that
-    // has one tells.
-    if (growth_law != "none")
-      return growth_law;
-    for (const CellTypeKeys &type : cell_types.types)
-      if (!type.growth_law->empty() && type.growth_law != "none")
-        return type.growth_law;
-    return "none";
-  }
-
-
-  const std::string &
-  SceneKeys::division_axis() const
-  {
-    // A cell that does not grow by the fate that divides it may have grown
-    // along any axis, so it is the long one that is to be cut, unless the scene
-    // says otherwise.
-    static const std::string shape = "cell shape";
-    return cells_divide() && !grows_by_fate() && !has_set(division.axis) ?
-             shape :
-             division.axis.value();
-  }
-
-
-  const std::string &
-  SceneKeys::division_axis(const unsigned int type) const
-  {
-    const bool has_own =
-      cell_types.is_on() && !cell_types.types[type].division_axis->empty();
-    return has_own ? cell_types.types[type].division_axis.value() :
-                     division_axis();
-  }
-
-
-  std::set<std::string>
-  SceneKeys::division_axes() const
-  {
-    std::set<std::string> axes;
-    for (unsigned int type = 0;
-         type < std::max<std::size_t>(1, cell_types.types.size());
-         ++type)
-      axes.insert(division_axis(type));
-    return axes;
-  }
-
-
-  std::vector<const EffectKeys *>
-  SceneKeys::effect_keys() const
-  {
-    std::vector<const EffectKeys *> list{&division, &cell_types};
-    for (const EffectKeys *const keys : catalogue.all_keys())
-      list.push_back(keys);
-    return list;
-  }
-
-
   std::vector<const EffectKeys *>
   SceneKeys::keys_in_use() const
   {
@@ -134,17 +75,6 @@ namespace Morula
   SceneKeys::grows_by_fate() const
   {
     return has_fate_that(catalogue, &EffectFacts::grows_cells);
-  }
-
-
-  const EffectKeys *
-  SceneKeys::first_way_to_divide() const
-  {
-    for (const auto &choice : catalogue.fates)
-      if (const EffectFacts facts = choice.keys().facts();
-          facts.divides_cells && facts.switch_key != nullptr)
-        return &choice.keys();
-    return nullptr;
   }
 
 

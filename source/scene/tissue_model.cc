@@ -352,21 +352,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  Tables<dim>
-  SceneEffects<dim>::tables() const
-  {
-    Tables<dim> tables;
-    for (const Effect<dim> *const effect : all())
-      effect->declare(tables);
-    for (const auto &[name, condition] : conditions)
-      condition->declare(tables);
-    for (const auto &[name, equation] : equations)
-      equation->declare(tables);
-    return tables;
-  }
-
-
   namespace
   {
     /** What has moments, with names. */

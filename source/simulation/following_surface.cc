@@ -239,21 +239,6 @@ namespace Morula
 
   template <int dim>
   void
-  FollowingSurface<dim>::change_volumes(
-    Tissue<dim> &tissue, const std::function<void()> &change) const
-  {
-    std::vector<double> before;
-    if (!model.densities.empty())
-      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-        before.push_back(tissue.cells().volume(p));
-    change();
-    for (std::size_t p = 0; p < before.size(); ++p)
-      model.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
-  }
-
-
-  template <int dim>
-  void
   FollowingSurface<dim>::restore_fit(Tissue<dim> &tissue,
                                      const double share,
                                      const bool   is_torn)

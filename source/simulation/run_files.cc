@@ -189,16 +189,6 @@ namespace Morula
   }
 
   template <int dim>
-  RunSetup
-  RunFiles<dim>::setup() const
-  {
-    return {scene.file,
-            scene.parameters(),
-            {scene.tissue.surface_mesh, scene.tissue.points_file},
-            scene.replace};
-  }
-
-  template <int dim>
   void
   RunFiles<dim>::warn_of_missing_states()
   {
@@ -274,41 +264,6 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  RunFiles<dim>::newton(const unsigned int                  step,
-                        const std::vector<NewtonIteration> &trace)
-  {
-    std::string rows;
-    for (const NewtonIteration &state : trace)
-      rows += newton_row(step, state).text();
-    tables.at("newton").append(rows);
-  }
-
-  template <int dim>
-  bool
-  RunFiles<dim>::output_due(const double time, const bool last) const
-  {
-    // The first state is always written, and the last one.
-    const double interval = scene.output.interval;
-    return last || output_times.empty() ||
-           (interval > 0. &&
-            time >= next_output * interval - scene.time.slack());
-  }
-
-  template <int dim>
-  bool
-  RunFiles<dim>::snapshot_due(const double time, const bool last) const
-  {
-    // The clock comes last: the conditions before it are equal on all ranks, so
-    // that either all ranks go on to its collective call or none.
-    const double interval = scene.output.snapshot_interval;
-    return last ||
-           (interval > 0. &&
-            time >= next_snapshot * interval - scene.time.slack()) ||
-           snapshot_due_by_clock();
-  }
-
-  template <int dim>
   bool
   RunFiles<dim>::snapshot_due_by_clock() const
   {
@@ -323,15 +278,6 @@ namespace Morula
       std::max(60. * minutes, (1. / largest_part - 1.) * snapshot_seconds);
     // The clocks of ranks differ; that of rank 0 decides.
     return Utilities::MPI::broadcast(comm, due, 0);
-  }
-
-  template <int dim>
-  bool
-  RunFiles<dim>::forces_due(const double time, const bool last) const
-  {
-    const double interval = scene.output.interval;
-    return last || (interval > 0. &&
-                    time >= next_forces * interval - scene.time.slack());
   }
 
   template <int dim>
@@ -388,16 +334,6 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::finish_points()
-  {
-    if (!points.pending())
-      return;
-    points.finish();
-    list_points();
-  }
-
-  template <int dim>
-  void
   RunFiles<dim>::list_points()
   {
     if (has_format("vtu"))
@@ -447,16 +383,6 @@ namespace Morula
     Morula::write_snapshot(path("snapshot.h5"), data, comm);
     last_snapshot    = clock.wall_time();
     snapshot_seconds = last_snapshot - begin;
-  }
-
-  template <int dim>
-  void
-  RunFiles<dim>::write_timings(const TimerOutput &timer)
-  {
-    Morula::write_timings(path("timings.csv"),
-                          section_times(timer, sections_before),
-                          wall_seconds(),
-                          comm);
   }
 
   template <int dim>

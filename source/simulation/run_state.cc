@@ -74,28 +74,6 @@ namespace Morula
               state.anew};
   }
 
-  double
-  TimeSteps::end_of_interval() const
-  {
-    // A last step within rounding of End time would be too short to solve.
-    const double end = (state_.interval + 1) * parameters.step;
-    return end > parameters.end_time - time_slack * parameters.step ?
-             parameters.end_time :
-             end;
-  }
-
-  double
-  TimeSteps::at(const unsigned int part) const
-  {
-    // Times are multiples of a part and no sums of steps. The end of the
-    // interval is taken as it is, so that intervals fit together to the bit.
-    const unsigned int parts = 1u << state_.level;
-    return part == parts ?
-             end_of_interval() :
-             state_.begin + part * ((end_of_interval() - state_.begin) / parts);
-  }
-
-
   void
   TimeSteps::adapt(const double mu)
   {
@@ -170,26 +148,6 @@ namespace Morula
       }
     state_.time = time();
   }
-
-  bool
-  TimeSteps::can_halve() const
-  {
-    // Below level 30 the number of parts of an interval fits in an unsigned
-    // int.
-    return 0.5 * (next() - time()) >=
-             parameters.smallest_step * (1. - time_slack) &&
-           state_.level < 30;
-  }
-
-  bool
-  TimeSteps::reject()
-  {
-    if (!can_halve())
-      return false;
-    halve();
-    return true;
-  }
-
 
   template <int dim>
   SnapshotData<dim>

@@ -126,18 +126,6 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::watch(const SplineSpace<dim> &space)
-  {
-    // Where folds have contact, tissue that comes near does not stick.
-    if (tissue.cells().has_parts())
-      return;
-    watches.look_at_pieces(space, tissue.grid(), time_steps.time());
-    watches.look_at_gaps(tissue, space, time_steps.time());
-  }
-
-
-  template <int dim>
-  void
   Simulation<dim>::move(const SplineSpace<dim> &space,
                         const SplineSpace<dim> &space_of_equations,
                         const typename StepEquilibrium<dim>::Solution &solution)
@@ -168,22 +156,6 @@ namespace Morula
     time_steps.accept(is_slow);
   }
 
-
-  template <int dim>
-  void
-  Simulation<dim>::for_moments(const MomentOfStep moment,
-                               const double       t,
-                               const double       dt)
-  {
-    // The effects change the tissue and the kept numbers in the order of the
-    // scene's list, each in a section of its own in timings.csv.
-    for (const auto &[name, effect] : model.moments)
-      {
-        const TimerOutput::Scope section(timer, name);
-        const CellReader<dim>    reader = model.development.reader(t);
-        (*effect.*moment)(tissue, {t, dt, reader, run_state.kept, of_step});
-      }
-  }
 
   template <int dim>
   void
@@ -242,27 +214,6 @@ namespace Morula
     // lines belong to all grid cells around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
-  }
-
-  template <int dim>
-  std::optional<SplineSpace<dim>>
-  Simulation<dim>::splines_of_equations(const SplineSpace<dim> &space) const
-  {
-    if (!space.is_parted() || equations.empty() ||
-        !model.interaction->effect->lets_equations_pass())
-      return {};
-    return tissue.unparted_splines(model.material.volumetric_form() !=
-                                   VolumetricStrain::pointwise);
-  }
-
-  template <int dim>
-  std::unique_ptr<const Encounters<dim>>
-  Simulation<dim>::encounters(SplineSpace<dim> &space)
-  {
-    if (!model.interaction)
-      return nullptr;
-    const TimerOutput::Scope section(timer, model.interaction->name);
-    return model.interaction->effect->encounters(tissue, space);
   }
 
   template <int dim>
@@ -347,15 +298,6 @@ namespace Morula
                               run_state.drag},
                              newton_report,
                              condition);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::settle_equations(const SplineSpace<dim> &space)
-  {
-    solve_equations([&](EquationInRun<dim> &equation) {
-      equation.settle(tissue, space, time_steps.time());
-    });
   }
 
   template <int dim>

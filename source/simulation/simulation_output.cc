@@ -207,25 +207,6 @@ namespace Morula
 
 
   template <int dim>
-  CellQuantities
-  Simulation<dim>::quantities(const unsigned int p) const
-  {
-    // The reader evaluates expressions of the cells with the present time.
-    const CellReader<dim> reader = model.development.reader(time_steps.time());
-    return present_cell(tissue, p, reader).quantities();
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::count(const SplineSpace<dim> &space)
-  {
-    row.active_grid_cells = space.n_active_grid_cells();
-    row.inner_splines     = space.n_inner_splines();
-    row.outer_splines     = space.n_outer_splines();
-    row.unknowns          = dim * space.n_unknowns();
-  }
-
-  template <int dim>
   void
   Simulation<dim>::describe_state()
   {
@@ -321,17 +302,6 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  Simulation<dim>::surface_misfits() const
-  {
-    // Loads on the surface and fields that enter through it are wrong by as
-    // much as the surface misfits. The user is told from 5 % on.
-    return run_state.enclosed_share && row.cells > 0 &&
-           std::abs(row.surface->share() / *run_state.enclosed_share - 1.) >
-             0.05;
-  }
-
-  template <int dim>
   void
   Simulation<dim>::write_rows()
   {
@@ -380,18 +350,6 @@ namespace Morula
       }
     if (files->snapshot_due(t, last))
       files->write_snapshot(snapshot(), timer);
-  }
-
-  template <int dim>
-  SnapshotData<dim>
-  Simulation<dim>::snapshot() const
-  {
-    // Boundary points get new ids where patches are split or made anew.
-    return snapshot_of(tissue,
-                       time_steps.state(),
-                       run_state,
-                       model.scene.tissue.refine_surface ||
-                         model.scene.flows());
   }
 
   template <int dim>

@@ -326,16 +326,6 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  Simulation<dim>::begin_moments()
-  {
-    const double          t      = time_steps.time();
-    const CellReader<dim> reader = model.development.reader(t);
-    for (const auto &[name, effect] : model.moments)
-      effect->start(tissue, {t, 0., reader, run_state.kept, of_step});
-  }
-
-  template <int dim>
   bool
   Simulation<dim>::carve()
   {
@@ -387,20 +377,6 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  Simulation<dim>::finish()
-  {
-    files->write_timings(timer);
-    files->finish(row.cells == 0        ? "Finished: all cells are dead" :
-                  time_steps.finished() ? "Finished: End time reached" :
-                                          "Finished: Stop at cells reached",
-                  row,
-                  run_state.n_rejected,
-                  run_state.error.total(),
-                  timer);
-  }
-
-  template <int dim>
   bool
   Simulation<dim>::must_stop() const
   {
@@ -414,20 +390,6 @@ namespace Morula
     const auto n_cells =
       Utilities::MPI::sum<std::uint64_t>(tissue.cells().size(), comm);
     return n_cells == 0 || (limit > 0 && n_cells >= limit);
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::stop_if_asked(const StopSignals &signals)
-  {
-    // received() is collective and gives all ranks the same number, so that
-    // they write the snapshot together.
-    const int signal = signals.received();
-    if (signal == 0)
-      return;
-    files->write_snapshot(snapshot(), timer);
-    files->write_timings(timer);
-    throw StoppedBySignal(signal, time_steps.time());
   }
 
   template <int dim>

@@ -19,16 +19,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  Watches<dim>::begin_conditions(const Tissue<dim> &tissue)
-  {
-    if (!has_begun)
-      points_before = count_points(tissue);
-    has_begun = true;
-  }
-
-
-  template <int dim>
   std::map<std::string, std::uint64_t>
   Watches<dim>::count_points(const Tissue<dim> &tissue) const
   {

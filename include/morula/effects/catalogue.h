@@ -17,6 +17,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <cctype>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -265,13 +266,32 @@ namespace Morula
 
     /** The keys of each effect, kind by kind. */
     std::vector<EffectKeys *>
-    all_keys();
+    all_keys()
+    {
+      std::vector<EffectKeys *> list;
+      for_each(*this,
+               [&list](auto &choice) { list.push_back(&choice.keys()); });
+      return list;
+    }
     std::vector<const EffectKeys *>
-    all_keys() const;
+    all_keys() const
+    {
+      std::vector<const EffectKeys *> list;
+      for_each(*this,
+               [&list](const auto &choice) { list.push_back(&choice.keys()); });
+      return list;
+    }
 
     /** The name and the Choice::example() of each effect, kind by kind. */
     std::vector<std::pair<std::string, Settings>>
-    examples() const;
+    examples() const
+    {
+      std::vector<std::pair<std::string, Settings>> list;
+      for_each(*this, [&list](const auto &choice) {
+        list.emplace_back(choice.name(), choice.example());
+      });
+      return list;
+    }
 
     /** The tensions of the cells' types. @throws InputError if keys contradict
      *  each other */
@@ -280,11 +300,26 @@ namespace Morula
 
     /** The fields of all effects, in the order of their numbers. */
     std::vector<NamedField>
-    named_fields() const;
+    named_fields() const
+    {
+      std::vector<NamedField> all;
+      for (const EffectKeys *const keys : all_keys())
+        for (const NamedField &field : keys->facts().fields)
+          all.push_back(field);
+      return all;
+    }
 
     /** A copy whose keys have their defaults. */
     Catalogue
-    with_defaults() const;
+    with_defaults() const
+    {
+      // The values of keys live in the choices, so a copy that is read into
+      // must begin with the defaults. Otherwise a scene would see what the one
+      // before it set.
+      Catalogue copy(*this);
+      for_each(copy, [](auto &choice) { choice.reset(); });
+      return copy;
+    }
 
     /** The materials that `Material/Law` can name. A program adds one by
      *  materials.add("soft", own_material(Soft())). */
@@ -353,7 +388,11 @@ namespace Morula
 
     /** Where the keys of an added effect stand. */
     static std::string
-    section(const std::string &around, std::string name);
+    section(const std::string &around, std::string name)
+    {
+      name[0] = std::toupper(static_cast<unsigned char>(name[0]));
+      return around + name;
+    }
   };
 } // namespace Morula
 

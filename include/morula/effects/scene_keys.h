@@ -48,19 +48,52 @@ namespace Morula
     /** The growth law of all types of cells that grow; "none" if there is none.
      */
     std::string
-    law_of_growth() const;
+    law_of_growth() const
+    {
+      // A scene has one law. If it is not set for all cells, the first type
+      // that has one tells.
+      if (growth_law != "none")
+        return growth_law;
+      for (const CellTypeKeys &type : cell_types.types)
+        if (!type.growth_law->empty() && type.growth_law != "none")
+          return type.growth_law;
+      return "none";
+    }
 
     /** `Division axis` of types that have none of their own. */
     const std::string &
-    division_axis() const;
+    division_axis() const
+    {
+      // A cell that does not grow by the fate that divides it may have grown
+      // along any axis, so it is the long one that is to be cut, unless the
+      // scene says otherwise.
+      static const std::string shape = "cell shape";
+      return cells_divide() && !grows_by_fate() && !has_set(division.axis) ?
+               shape :
+               division.axis.value();
+    }
 
     /** `Division axis` of the type of cells number @p type. */
     const std::string &
-    division_axis(const unsigned int type) const;
+    division_axis(const unsigned int type) const
+    {
+      const bool has_own =
+        cell_types.is_on() && !cell_types.types[type].division_axis->empty();
+      return has_own ? cell_types.types[type].division_axis.value() :
+                       division_axis();
+    }
 
     /** The division axes of all types. */
     std::set<std::string>
-    division_axes() const;
+    division_axes() const
+    {
+      std::set<std::string> axes;
+      for (unsigned int type = 0;
+           type < std::max<std::size_t>(1, cell_types.types.size());
+           ++type)
+        axes.insert(division_axis(type));
+      return axes;
+    }
 
     /** Whether there is a growth law. */
     bool
@@ -110,7 +143,14 @@ namespace Morula
     /** The keys of the first effect by which cells may divide, and which has a
      *  switch; or null. */
     const EffectKeys *
-    first_way_to_divide() const;
+    first_way_to_divide() const
+    {
+      for (const auto &choice : catalogue.fates)
+        if (const EffectFacts facts = choice.keys().facts();
+            facts.divides_cells && facts.switch_key != nullptr)
+          return &choice.keys();
+      return nullptr;
+    }
 
     /** Whether cells grow by one of the fates. */
     bool
@@ -137,7 +177,13 @@ namespace Morula
     /** The keys of all effects: first those that are no entry of the catalogue.
      */
     std::vector<const EffectKeys *>
-    effect_keys() const;
+    effect_keys() const
+    {
+      std::vector<const EffectKeys *> list{&division, &cell_types};
+      for (const EffectKeys *const keys : catalogue.all_keys())
+        list.push_back(keys);
+      return list;
+    }
 
     /** Those of the effects that the scene has. */
     std::vector<const EffectKeys *>

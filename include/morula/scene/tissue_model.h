@@ -42,7 +42,17 @@ namespace Morula
 
     /** What they add to the tables of a run. Refers to them. */
     Tables<dim>
-    tables() const;
+    tables() const
+    {
+      Tables<dim> tables;
+      for (const Effect<dim> *const effect : all())
+        effect->declare(tables);
+      for (const auto &[name, condition] : conditions)
+        condition->declare(tables);
+      for (const auto &[name, equation] : equations)
+        equation->declare(tables);
+      return tables;
+    }
 
     /** The columns that the effects need in a cell. */
     CellColumns<dim> columns;

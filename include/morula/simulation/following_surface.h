@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace Morula
 {
@@ -96,7 +97,16 @@ namespace Morula
      *  fields in them stay. */
     void
     change_volumes(Tissue<dim>                 &tissue,
-                   const std::function<void()> &change) const;
+                   const std::function<void()> &change) const
+    {
+      std::vector<double> before;
+      if (!model.densities.empty())
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          before.push_back(tissue.cells().volume(p));
+      change();
+      for (std::size_t p = 0; p < before.size(); ++p)
+        model.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
+    }
     bool
     renews() const
     {

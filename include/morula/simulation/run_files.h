@@ -69,12 +69,23 @@ namespace Morula
 
     /** Appends to newton.csv. Only if the scene asks for the file. */
     void
-    newton(const unsigned int step, const std::vector<NewtonIteration> &trace);
+    newton(const unsigned int step, const std::vector<NewtonIteration> &trace)
+    {
+      std::string rows;
+      for (const NewtonIteration &state : trace)
+        rows += newton_row(step, state).text();
+      tables.at("newton").append(rows);
+    }
 
     /** Whether forces.csv is due at @p time (day), as cells and surface are
      *  from the first step on. */
     bool
-    forces_due(const double time, const bool last) const;
+    forces_due(const double time, const bool last) const
+    {
+      const double interval = scene.output.interval;
+      return last || (interval > 0. &&
+                      time >= next_forces * interval - scene.time.slack());
+    }
     /** Appends to forces.csv. Only if conditions act on the surface. */
     void
     forces(const double time, const std::vector<ForceRow> &rows);
@@ -89,10 +100,26 @@ namespace Morula
     /** Whether output is due at @p time (day). Always true for the last state.
      */
     bool
-    output_due(const double time, const bool last) const;
+    output_due(const double time, const bool last) const
+    {
+      // The first state is always written, and the last one.
+      const double interval = scene.output.interval;
+      return last || output_times.empty() ||
+             (interval > 0. &&
+              time >= next_output * interval - scene.time.slack());
+    }
     /** Whether a snapshot is due, as output_due() or by the clock of rank 0. */
     bool
-    snapshot_due(const double time, const bool last) const;
+    snapshot_due(const double time, const bool last) const
+    {
+      // The clock comes last: the conditions before it are equal on all ranks,
+      // so that either all ranks go on to its collective call or none.
+      const double interval = scene.output.snapshot_interval;
+      return last ||
+             (interval > 0. &&
+              time >= next_snapshot * interval - scene.time.slack()) ||
+             snapshot_due_by_clock();
+    }
 
     /** Begins to write the next files of the series of cells and surface. They
      *  are complete after one of the next steps, before the next snapshot at
@@ -110,7 +137,13 @@ namespace Morula
 
     /** Writes timings.csv anew. */
     void
-    write_timings(const TimerOutput &timer);
+    write_timings(const TimerOutput &timer)
+    {
+      Morula::write_timings(path("timings.csv"),
+                            section_times(timer, sections_before),
+                            wall_seconds(),
+                            comm);
+    }
 
     /** Writes the reason why the run ends into log.txt, where possible. Not
      *  collective. */
@@ -144,7 +177,13 @@ namespace Morula
                     const SnapshotData<dim> &resumed_from);
 
     RunSetup
-    setup() const;
+    setup() const
+    {
+      return {scene.file,
+              scene.parameters(),
+              {scene.tissue.surface_mesh, scene.tissue.points_file},
+              scene.replace};
+    }
 
     std::string
     path(const std::string &file) const
@@ -166,7 +205,13 @@ namespace Morula
 
     /** Waits for the files of points, if there are any, and lists them. */
     void
-    finish_points();
+    finish_points()
+    {
+      if (!points.pending())
+        return;
+      points.finish();
+      list_points();
+    }
 
     /** Lists the files of points for ParaView. */
     void

@@ -139,21 +139,50 @@ namespace Morula
 
     /** Whether half the next step is at least Smallest step. */
     bool
-    can_halve() const;
+    can_halve() const
+    {
+      // Below level 30 the number of parts of an interval fits in an unsigned
+      // int.
+      return 0.5 * (next() - time()) >=
+               parameters.smallest_step * (1. - time_slack) &&
+             state_.level < 30;
+    }
 
     /**
      * Records that the step has failed. The next one is half as long.
      * @return whether the next step is at least Smallest step
      */
     bool
-    reject();
+    reject()
+    {
+      if (!can_halve())
+        return false;
+      halve();
+      return true;
+    }
 
   private:
     double
-    end_of_interval() const;
+    end_of_interval() const
+    {
+      // A last step within rounding of End time would be too short to solve.
+      const double end = (state_.interval + 1) * parameters.step;
+      return end > parameters.end_time - time_slack * parameters.step ?
+               parameters.end_time :
+               end;
+    }
 
     double
-    at(const unsigned int part) const;
+    at(const unsigned int part) const
+    {
+      // Times are multiples of a part and no sums of steps. The end of the
+      // interval is taken as it is, so that intervals fit together to the bit.
+      const unsigned int parts = 1u << state_.level;
+      return part == parts ?
+               end_of_interval() :
+               state_.begin +
+                 part * ((end_of_interval() - state_.begin) / parts);
+    }
 
     /** Cuts the next step in two. The present time stays as it is. */
     void

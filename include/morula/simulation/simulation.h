@@ -5,6 +5,7 @@
 #define morula_simulation_simulation_h
 
 #include <morula/effects/equation.h>
+#include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
@@ -17,6 +18,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -76,7 +78,13 @@ namespace Morula
     /** Mechanics of cell number @p p of the present state, in the order of
      *  Tissue::cells(), as in cells-NNNN.csv. */
     CellQuantities
-    quantities(const unsigned int p) const;
+    quantities(const unsigned int p) const
+    {
+      // The reader evaluates expressions of the cells with the present time.
+      const CellReader<dim> reader =
+        model.development.reader(time_steps.time());
+      return present_cell(tissue, p, reader).quantities();
+    }
 
     /** Size of the first step's equations, for --explain. Collective. */
     unsigned int
@@ -101,12 +109,28 @@ namespace Morula
     bool
     carve();
     void
-    begin_moments();
+    begin_moments()
+    {
+      const double          t      = time_steps.time();
+      const CellReader<dim> reader = model.development.reader(t);
+      for (const auto &[name, effect] : model.moments)
+        effect->start(tissue, {t, 0., reader, run_state.kept, of_step});
+    }
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);
     void
-    finish();
+    finish()
+    {
+      files->write_timings(timer);
+      files->finish(row.cells == 0        ? "Finished: all cells are dead" :
+                    time_steps.finished() ? "Finished: End time reached" :
+                                            "Finished: Stop at cells reached",
+                    row,
+                    run_state.n_rejected,
+                    run_state.error.total(),
+                    timer);
+    }
     bool
     must_stop() const;
 
@@ -116,7 +140,14 @@ namespace Morula
     begin_step();
     /** Warns of tissue that is about to stick to other tissue. Collective. */
     void
-    watch(const SplineSpace<dim> &space);
+    watch(const SplineSpace<dim> &space)
+    {
+      // Where folds have contact, tissue that comes near does not stick.
+      if (tissue.cells().has_parts())
+        return;
+      watches.look_at_pieces(space, tissue.grid(), time_steps.time());
+      watches.look_at_gaps(tissue, space, time_steps.time());
+    }
     /** Moves the tissue to the end of the step. Collective. */
     void
     move(const SplineSpace<dim>                        &space,
@@ -138,7 +169,17 @@ namespace Morula
                                                 const MomentOfRun<dim> &) const;
     /** Calls this moment of all effects that have moments. Collective. */
     void
-    for_moments(const MomentOfStep moment, const double t, const double dt);
+    for_moments(const MomentOfStep moment, const double t, const double dt)
+    {
+      // The effects change the tissue and the kept numbers in the order of the
+      // scene's list, each in a section of its own in timings.csv.
+      for (const auto &[name, effect] : model.moments)
+        {
+          const TimerOutput::Scope section(timer, name);
+          const CellReader<dim>    reader = model.development.reader(t);
+          (*effect.*moment)(tissue, {t, dt, reader, run_state.kept, of_step});
+        }
+    }
     SplineSpace<dim>
     splines();
     typename StepEquilibrium<dim>::Solution
@@ -148,11 +189,24 @@ namespace Morula
     /** What may meet in the step; null without an interaction. Unknowns of
      *  others become relevant. Collective. */
     std::unique_ptr<const Encounters<dim>>
-    encounters(SplineSpace<dim> &space);
+    encounters(SplineSpace<dim> &space)
+    {
+      if (!model.interaction)
+        return nullptr;
+      const TimerOutput::Scope section(timer, model.interaction->name);
+      return model.interaction->effect->encounters(tissue, space);
+    }
 
     /** The splines of equations, if they pass from body to body. Collective. */
     std::optional<SplineSpace<dim>>
-    splines_of_equations(const SplineSpace<dim> &space) const;
+    splines_of_equations(const SplineSpace<dim> &space) const
+    {
+      if (!space.is_parted() || equations.empty() ||
+          !model.interaction->effect->lets_equations_pass())
+        return {};
+      return tissue.unparted_splines(model.material.volumetric_form() !=
+                                     VolumetricStrain::pointwise);
+    }
     typename StepEquilibrium<dim>::Solution
     try_step(const StepEquilibrium<dim> &equilibrium);
     void
@@ -184,26 +238,63 @@ namespace Morula
     void
     complete_row();
     void
-    count(const SplineSpace<dim> &space);
+    count(const SplineSpace<dim> &space)
+    {
+      row.active_grid_cells = space.n_active_grid_cells();
+      row.inner_splines     = space.n_inner_splines();
+      row.outer_splines     = space.n_outer_splines();
+      row.unknowns          = dim * space.n_unknowns();
+    }
     /** How many events of this kind the step had. Collective. */
     std::uint64_t
     count(const EventKind &kind) const;
     /** Whether the surface encloses another part of the cells' volume than at
      *  t = 0, by 5 % or more. */
     bool
-    surface_misfits() const;
+    surface_misfits() const
+    {
+      // Loads on the surface and fields that enter through it are wrong by as
+      // much as the surface misfits. The user is told from 5 % on.
+      return run_state.enclosed_share && row.cells > 0 &&
+             std::abs(row.surface->share() / *run_state.enclosed_share - 1.) >
+               0.05;
+    }
     void
     write_rows();
     void
     output(const bool last);
     SnapshotData<dim>
-    snapshot() const;
+    snapshot() const
+    {
+      // Boundary points get new ids where patches are split or made anew.
+      return snapshot_of(tissue,
+                         time_steps.state(),
+                         run_state,
+                         model.scene.tissue.refine_surface ||
+                           model.scene.flows());
+    }
+    /** @throws StoppedBySignal */
     void
-    stop_if_asked(const StopSignals &signals); // StoppedBySignal
+    stop_if_asked(const StopSignals &signals)
+    {
+      // received() is collective and gives all ranks the same number, so that
+      // they write the snapshot together.
+      const int signal = signals.received();
+      if (signal == 0)
+        return;
+      files->write_snapshot(snapshot(), timer);
+      files->write_timings(timer);
+      throw StoppedBySignal(signal, time_steps.time());
+    }
 
     /** Gives cells the steady solutions of the configuration. Collective. */
     void
-    settle_equations(const SplineSpace<dim> &space);
+    settle_equations(const SplineSpace<dim> &space)
+    {
+      solve_equations([&](EquationInRun<dim> &equation) {
+        equation.settle(tissue, space, time_steps.time());
+      });
+    }
     /** Calls @p solve for all equations, and ends the run if it cannot. */
     void
     solve_equations(const std::function<void(EquationInRun<dim> &)> &solve);

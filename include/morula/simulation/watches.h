@@ -30,7 +30,12 @@ namespace Morula
     /** Counts the points of each condition, before cells are removed for the
      *  first time. Collective. */
     void
-    begin_conditions(const Tissue<dim> &tissue);
+    begin_conditions(const Tissue<dim> &tissue)
+    {
+      if (!has_begun)
+        points_before = count_points(tissue);
+      has_begun = true;
+    }
 
     /** Tells when a condition on the surface, of the tissue or of a field, has
      *  lost its last point, as the cells there are gone: what it held, loaded

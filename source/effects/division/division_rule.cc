@@ -13,20 +13,6 @@ namespace Morula
 {
   template <int dim>
   void
-  DivisionRule<dim>::check(const Preview<dim> &scene) const
-  {
-    // There are no cells yet. A direction stands for the random one, and the
-    // undeformed state for theirs; only an error of the rule matters, and the
-    // axis is dropped.
-    Tensor<1, dim> direction;
-    direction[0] = 1.;
-    for (const Point<dim> &X : scene.founders)
-      axis({X, Tensor<2, dim>(unit_symmetric_tensor<dim>()), direction});
-  }
-
-
-  template <int dim>
-  void
   DivisionRule<dim>::check_cell(const PresentCell<dim> &founder,
                                 const double) const
   {
@@ -54,46 +40,6 @@ namespace Morula
     , rules(std::move(rules))
     , of_type(of_type)
   {}
-
-
-  template <int dim>
-  const DivisionRule<dim> *
-  DivisionAxes<dim>::rule(const unsigned int type) const
-  {
-    if (!of_type.empty())
-      return of_type[type];
-    return rules.empty() ? nullptr : rules.front().get();
-  }
-
-
-  template <int dim>
-  void
-  DivisionAxes<dim>::check(const Preview<dim> &scene) const
-  {
-    for (const auto &rule : rules)
-      rule->check(scene);
-  }
-
-
-  template <int dim>
-  void
-  DivisionAxes<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    for (const auto &rule : rules)
-      rule->review(scene, review);
-  }
-
-
-  template <int dim>
-  void
-  DivisionAxes<dim>::check_cell(const PresentCell<dim> &founder,
-                                const double            step) const
-  {
-    founder.value(spread, 0.);
-    founder.value(least_anisotropy, 0.);
-    if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
-      rule->check_cell(founder, step);
-  }
 
 
   template <int dim>
@@ -134,22 +80,6 @@ namespace Morula
     if (rule->is_present())
       axis = invert(cell.cell().F()) * axis;
     return axis / axis.norm();
-  }
-
-
-  template <int dim>
-  Tensor<1, dim>
-  DivisionAxes<dim>::placement(const CellView<dim, const double> &cell,
-                               const Tensor<1, dim>              &axis,
-                               const unsigned int                 type) const
-  {
-    const DivisionRule<dim> *const rule = this->rule(type);
-    Tensor<1, dim>                 now  = axis;
-    if (rule != nullptr && rule->is_present())
-      now = cell.F() * axis;
-    else if (follow_rotation)
-      now = cell.elastic_deformation() * axis;
-    return now / now.norm();
   }
 
 

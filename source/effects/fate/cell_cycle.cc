@@ -30,24 +30,6 @@ namespace Morula
   } // namespace
 
 
-  bool
-  CellCycleParameters::is_on() const
-  {
-    return law != "none" || is_law_of_types;
-  }
-
-
-  std::string
-  CellCycleParameters::details() const
-  {
-    return "cell cycle, T = " + duration.text() +
-           " day, Lambda = " + exit_rate.text() + " /day" +
-           (size_checkpoint.is_default() ?
-              "" :
-              ", size checkpoint J_th = " + size_checkpoint.text());
-  }
-
-
   void
   CellCycleParameters::see(const SceneKeys &scene,
                            const std::vector<ExpressionKey *> &)
@@ -186,19 +168,6 @@ namespace Morula
       phase == 4 ? Random::past_key(seed, state.key) : state.key;
     state.axis = Random::direction<dim>(seed, key);
     return state;
-  }
-
-
-  template <int dim>
-  void
-  CellCycle<dim>::begin_growth(CycleState<dim>   &state,
-                               const CellAt<dim> &at) const
-  {
-    // The cell has at t = 0 the volume of the file and is at rest, so F_g is I.
-    // Hence the growth before the cycle is the inverse of what the cycle has
-    // done until then, doc/theory.md (6.2a).
-    state.growth_pre = unit_symmetric_tensor<dim>();
-    state.growth_pre = invert(growth(state, at, 0.));
   }
 
 
@@ -394,29 +363,6 @@ namespace Morula
                         Random::exponential(seed, state.key, 1.)};
     state.event_time = hazard.event(t0, t1).value_or(state.event_time);
     state.hazard     = hazard.integral_at(t0, t1);
-  }
-
-
-  template <int dim>
-  void
-  CellCycle<dim>::check(const std::vector<Point<dim>> &founders,
-                        const double                   step) const
-  {
-    double shortest = std::numeric_limits<double>::infinity();
-    for (const Point<dim> &X : founders)
-      if (where.value(X, 0.) > 0.)
-        shortest = std::min(shortest, checked_duration(X, false));
-    check_step(shortest, step);
-  }
-
-
-  template <int dim>
-  void
-  CellCycle<dim>::check_cell(const CellAt<dim> &founder,
-                             const double       step) const
-  {
-    if (founder.value(where) > 0.)
-      check_step(checked_duration(founder, true), step);
   }
 
 

@@ -124,15 +124,6 @@ namespace Morula
 
 
   template <int dim>
-  const std::vector<CellHazard<dim>> &
-  Fate<dim>::hazards(const unsigned int type) const
-  {
-    return hazards_of_types.size() == 1 ? hazards_of_types[0] :
-                                          hazards_of_types[type];
-  }
-
-
-  template <int dim>
   std::optional<double>
   Fate<dim>::next(const PresentCell<dim>      &cell,
                   const CellView<dim, double> &row,
@@ -147,22 +138,6 @@ namespace Morula
               outlook.hazards[k].integral_at(
                 stretch.begin, outlook.time.value_or(stretch.end)));
     return outlook.time;
-  }
-
-
-  template <int dim>
-  void
-  Fate<dim>::pass(const PresentCell<dim>      &cell,
-                  const CellView<dim, double> &row,
-                  const Stretch               &stretch,
-                  const double                 s) const
-  {
-    // Integrals are read from `cell`, the row of the round's beginning, because
-    // next() has already changed `row`.
-    for (const CellHazard<dim> &hazard : hazards(cell.type()))
-      row.set(hazard.integral,
-              hazard.in(stretch.begin, stretch.end, cell, cell.cell())
-                .integral_at(stretch.begin, s));
   }
 
 
@@ -269,32 +244,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  Fates<dim>::make_good(const PresentCell<dim>      &before,
-                        const CellView<dim, double> &row) const
-  {
-    for (const auto &fate : list)
-      for (const CellHazard<dim> &hazard : fate->hazards(before.type()))
-        hazard.make_good(before, row);
-  }
-
-
-  template <int dim>
-  void
-  Fates<dim>::expect(const PresentCell<dim>      &before,
-                     const CellView<dim, double> &row,
-                     const double                 t,
-                     const bool                   is_whole) const
-  {
-    // Columns beyond the hazards of this type say since the cell's birth or
-    // the change of its type that nothing is expected.
-    for (const auto &fate : list)
-      for (const CellHazard<dim> &hazard : fate->hazards(before.type()))
-        hazard.expect(before, row, t, is_whole);
-  }
-
-
-  template <int dim>
   bool
   Fates<dim>::is_dead_at(const PresentCell<dim>      &before,
                          const CellView<dim, double> &row,
@@ -315,25 +264,6 @@ namespace Morula
           return true;
         }
     return false;
-  }
-
-
-  template <int dim>
-  double
-  Fates<dim>::time_of_death(const CellView<dim, const double> &cell) const
-  {
-    double time = std::numeric_limits<double>::infinity();
-    for (const Dies<dim> *const dies : deadly)
-      time = std::min(time, dies->time_of_death(cell));
-    return time;
-  }
-
-
-  template <int dim>
-  bool
-  Fates<dim>::is_dead(const CellView<dim, const double> &cell) const
-  {
-    return std::isfinite(time_of_death(cell));
   }
 
 

@@ -39,19 +39,6 @@ namespace Morula
 
 
   template <int dim>
-  Hazard
-  CellHazard<dim>::in(const double                       t0,
-                      const double                       t1,
-                      const PresentCell<dim>            &cell,
-                      const CellView<dim, const double> &row) const
-  {
-    return {cell.value(rate, 0.5 * (t0 + t1)),
-            row.get(integral),
-            threshold(cell, row)};
-  }
-
-
-  template <int dim>
   void
   CellHazard<dim>::make_good(const PresentCell<dim>      &before,
                              const CellView<dim, double> &row) const

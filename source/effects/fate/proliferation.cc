@@ -85,21 +85,6 @@ namespace Morula
 
 
   template <int dim>
-  CycleState<dim>
-  Proliferation<dim>::clock(const CellView<dim, const double> &cell) const
-  {
-    // The order is that of the members of CycleState.
-    return {cell.get(phase),
-            cell.get(event_time),
-            cell.get(lineage_key),
-            cell.get(division_axis),
-            cell.get(growth_pre),
-            duration.exists() ? cell.get(duration) : 0.,
-            hazard.exists() ? cell.get(hazard) : 0.};
-  }
-
-
-  template <int dim>
   void
   Proliferation<dim>::set_clock(const CellView<dim, double> &cell,
                                 const CycleState<dim>       &state) const
@@ -213,38 +198,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  Proliferation<dim>::choose_first_axis(const PresentCell<dim>      &founder,
-                                        const CellView<dim, double> &row) const
-  {
-    // Founders get their axis before the steady fields are known. It is chosen
-    // again when they are, from the same random direction.
-    CycleState<dim> state = clock(row);
-    if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
-      return;
-    state.axis = Random::direction<dim>(random_seed, state.key);
-    choose_axis(CycleState<dim>(), founder, 0., state);
-    set_clock(row, state);
-  }
-
-
-  template <int dim>
-  void
-  Proliferation<dim>::absorb(const Tensor<2, dim>        &D,
-                             const Tensor<2, dim>        &F_g,
-                             const CellView<dim, double> &row) const
-  {
-    // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r), doc/theory.md (8.7). F_r
-    // is a factor of the growth before the cycle, so the running cycle is part
-    // of K.
-    CycleState<dim>      state = clock(row);
-    const Tensor<2, dim> K     = F_g * invert(state.growth_pre);
-    state.growth_pre           = invert(K) * D * F_g;
-    set_clock(row, state);
-  }
-
-
-  template <int dim>
   Tensor<1, dim>
   Proliferation<dim>::placement_axis(const CellView<dim, const double> &cell,
                                      const unsigned int type) const
@@ -267,19 +220,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  Proliferation<dim>::time_of_division(const CellView<dim, const double> &cell,
-                                       const double t) const
-  {
-    const CycleState<dim> state = clock(cell);
-    const CellAt<dim>     at(cell.founder_position());
-    return cycle_.divides(state, at, t) ?
-             cycle_.division_time(state, at) :
-             std::numeric_limits<double>::infinity();
-  }
-
-
-  template <int dim>
   void
   Proliferation<dim>::inherit(const CellView<dim, double> &daughter,
                               const StateColumns<dim> &,
@@ -295,63 +235,6 @@ namespace Morula
 
 
   template <int dim>
-  CycleState<dim>
-  Proliferation<dim>::run_clock(const PresentCell<dim>      &cell,
-                                const CellView<dim, double> &row,
-                                const Stretch               &stretch) const
-  {
-    const CycleState<dim> state =
-      next_clock(cell, clock(row), stretch.begin, stretch.end);
-    set_clock(row, state);
-    return state;
-  }
-
-
-  template <int dim>
-  std::optional<double>
-  Proliferation<dim>::next(const PresentCell<dim>      &cell,
-                           const CellView<dim, double> &row,
-                           const Stretch               &stretch) const
-  {
-    // Division is not carried out here. Its time says when the cell's own life
-    // ends in this step; the daughters are made after the equilibrium.
-    const CycleState<dim> state = run_clock(cell, row, stretch);
-    const CellAt<dim>     at(cell, stretch.begin);
-    if (!cycle_.divides(state, at, stretch.end))
-      return {};
-    return std::min(stretch.end, cycle_.division_time(state, at));
-  }
-
-
-  template <int dim>
-  void
-  Proliferation<dim>::pass(const PresentCell<dim>      &cell,
-                           const CellView<dim, double> &row,
-                           const Stretch               &stretch,
-                           const double                 s) const
-  {
-    // The clock of the round's beginning is in `cell`; it is run again, only to
-    // the time of the other fate's event.
-    set_clock(row, next_clock(cell, clock(cell.cell()), stretch.begin, s));
-  }
-
-
-  template <int dim>
-  void
-  Proliferation<dim>::end_of_life(const PresentCell<dim>      &cell,
-                                  const CellView<dim, double> &row,
-                                  const double                 s) const
-  {
-    // A dead cell keeps the size that it has, half-way through its cycle or
-    // not, and never divides.
-    CycleState<dim> state = clock(row);
-    state.growth_pre      = cycle_.growth(state, CellAt<dim>(cell, s), s);
-    state.phase           = CyclePhase::never;
-    set_clock(row, state);
-  }
-
-
-  template <int dim>
   void
   Proliferation<dim>::advance(const PresentCell<dim>      &before,
                               const CellView<dim, double> &after,
@@ -360,18 +243,6 @@ namespace Morula
   {
     if (J_e_before.exists())
       after.set(J_e_before, before.cell().elastic_volume_ratio());
-  }
-
-
-  template <int dim>
-  void
-  Proliferation<dim>::check_cell(const PresentCell<dim> &founder,
-                                 const double            step) const
-  {
-    if (clock(founder.cell()).phase == CyclePhase::never)
-      return;
-    if (this->axes)
-      this->axes->check_cell(founder, step);
   }
 
 

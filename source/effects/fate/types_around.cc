@@ -85,18 +85,6 @@ namespace Morula
 
 
   template <int dim>
-  std::size_t
-  TypesAround<dim>::n_before(const double t) const
-  {
-    const auto end =
-      std::find_if(changes.begin(), changes.end(), [t](const Change &change) {
-        return change.time > t || !change.comes_first;
-      });
-    return end - changes.begin();
-  }
-
-
-  template <int dim>
   void
   TypesAround<dim>::set(const CellView<dim, double> &row,
                         const std::size_t            k) const

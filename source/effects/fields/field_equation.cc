@@ -120,31 +120,6 @@ namespace Morula
 
   template <int dim>
   double
-  FieldEquation<dim>::sink() const
-  {
-    // Without anything that takes from the field, any constant could be added
-    // to it.
-    double sum = 0.;
-    for (const FieldAtCell &cell : cells)
-      sum += cell.volume * cell.rate;
-    for (const FieldAtSurface<dim> &point : surface)
-      sum += point.weight + point.fixed;
-    return sum;
-  }
-
-
-  template <int dim>
-  bool
-  FieldEquation<dim>::has_fixed_value() const
-  {
-    return std::any_of(surface.begin(), surface.end(), [](const auto &point) {
-      return point.fixed > 0.;
-    });
-  }
-
-
-  template <int dim>
-  double
   FieldEquation<dim>::weight(const unsigned int         c,
                              const FieldAtSurface<dim> &point) const
   {

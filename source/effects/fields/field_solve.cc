@@ -93,18 +93,6 @@ namespace Morula
   }
 
   template <int dim>
-  PresentCell<dim>
-  FieldSolver<dim>::present_cell(const unsigned int p) const
-  {
-    const Cells<dim> &cells = tissue.cells();
-    PresentCell<dim>  cell(cells[p], cells.id(p), cells.position(p), reader);
-    for (unsigned int k = 0; k < values.size(); ++k)
-      if (!values[k].empty())
-        cell.set_field(k, values[k][p]);
-    return cell;
-  }
-
-  template <int dim>
   void
   FieldSolver<dim>::begin_cells(const Field<dim> &field, const double t)
   {

@@ -47,15 +47,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  void
-  IsotropicGrowth<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    GrowthLaw<dim>::review(scene, review);
-    review_growth({&theta}, 1., scene, review);
-  }
-
-
   void
   add_isotropic_growth(Catalogue &catalogue)
   {

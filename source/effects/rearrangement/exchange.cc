@@ -187,17 +187,6 @@ namespace Morula
   }
 
 
-  const Attempt *
-  ExchangeRounds::first_at(const unsigned int place)
-  {
-    std::size_t &head = heads[place];
-    while (head < of_place[place].size() && done[of_place[place][head]])
-      ++head;
-    return head < of_place[place].size() ? &list[of_place[place][head]] :
-                                           nullptr;
-  }
-
-
   bool
   ExchangeRounds::can_run(const Attempt &attempt)
   {

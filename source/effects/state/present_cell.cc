@@ -52,18 +52,6 @@ namespace Morula
 
 
   template <int dim>
-  std::uint64_t
-  PresentCell<dim>::lineage_key() const
-  {
-    // Where nothing divides, every cell is its own founder and its key follows
-    // from its id.
-    const Column<std::uint64_t> &key = cell_.columns().lineage_key;
-    return key.exists() ? cell_.get(key) :
-                          Random::founder_key(reader_.random_seed, id_);
-  }
-
-
-  template <int dim>
   const CellQuantities &
   PresentCell<dim>::quantities() const
   {

@@ -6,8 +6,10 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
+#include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 #include <cstdint>
@@ -140,7 +142,16 @@ namespace Morula
     /** Evaluates the axes of the founders, so that errors appear before the
      *  run. */
     void
-    check(const Preview<dim> &scene) const override;
+    check(const Preview<dim> &scene) const override
+    {
+      // There are no cells yet. A direction stands for the random one, and the
+      // undeformed state for theirs; only an error of the rule matters, and the
+      // axis is dropped.
+      Tensor<1, dim> direction;
+      direction[0] = 1.;
+      for (const Point<dim> &X : scene.founders)
+        axis({X, Tensor<2, dim>(unit_symmetric_tensor<dim>()), direction});
+    }
 
     /** Evaluates the axis of a founder in its state. */
     void
@@ -173,18 +184,37 @@ namespace Morula
 
     /** The rule of a type of cells, or null. */
     const DivisionRule<dim> *
-    rule(const unsigned int type) const;
+    rule(const unsigned int type) const
+    {
+      if (!of_type.empty())
+        return of_type[type];
+      return rules.empty() ? nullptr : rules.front().get();
+    }
 
     /** Refuses what the rules cannot do at the founders. @throws InputError */
     void
-    check(const Preview<dim> &scene) const;
+    check(const Preview<dim> &scene) const
+    {
+      for (const auto &rule : rules)
+        rule->check(scene);
+    }
 
     void
-    review(const Preview<dim> &scene, Review &review) const;
+    review(const Preview<dim> &scene, Review &review) const
+    {
+      for (const auto &rule : rules)
+        rule->review(scene, review);
+    }
 
     /** Evaluates the expressions and the rule of a founder in its state. */
     void
-    check_cell(const PresentCell<dim> &founder, const double step) const;
+    check_cell(const PresentCell<dim> &founder, const double step) const
+    {
+      founder.value(spread, 0.);
+      founder.value(least_anisotropy, 0.);
+      if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
+        rule->check_cell(founder, step);
+    }
 
     /**
      * The direction of a cell of which there is a rule, of any length but zero,
@@ -210,7 +240,16 @@ namespace Morula
     Tensor<1, dim>
     placement(const CellView<dim, const double> &cell,
               const Tensor<1, dim>              &axis,
-              const unsigned int                 type) const;
+              const unsigned int                 type) const
+    {
+      const DivisionRule<dim> *const rule = this->rule(type);
+      Tensor<1, dim>                 now  = axis;
+      if (rule != nullptr && rule->is_present())
+        now = cell.F() * axis;
+      else if (follow_rotation)
+        now = cell.elastic_deformation() * axis;
+      return now / now.norm();
+    }
 
     /** Whether an axis of the reference configuration is placed along F_e n_s,
      *  not n_s. */

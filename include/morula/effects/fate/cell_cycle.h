@@ -9,8 +9,10 @@
 #include <morula/effects/state/state_columns.h>
 #include <morula/particles/cell_state.h>
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/particles/property_pool.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -81,7 +83,10 @@ namespace Morula
                         Evaluated::founder};
 
     bool
-    is_on() const override;
+    is_on() const override
+    {
+      return law != "none" || is_law_of_types;
+    }
 
     EffectFacts
     facts() const override
@@ -100,7 +105,14 @@ namespace Morula
         const std::vector<ExpressionKey *> &of_cells) override;
 
     std::string
-    details() const override;
+    details() const override
+    {
+      return "cell cycle, T = " + duration.text() +
+             " day, Lambda = " + exit_rate.text() + " /day" +
+             (size_checkpoint.is_default() ?
+                "" :
+                ", size checkpoint J_th = " + size_checkpoint.text());
+    }
 
   private:
     bool is_law_of_types = false; // of some
@@ -261,7 +273,11 @@ namespace Morula
     /** Refuses numbers of a founder in its state at t = 0: see check().
      *  @throws InputError */
     void
-    check_cell(const CellAt<dim> &founder, const double step) const;
+    check_cell(const CellAt<dim> &founder, const double step) const
+    {
+      if (founder.value(where) > 0.)
+        check_step(checked_duration(founder, true), step);
+    }
 
     /**
      * Refuses a time step too long for the cycle (above T/2 for the smallest T
@@ -270,7 +286,14 @@ namespace Morula
      * pass different founders may disagree. @throws InputError
      */
     void
-    check(const std::vector<Point<dim>> &founders, const double step) const;
+    check(const std::vector<Point<dim>> &founders, const double step) const
+    {
+      double shortest = std::numeric_limits<double>::infinity();
+      for (const Point<dim> &X : founders)
+        if (where.value(X, 0.) > 0.)
+          shortest = std::min(shortest, checked_duration(X, false));
+      check_step(shortest, step);
+    }
 
     /**
      * State at t = 0 of founder number @p id at @p X. With Start = together, a
@@ -293,7 +316,14 @@ namespace Morula
     /** Sets F_g,pre of a founder such that F_g = I at t = 0, wherever it stands
      *  in its cycle. */
     void
-    begin_growth(CycleState<dim> &state, const CellAt<dim> &at) const;
+    begin_growth(CycleState<dim> &state, const CellAt<dim> &at) const
+    {
+      // The cell has at t = 0 the volume of the file and is at rest, so F_g is
+      // I. Hence the growth before the cycle is the inverse of what the cycle
+      // has done until then, doc/theory.md (6.2a).
+      state.growth_pre = unit_symmetric_tensor<dim>();
+      state.growth_pre = invert(growth(state, at, 0.));
+    }
 
     /**
      * The state at @p t1 of a cell that is in @p state at @p t0 and does not

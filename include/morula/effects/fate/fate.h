@@ -9,6 +9,9 @@
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/cell_event.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -63,7 +66,15 @@ namespace Morula
     pass(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
          const Stretch               &stretch,
-         const double                 s) const;
+         const double                 s) const
+    {
+      // Integrals are read from `cell`, the row of the round's beginning,
+      // because next() has already changed `row`.
+      for (const CellHazard<dim> &hazard : hazards(cell.type()))
+        row.set(hazard.integral,
+                hazard.in(stretch.begin, stretch.end, cell, cell.cell())
+                  .integral_at(stretch.begin, s));
+    }
 
     /** The event of next() happens at @p s, day. @param events gets what
      *  events.csv shall tell. */
@@ -95,7 +106,11 @@ namespace Morula
     /** The hazards of cells of a type by this fate. Their integrals are made
      *  good and compared step by step. */
     const std::vector<CellHazard<dim>> &
-    hazards(const unsigned int type) const;
+    hazards(const unsigned int type) const
+    {
+      return hazards_of_types.size() == 1 ? hazards_of_types[0] :
+                                            hazards_of_types[type];
+    }
 
     /** Evaluates all rates at a founder in its state. */
     void
@@ -266,14 +281,26 @@ namespace Morula
     /** As CellHazard::make_good(), for all hazards. */
     void
     make_good(const PresentCell<dim>      &before,
-              const CellView<dim, double> &row) const;
+              const CellView<dim, double> &row) const
+    {
+      for (const auto &fate : list)
+        for (const CellHazard<dim> &hazard : fate->hazards(before.type()))
+          hazard.make_good(before, row);
+    }
 
     /** As CellHazard::expect(), for all hazards. */
     void
     expect(const PresentCell<dim>      &before,
            const CellView<dim, double> &row,
            const double                 t,
-           const bool                   is_whole) const;
+           const bool                   is_whole) const
+    {
+      // Columns beyond the hazards of this type say since the cell's birth or
+      // the change of its type that nothing is expected.
+      for (const auto &fate : list)
+        for (const CellHazard<dim> &hazard : fate->hazards(before.type()))
+          hazard.expect(before, row, t, is_whole);
+    }
 
     /** Ends the cell's life at @p t (day) if a fate strikes it then. @return
      *  whether it is dead. @throws InputError */
@@ -285,11 +312,20 @@ namespace Morula
 
     /** When the cell's life ended, day; infinity: it lives. */
     double
-    time_of_death(const CellView<dim, const double> &cell) const;
+    time_of_death(const CellView<dim, const double> &cell) const
+    {
+      double time = std::numeric_limits<double>::infinity();
+      for (const Dies<dim> *const dies : deadly)
+        time = std::min(time, dies->time_of_death(cell));
+      return time;
+    }
 
     /** Whether the cell is dead, but still there. */
     bool
-    is_dead(const CellView<dim, const double> &cell) const;
+    is_dead(const CellView<dim, const double> &cell) const
+    {
+      return std::isfinite(time_of_death(cell));
+    }
   };
 } // namespace Morula
 

@@ -86,7 +86,12 @@ namespace Morula
     in(const double                       t0,
        const double                       t1,
        const PresentCell<dim>            &cell,
-       const CellView<dim, const double> &row) const;
+       const CellView<dim, const double> &row) const
+    {
+      return {cell.value(rate, 0.5 * (t0 + t1)),
+              row.get(integral),
+              threshold(cell, row)};
+    }
 
     /** Adds what the last step missed of the integral to the row of a living
      *  cell. */

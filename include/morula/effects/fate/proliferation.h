@@ -7,8 +7,11 @@
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/fate.h>
+#include <morula/effects/fate/random.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace Morula
@@ -47,7 +50,17 @@ namespace Morula
 
     /** A cell's clock. */
     CycleState<dim>
-    clock(const CellView<dim, const double> &cell) const;
+    clock(const CellView<dim, const double> &cell) const
+    {
+      // The order is that of the members of CycleState.
+      return {cell.get(phase),
+              cell.get(event_time),
+              cell.get(lineage_key),
+              cell.get(division_axis),
+              cell.get(growth_pre),
+              duration.exists() ? cell.get(duration) : 0.,
+              hazard.exists() ? cell.get(hazard) : 0.};
+    }
 
     /** Sets a cell's clock. */
     void
@@ -73,14 +86,30 @@ namespace Morula
      *  steady fields are known. */
     void
     choose_first_axis(const PresentCell<dim>      &founder,
-                      const CellView<dim, double> &row) const;
+                      const CellView<dim, double> &row) const
+    {
+      // Founders get their axis before the steady fields are known. It is
+      // chosen again when they are, from the same random direction.
+      CycleState<dim> state = clock(row);
+      if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
+        return;
+      state.axis = Random::direction<dim>(random_seed, state.key);
+      choose_axis(CycleState<dim>(), founder, 0., state);
+      set_clock(row, state);
+    }
 
     /** Takes the clock through a stretch, and through a division in it, which
      *  daughters() looks up. @return the clock at its end */
     CycleState<dim>
     run_clock(const PresentCell<dim>      &cell,
               const CellView<dim, double> &row,
-              const Stretch               &stretch) const;
+              const Stretch               &stretch) const
+    {
+      const CycleState<dim> state =
+        next_clock(cell, clock(row), stretch.begin, stretch.end);
+      set_clock(row, state);
+      return state;
+    }
 
     /** The cycle's part of F_g at @p t (day), which is that of the clock. */
     Tensor<2, dim>
@@ -94,7 +123,16 @@ namespace Morula
     void
     absorb(const Tensor<2, dim>        &D,
            const Tensor<2, dim>        &F_g,
-           const CellView<dim, double> &row) const;
+           const CellView<dim, double> &row) const
+    {
+      // F_g = K F_r becomes D K F_r = K (K⁻¹ D K F_r), doc/theory.md (8.7). F_r
+      // is a factor of the growth before the cycle, so the running cycle is
+      // part of K.
+      CycleState<dim>      state = clock(row);
+      const Tensor<2, dim> K     = F_g * invert(state.growth_pre);
+      state.growth_pre           = invert(K) * D * F_g;
+      set_clock(row, state);
+    }
 
     /** Unit direction along which the daughters of a cell are placed.
      *  @param type of the cell */
@@ -104,7 +142,14 @@ namespace Morula
 
     double
     time_of_division(const CellView<dim, const double> &cell,
-                     const double                       t) const override;
+                     const double                       t) const override
+    {
+      const CycleState<dim> state = clock(cell);
+      const CellAt<dim>     at(cell.founder_position());
+      return cycle_.divides(state, at, t) ?
+               cycle_.division_time(state, at) :
+               std::numeric_limits<double>::infinity();
+    }
 
     void
     inherit(const CellView<dim, double> &daughter,
@@ -115,13 +160,27 @@ namespace Morula
     std::optional<double>
     next(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
-         const Stretch               &stretch) const override;
+         const Stretch               &stretch) const override
+    {
+      // Division is not carried out here. Its time says when the cell's own
+      // life ends in this step; the daughters are made after the equilibrium.
+      const CycleState<dim> state = run_clock(cell, row, stretch);
+      const CellAt<dim>     at(cell, stretch.begin);
+      if (!cycle_.divides(state, at, stretch.end))
+        return {};
+      return std::min(stretch.end, cycle_.division_time(state, at));
+    }
 
     void
     pass(const PresentCell<dim>      &cell,
          const CellView<dim, double> &row,
          const Stretch               &stretch,
-         const double                 s) const override;
+         const double                 s) const override
+    {
+      // The clock of the round's beginning is in `cell`; it is run again, only
+      // to the time of the other fate's event.
+      set_clock(row, next_clock(cell, clock(cell.cell()), stretch.begin, s));
+    }
 
     LifeAfter
     happen(const PresentCell<dim> &,
@@ -136,7 +195,15 @@ namespace Morula
     void
     end_of_life(const PresentCell<dim>      &cell,
                 const CellView<dim, double> &row,
-                const double                 s) const override;
+                const double                 s) const override
+    {
+      // A dead cell keeps the size that it has, half-way through its cycle or
+      // not, and never divides.
+      CycleState<dim> state = clock(row);
+      state.growth_pre      = cycle_.growth(state, CellAt<dim>(cell, s), s);
+      state.phase           = CyclePhase::never;
+      set_clock(row, state);
+    }
 
     /** Keeps J_e at the beginning of the step for the size checkpoint. */
     void
@@ -147,7 +214,13 @@ namespace Morula
 
     void
     check_cell(const PresentCell<dim> &founder,
-               const double            step) const override;
+               const double            step) const override
+    {
+      if (clock(founder.cell()).phase == CyclePhase::never)
+        return;
+      if (this->axes)
+        this->axes->check_cell(founder, step);
+    }
 
   private:
     /** The rule of a type of cells, or null. */

@@ -6,6 +6,7 @@
 
 #include <morula/effects/state/state_columns.h>
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -79,7 +80,14 @@ namespace Morula
 
     /** How many changes count at the beginning @p t (day) of the step. */
     std::size_t
-    n_before(const double t) const;
+    n_before(const double t) const
+    {
+      const auto end =
+        std::find_if(changes.begin(), changes.end(), [t](const Change &change) {
+          return change.time > t || !change.comes_first;
+        });
+      return end - changes.begin();
+    }
 
     /** When change number @p k happens, day. */
     double

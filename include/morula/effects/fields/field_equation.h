@@ -12,6 +12,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -69,11 +70,26 @@ namespace Morula
     /** What cells and the surface of this rank take per unit of the field,
      *  µm^dim/day: without any a steady field has no level. */
     double
-    sink() const;
+    sink() const
+    {
+      // Without anything that takes from the field, any constant could be added
+      // to it.
+      double sum = 0.;
+      for (const FieldAtCell &cell : cells)
+        sum += cell.volume * cell.rate;
+      for (const FieldAtSurface<dim> &point : surface)
+        sum += point.weight + point.fixed;
+      return sum;
+    }
 
     /** Whether the field has a value at some boundary point of this rank. */
     bool
-    has_fixed_value() const;
+    has_fixed_value() const
+    {
+      return std::any_of(surface.begin(), surface.end(), [](const auto &point) {
+        return point.fixed > 0.;
+      });
+    }
 
     /** Places of the cells and boundary points in their grid cells. */
     GroupedPoints<dim> cell_places, surface_places;

@@ -106,7 +106,15 @@ namespace Morula
 
     /** Cell number @p p with the values of now. */
     PresentCell<dim>
-    present_cell(const unsigned int p) const;
+    present_cell(const unsigned int p) const
+    {
+      const Cells<dim> &cells = tissue.cells();
+      PresentCell<dim>  cell(cells[p], cells.id(p), cells.position(p), reader);
+      for (unsigned int k = 0; k < values.size(); ++k)
+        if (!values[k].empty())
+          cell.set_field(k, values[k][p]);
+      return cell;
+    }
 
     /** What cells do, before the first iteration: all but their uptake. @throws
      *  InputError */

@@ -216,7 +216,14 @@ namespace Morula
     is_before(const Attempt &a, const Attempt &b) const;
     /** The first attempt that is left at a place, or null. */
     const Attempt *
-    first_at(const unsigned int place);
+    first_at(const unsigned int place)
+    {
+      std::size_t &head = heads[place];
+      while (head < of_place[place].size() && done[of_place[place][head]])
+        ++head;
+      return head < of_place[place].size() ? &list[of_place[place][head]] :
+                                             nullptr;
+    }
     bool
     can_run(const Attempt &attempt);
     bool

@@ -5,6 +5,7 @@
 #define morula_effects_state_present_cell_h
 
 #include <morula/base/past_step.h>
+#include <morula/effects/fate/random.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/material.h>
@@ -103,7 +104,14 @@ namespace Morula
 
     /** Key of the cell's random numbers. */
     std::uint64_t
-    lineage_key() const;
+    lineage_key() const
+    {
+      // Where nothing divides, every cell is its own founder and its key
+      // follows from its id.
+      const Column<std::uint64_t> &key = cell_.columns().lineage_key;
+      return key.exists() ? cell_.get(key) :
+                            Random::founder_key(reader_.random_seed, id_);
+    }
 
     /** Outward unit normal of the surface near the founder, at t = 0. Only if
      *  StateColumns::need_surface_normal() asked for it. */

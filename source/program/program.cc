@@ -57,12 +57,6 @@ namespace Morula
 #endif
     }
 
-    bool
-    is_first_rank()
-    {
-      return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    }
-
     /** Does once what libraries do on their first use, in a step of small
      *  scenes, so that no fork need do it again. */
     void
@@ -225,7 +219,7 @@ namespace Morula
         print_version(text);
       if (command.parameters)
         print_parameters(text, command, catalogue);
-      if (is_first_rank())
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         std::cout << text.str();
       return true;
     }

@@ -71,21 +71,10 @@ namespace Morula
       keys.check(scene, none);
     }
 
-    /** Refuses a type's value of a key that does nothing, because what it
-     *  belongs to is off. */
-    void
-    refuse_for_types(const Scene       &scene,
-                     const AnyKey      &key,
-                     const std::string &allowed,
-                     const std::string &remedy)
-    {
-      for (const ExpressionKey *own : scene.cell_types.own_values_of(key))
-        own->refuse(allowed, remedy);
-    }
-
     /**
-     * Refuses values that do nothing because what they belong to is off. If
-     * the user wrote the switch, it was switched off on purpose.
+     * Refuses values that do nothing because what they belong to is off, those
+     * of types as well. If the user wrote the switch, it was switched off on
+     * purpose.
      */
     void
     refuse_forgotten(const Scene       &scene,
@@ -103,7 +92,8 @@ namespace Morula
             continue;
           if (!key->is_default())
             key->refuse("its default, as " + why, to_do);
-          refuse_for_types(scene, *key, "nothing, as " + why, to_do);
+          for (const ExpressionKey *own : scene.cell_types.own_values_of(*key))
+            own->refuse("nothing, as " + why, to_do);
         }
     }
 
@@ -148,9 +138,7 @@ namespace Morula
     {
       for (const auto &choice : choices)
         if (chosen.count(choice.name()) > 0)
-          {
-            try_effect<dim>(scene, choice);
-          }
+          try_effect<dim>(scene, choice);
         else
           refuse_forgotten(scene,
                            switch_key,

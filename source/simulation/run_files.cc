@@ -14,15 +14,6 @@ namespace Morula
 {
   namespace
   {
-    template <int dim>
-    double
-    number_or(const std::optional<SnapshotData<dim>> &data,
-              const std::string                      &name,
-              const double                            otherwise)
-    {
-      return data ? data->number(name) : otherwise;
-    }
-
     /** Number of the first multiple of @p interval that is due after @p time.
      * It follows from the time, since a resumed run may have another interval.
      */
@@ -40,25 +31,6 @@ namespace Morula
     /** A snapshot calls the number of a table's rows by the table's name and
      * this suffix. */
     const std::string rows_suffix = "_rows";
-
-    /** The rows of a table that a snapshot counts. */
-    template <int dim>
-    TableExtent
-    extent_of(const std::string &table, const SnapshotData<dim> &data)
-    {
-      return {static_cast<std::uint64_t>(data.number(table + rows_suffix)),
-              digest_of_integers(data.integer_table(table + "_digest", 2))};
-    }
-
-    template <int dim>
-    void
-    store_extent(const std::string &table,
-                 const TableExtent &extent,
-                 SnapshotData<dim> &data)
-    {
-      data.numbers[table + rows_suffix]      = extent.n_rows;
-      data.integer_tables[table + "_digest"] = as_integers(extent.digest);
-    }
 
     /** Prefixes of a section's numbers in a snapshot. */
     const std::string section_prefix = "seconds in ";
@@ -130,7 +102,8 @@ namespace Morula
     , comm(comm)
     , records_events(model.tables.records_events())
     , contents{scene.type_names(), model.tables.has_causes()}
-    , wall_seconds_before(number_or(resumed_from, "wall_seconds", 0.))
+    , wall_seconds_before(resumed_from ? resumed_from->number("wall_seconds") :
+                                         0.)
     , clock(clock)
     , next_output(
         resumed_from ?
@@ -228,7 +201,10 @@ namespace Morula
           if (table.may_begin_later &&
               resumed_from.numbers.count(name + rows_suffix) == 0)
             continue;
-          const TableExtent kept = extent_of(name, resumed_from);
+          const TableExtent kept{
+            static_cast<std::uint64_t>(resumed_from.number(name + rows_suffix)),
+            digest_of_integers(
+              resumed_from.integer_table(name + "_digest", 2))};
           if (check)
             AppendedCsv::check(file, table.header, kept, comm);
           else
@@ -370,7 +346,9 @@ namespace Morula
     for (auto &[name, table] : tables)
       {
         table.sync();
-        store_extent(name, table.extent(), data);
+        const TableExtent extent              = table.extent();
+        data.numbers[name + rows_suffix]      = extent.n_rows;
+        data.integer_tables[name + "_digest"] = as_integers(extent.digest);
       }
     data.parameters              = scene.parameters();
     data.numbers["wall_seconds"] = wall_seconds();

@@ -302,15 +302,6 @@ namespace Morula
       return effects.fates.dividing->time_of_division(cell, t);
     }
 
-    /** Whether daughters stay inside the whole surface, not only inside its
-     *  held parts. Only where cells divide. */
-    bool
-    stays_inside() const
-    {
-      const auto &axes = effects.fates.dividing->axes;
-      return axes && axes->stay_inside;
-    }
-
     /** Whether cells can die. */
     bool
     is_mortal() const

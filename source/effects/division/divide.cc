@@ -175,12 +175,14 @@ namespace Morula
     // A wall farther than a cell's length counts as absent, and the wall
     // against a neighbour is at least at half its distance. So neighbours
     // within two lengths make all walls: doc/theory.md (6.5).
+    // Daughters stay inside the whole surface, or only inside its held parts.
     const PointList<dim> neighbors = neighborhood(tissue, 2. * longest);
+    const auto          &axes      = development.fates().dividing->axes;
     const auto           distances =
       daughter_distances(dividing,
                          neighbors.ids,
                          neighbors.positions,
-                         walls(tissue, longest, development.stays_inside()),
+                         walls(tissue, longest, axes && axes->stay_inside),
                          tissue.grid().box());
 
     std::vector<DivisionEvent> divisions;

@@ -9,8 +9,6 @@
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 

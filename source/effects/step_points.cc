@@ -106,6 +106,29 @@ namespace Morula
                                Tensor<2, dim>,
                                double>;
 
+    /** Where points stand, by grid cell and part, and their order: by place,
+     *  then by the cell's id, then as they stand in the cell, so that sums do
+     *  not depend on who sent what. */
+    template <int dim>
+    std::pair<std::vector<std::pair<unsigned int, unsigned int>>,
+              std::vector<unsigned int>>
+    in_order(const PointList<dim> &list, const GridBox<dim> &box)
+    {
+      std::vector<std::pair<unsigned int, unsigned int>> places(list.size());
+      std::vector<unsigned int>                          order(list.size());
+      for (std::size_t k = 0; k < list.size(); ++k)
+        places[k] = {box.number(box.locate(list.positions[k])),
+                     std::get<0>(list.template value<Message<dim>>(k))};
+      std::iota(order.begin(), order.end(), 0u);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const unsigned int a, const unsigned int b) {
+                         return std::tie(places[a], list.ids[a]) <
+                                std::tie(places[b], list.ids[b]);
+                       });
+      return {places, order};
+    }
+
     /** The quadrature points where some cell has several of them, which may lie
      *  in grid cells of other ranks, or where several grid cells share a point.
      *  Collective. */
@@ -154,22 +177,7 @@ namespace Morula
         }
       list = send_to_owners(std::move(list), tissue.grid());
 
-      // The points are ordered by grid cell and part, then by the cell's id,
-      // then as they stand in the cell, so that sums do not depend on who sent
-      // what.
-      std::vector<std::pair<unsigned int, unsigned int>> places(list.size());
-      std::vector<unsigned int>                          order(list.size());
-      for (std::size_t k = 0; k < list.size(); ++k)
-        places[k] = {box.number(box.locate(list.positions[k])),
-                     std::get<0>(list.template value<Message<dim>>(k))};
-      std::iota(order.begin(), order.end(), 0u);
-      std::stable_sort(order.begin(),
-                       order.end(),
-                       [&](const unsigned int a, const unsigned int b) {
-                         return std::tie(places[a], list.ids[a]) <
-                                std::tie(places[b], list.ids[b]);
-                       });
-
+      const auto [places, order] = in_order(list, box);
       MaterialPoints<dim> points;
       points.material   = &material.material();
       points.h          = box.spacing();

@@ -92,6 +92,39 @@ namespace Morula
       return boost::ends_with(word, ".prm") ||
              std::filesystem::is_regular_file(word, error);
     }
+
+    /** The words as options; @p all is the line as it was typed. */
+    options::variables_map
+    options_of(std::vector<std::string> words, const std::string &all)
+    {
+      options::options_description every = visible_options();
+      every.add_options()("scene", options::value<std::vector<std::string>>());
+      options::positional_options_description positions;
+      positions.add("scene", -1);
+
+      // The value of an option stands behind '=': a word beside --parameters is
+      // one to look for.
+      for (std::string &word : words)
+        if (word == "--explain" || word == "--parameters")
+          word += "=text";
+
+      options::variables_map found;
+      try
+        {
+          using namespace options::command_line_style;
+          options::store(options::command_line_parser(words)
+                           .options(every)
+                           .positional(positions)
+                           .style(unix_style & ~allow_guessing)
+                           .run(),
+                         found);
+        }
+      catch (const options::error &error)
+        {
+          throw wrong_command_line(all, std::string(error.what()) + ".");
+        }
+      return found;
+    }
   } // namespace
 
 
@@ -107,35 +140,8 @@ namespace Morula
     for (const std::string &word : words)
       all += (all.empty() ? "" : " ") + word;
 
-    options::options_description every = visible_options();
-    every.add_options()("scene", options::value<std::vector<std::string>>());
-    options::positional_options_description positions;
-    positions.add("scene", -1);
-
-    // The value of an option stands behind '=': a word beside --parameters is
-    // one to look for.
-    std::vector<std::string> given = words;
-    for (std::string &word : given)
-      if (word == "--explain" || word == "--parameters")
-        word += "=text";
-
-    options::variables_map found;
-    try
-      {
-        using namespace options::command_line_style;
-        options::store(options::command_line_parser(given)
-                         .options(every)
-                         .positional(positions)
-                         .style(unix_style & ~allow_guessing)
-                         .run(),
-                       found);
-      }
-    catch (const options::error &error)
-      {
-        throw wrong_command_line(all, std::string(error.what()) + ".");
-      }
-
-    CommandLine result;
+    const options::variables_map found = options_of(words, all);
+    CommandLine                  result;
     result.resume     = found.count("resume") > 0;
     result.replace    = found.count("replace") > 0;
     result.explain    = found.count("explain") > 0;

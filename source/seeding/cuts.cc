@@ -210,6 +210,27 @@ namespace Morula
         patches.push_back(
           {middle_of<dim>(piece), vector / vector.norm(), vector.norm()});
     }
+
+    /** Adds faces to the surface. The last rank takes all of them, so that they
+     *  have the highest numbers however many ranks there are. */
+    template <int dim>
+    void
+    add_to_last_rank(const SurfacePatches<dim> &faces,
+                     const MPI_Comm             comm,
+                     SurfacePatches<dim>       &surface)
+    {
+      surface.n_global += faces.areas.size();
+      if (Utilities::MPI::this_mpi_process(comm) + 1 !=
+          Utilities::MPI::n_mpi_processes(comm))
+        return;
+      const auto append = [](auto &list, const auto &more) {
+        list.insert(list.end(), more.begin(), more.end());
+      };
+      append(surface.positions, faces.positions);
+      append(surface.normals, faces.normals);
+      append(surface.areas, faces.areas);
+      append(surface.bodies, faces.bodies);
+    }
   } // namespace
 
 
@@ -265,37 +286,24 @@ namespace Morula
                     "lattice of the cells, by a part of a cell.");
 
     SurfacePatches<dim> faces;
-    double              cut = 0.;
     for (std::size_t k = 0; k < patches.size(); ++k)
       if (sides[2 * k] + sides[2 * k + 1] == 2)
-        {
-          cut += patches[k].area;
-          for (const double sign : {1., -1.})
-            {
-              faces.positions.push_back(patches[k].position);
-              faces.normals.push_back(sign * patches[k].normal);
-              faces.areas.push_back(patches[k].area);
-            }
-        }
+        for (const double sign : {1., -1.})
+          {
+            faces.positions.push_back(patches[k].position);
+            faces.normals.push_back(sign * patches[k].normal);
+            faces.areas.push_back(patches[k].area);
+          }
     if (faces.areas.empty())
       file.refuse("cuts in um that run between cells",
                   "There is no place on them that has cells on both sides: do "
                   "they have the same origin and unit as the tissue?");
     faces.bodies = bodies_of_patches(faces, founders, comm);
-    surface.n_global += faces.areas.size();
-    // The last rank takes all faces, so that they have the highest numbers
-    // however many ranks there are.
-    if (Utilities::MPI::this_mpi_process(comm) + 1 ==
-        Utilities::MPI::n_mpi_processes(comm))
-      {
-        const auto append = [](auto &list, const auto &more) {
-          list.insert(list.end(), more.begin(), more.end());
-        };
-        append(surface.positions, faces.positions);
-        append(surface.normals, faces.normals);
-        append(surface.areas, faces.areas);
-        append(surface.bodies, faces.bodies);
-      }
+    add_to_last_rank(faces, comm, surface);
+    // Both sides of a patch have its area.
+    double cut = 0.;
+    for (std::size_t k = 0; k < faces.areas.size(); k += 2)
+      cut += faces.areas[k];
     return as_text(cut) + (dim == 2 ? " um" : " um^2") + " in " +
            std::to_string(faces.areas.size() / 2) + " patches on each side";
   }

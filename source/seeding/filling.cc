@@ -99,7 +99,8 @@ namespace Morula
   namespace
   {
     /** Distance of the samples, in lengths of a cell. */
-    constexpr double fineness = 0.5;
+    constexpr double fineness        = 0.5;
+    constexpr int    samples_of_cell = 2; // 1 / fineness
 
     /** Farther from all centres than this, in lengths of a cell, there is room
      *  for one more: between cells side by side the farthest place is 0.87
@@ -124,6 +125,45 @@ namespace Morula
           for (int d = 0, rest = k; d < dim; ++d, rest /= n)
             other[d] += rest % n - reach;
           f(other);
+        }
+    }
+
+    /** Calls f(sample) for cubes of a cell's size without a cell: those beside
+     *  cubes that hold one, and from there on all around cubes inside. */
+    template <int dim, typename Inside, typename Function>
+    void
+    for_empty_cubes(const AllCells<dim> &cells,
+                    const Inside        &is_inside,
+                    const Function      &f)
+    {
+      const double             size = fineness * cells.length * samples_of_cell;
+      std::set<Sample<dim>>    full, seen;
+      std::vector<Sample<dim>> open;
+      for (const Point<dim> &X : cells.positions)
+        {
+          Sample<dim> sample;
+          for (unsigned int d = 0; d < dim; ++d)
+            sample[d] =
+              samples_of_cell * static_cast<int>(std::lround(X[d] / size));
+          full.insert(sample);
+        }
+      const auto add_around = [&](const Sample<dim> &sample) {
+        for_around<dim>(sample, 1, [&](Sample<dim> step) {
+          for (int d = 0; d < dim; ++d)
+            step[d] = sample[d] + samples_of_cell * (step[d] - sample[d]);
+          if (full.count(step) == 0 && seen.insert(step).second)
+            open.push_back(step);
+        });
+      };
+      for (const Sample<dim> &sample : full)
+        add_around(sample);
+      while (!open.empty())
+        {
+          const Sample<dim> coarse = open.back();
+          open.pop_back();
+          if (is_inside(coarse))
+            add_around(coarse);
+          f(coarse);
         }
     }
   } // namespace
@@ -163,42 +203,17 @@ namespace Morula
       return x.distance(nearest.front()) > roomy * cells.length;
     };
 
-    // Cubes of a cell's size without a cell: those beside cubes that hold one,
-    // and from there on all that lie inside.
-    std::set<Sample<dim>>    full, seen;
-    std::vector<Sample<dim>> open;
-    const int                cell = std::lround(1. / fineness);
-    for (const Point<dim> &X : cells.positions)
-      {
-        Sample<dim> sample;
-        for (unsigned int d = 0; d < dim; ++d)
-          sample[d] = cell * static_cast<int>(std::lround(X[d] / (h * cell)));
-        full.insert(sample);
-      }
-    const auto add_around = [&](const Sample<dim> &sample) {
-      for_around<dim>(sample, 1, [&](Sample<dim> step) {
-        for (int d = 0; d < dim; ++d)
-          step[d] = sample[d] + cell * (step[d] - sample[d]);
-        if (full.count(step) == 0 && seen.insert(step).second)
-          open.push_back(step);
-      });
-    };
-    for (const Sample<dim> &sample : full)
-      add_around(sample);
-
     std::set<Sample<dim>> gap;
-    while (!open.empty())
-      {
-        const Sample<dim> coarse = open.back();
-        open.pop_back();
-        if (is_inside(place(coarse)))
-          add_around(coarse);
+    for_empty_cubes<dim>(
+      cells,
+      [&](const Sample<dim> &sample) { return is_inside(place(sample)); },
+      [&](const Sample<dim> &coarse) {
         for_around<dim>(coarse, 1, [&](const Sample<dim> &sample) {
           const Point<dim> x = place(sample);
           if (gap.count(sample) == 0 && is_roomy(x) && is_inside(x))
             gap.insert(sample);
         });
-      }
+      });
     if (gap.empty())
       return 0.;
     const Filling<dim>    filling(cells);
@@ -206,7 +221,7 @@ namespace Morula
     std::set<Sample<dim>> tried;
     double                volume = 0.;
     for (const Sample<dim> &seed : gap)
-      for_around<dim>(seed, cell, [&](const Sample<dim> &sample) {
+      for_around<dim>(seed, samples_of_cell, [&](const Sample<dim> &sample) {
         if (!tried.insert(sample).second)
           return;
         const Point<dim> x = place(sample);

@@ -32,36 +32,6 @@ namespace Morula
   }
 
 
-  std::string
-  Vocabulary::name_of(const Variable variable) const
-  {
-    return is_field(variable) ? fields[field_number(variable)] :
-                                Morula::name_of(variable);
-  }
-
-
-  std::vector<Variable>
-  Vocabulary::all_variables() const
-  {
-    // Fields are variables with numbers behind all others.
-    std::vector<Variable> all = variables;
-    for (unsigned int k = 0; k < fields.size(); ++k)
-      all.push_back(field_variable(k));
-    return all;
-  }
-
-
-  std::string
-  Vocabulary::names() const
-  {
-    std::string text;
-    for (const Variable variable : all_variables())
-      text += (text.empty() ? "" : ", ") + name_of(variable);
-    for (const auto &[name, value] : constants)
-      text += ", " + name;
-    return text;
-  }
-
 
   const Vocabulary &
   place_and_time()

@@ -4,12 +4,9 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/input_error.h>
 
-#include <deal.II/base/patterns.h>
-
 #include <boost/algorithm/string.hpp>
 #include <boost/lexical_cast/try_lexical_convert.hpp>
 
-#include <algorithm>
 
 namespace Morula
 {
@@ -112,32 +109,6 @@ namespace Morula
     this->rule = rule;
   }
 
-
-  ExpressionKey &
-  ExpressionKey::operator=(const std::string &text)
-  {
-    text_ = text;
-    parsed.reset();
-    return *this;
-  }
-
-
-  ExpressionKey &
-  ExpressionKey::operator=(const double number)
-  {
-    return *this = Patterns::Tools::to_string(number);
-  }
-
-
-  std::optional<double>
-  ExpressionKey::largest_number(const unsigned int dim) const
-  {
-    const Expression     &of_all  = expression(dim);
-    std::optional<double> largest = of_all.number();
-    for (const auto &[type, own] : of_all.types())
-      largest = std::max(largest, own.number());
-    return largest;
-  }
 
 
   ExpressionKey

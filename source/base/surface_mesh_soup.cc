@@ -239,16 +239,6 @@ namespace Morula
                      remedy);
   }
 
-  std::map<std::pair<std::size_t, std::size_t>, unsigned int>
-  MeshSoup::edges() const
-  {
-    std::map<std::pair<std::size_t, std::size_t>, unsigned int> found;
-    for (const std::vector<std::size_t> &polygon : polygons)
-      for (std::size_t i = 0; i < polygon.size(); ++i)
-        ++found[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
-    return found;
-  }
-
   MeshSoup::MeshSoup(const std::string &key, const std::string &name)
     : key(key)
     , name(name)

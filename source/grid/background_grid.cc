@@ -119,32 +119,6 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  BackgroundGrid<dim>::BackgroundGrid(const GridParameters &parameters,
-                                      const MPI_Comm        comm)
-    : comm(comm)
-    , h(parameters.spacing)
-    , tria(comm)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      offset[d] = parameters.offset.value()[d];
-    box_ = GridBox<dim>({}, {}, h, offset);
-  }
-
-  template <int dim>
-  bool
-  BackgroundGrid<dim>::covers(const GridIndex<dim> &first,
-                              const GridIndex<dim> &last) const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      // The neighbours of tissue must be in the box, too: splines stand on
-      // them.
-      if (first[d] - 1 < box_.first()[d] ||
-          last[d] + 1 >= box_.first()[d] + box_.n()[d])
-        return false;
-    return true;
-  }
-
-  template <int dim>
   void
   BackgroundGrid<dim>::enclose(const GridIndex<dim> &first,
                                const GridIndex<dim> &last)
@@ -320,18 +294,6 @@ namespace Morula
       for (int d = dim - 1; d >= 0; --d)
         key = (key << 1) | ((grid_cell[d] >> level) & 1);
     return key;
-  }
-
-  template <int dim>
-  unsigned int
-  BackgroundGrid<dim>::owner(const GridIndex<dim> &index) const
-  {
-    if (first_keys.empty())
-      return 0;
-    // The owner is the last rank whose first key is not behind that of the grid
-    // cell.
-    return std::upper_bound(first_keys.begin(), first_keys.end(), key(index)) -
-           first_keys.begin() - 1;
   }
 
   template <int dim>

@@ -7,7 +7,6 @@
 #include <deal.II/base/mpi.templates.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace Morula
 {
@@ -46,39 +45,6 @@ namespace Morula
   } // namespace
 
 
-  template <int dim>
-  bool
-  GridRange<dim>::empty() const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (first[d] > last[d])
-        return true;
-    return false;
-  }
-
-
-  template <int dim>
-  bool
-  GridRange<dim>::contains(const GridIndex<dim> &index) const
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      if (index[d] < first[d] || index[d] > last[d])
-        return false;
-    return true;
-  }
-
-
-  template <int dim>
-  void
-  GridRange<dim>::unite(const GridRange &other)
-  {
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        first[d] = std::min(first[d], other.first[d]);
-        last[d]  = std::max(last[d], other.last[d]);
-      }
-  }
-
 
   template <int dim>
   GridRange<dim>
@@ -94,19 +60,6 @@ namespace Morula
     return range;
   }
 
-
-  template <int dim>
-  int
-  GridRange<dim>::gap(const GridRange &other) const
-  {
-    // The largest distance of any direction: two boxes touch only if they touch
-    // in all of them.
-    int largest = std::numeric_limits<int>::lowest();
-    for (unsigned int d = 0; d < dim; ++d)
-      largest = std::max(
-        {largest, first[d] - other.last[d] - 1, other.first[d] - last[d] - 1});
-    return largest;
-  }
 
 
   template <int dim>
@@ -255,19 +208,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  void
-  GridWindow<dim>::widen(const bool here)
-  {
-    if (alone)
-      return; // knows all
-    // Only ranks that asked get wider windows, but all make theirs anew, since
-    // their neighbours' windows have changed.
-    if (here)
-      rings += rings / 2;
-    make();
-  }
-
 
   template <int dim>
   void
@@ -294,17 +234,6 @@ namespace Morula
           neighbors[other].push_back(range);
   }
 
-
-  template <int dim>
-  bool
-  GridWindow<dim>::is_in(const Ranges &ranges, const GridIndex<dim> &index)
-  {
-    return std::any_of(ranges.begin(),
-                       ranges.end(),
-                       [&](const GridRange<dim> &range) {
-                         return range.contains(index);
-                       });
-  }
 
 
   template <int dim>

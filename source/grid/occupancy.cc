@@ -320,17 +320,6 @@ namespace Morula
     return {lower, upper};
   }
 
-  template <int dim>
-  bool
-  Occupancy<dim>::crowded(const Point<dim> &x) const
-  {
-    const GridBox<dim>  &whole = window().whole();
-    const GridIndex<dim> index = whole.locate(x);
-    return whole.contains(index) && std::binary_search(crowded_.begin(),
-                                                       crowded_.end(),
-                                                       whole.number(index));
-  }
-
 
   template class Occupancy<2>;
   template class Occupancy<3>;

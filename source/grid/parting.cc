@@ -271,16 +271,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  bool
-  Parting<dim>::are_linked(const GridCellPart &a, const GridCellPart &b) const
-  {
-    if (!is_contested(a.first) && !is_contested(b.first))
-      return true;
-    return a == b ||
-           std::binary_search(links.begin(), links.end(), std::make_pair(a, b));
-  }
-
 
   template <int dim>
   unsigned int

@@ -370,18 +370,6 @@ namespace Morula
   }
 
   template <int dim>
-  bool
-  SplineCopies<dim>::is_used(const SplineCopy &copy) const
-  {
-    if (is_own(copy))
-      return true;
-    for (const unsigned int node : nodes_of(copy))
-      if (own[nodes.grid_cell(node)])
-        return true;
-    return false;
-  }
-
-  template <int dim>
   unsigned int
   SplineCopies<dim>::find_parts()
   {

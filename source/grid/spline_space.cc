@@ -107,17 +107,6 @@ namespace Morula
     return copies.at(neighbor(occupancy_.nodes().index(node), a), node);
   }
 
-  template <int dim>
-  std::vector<unsigned int>
-  SplineSpace<dim>::own_unknowns() const
-  {
-    std::vector<unsigned int> own;
-    for (unsigned int c = 0; c < copies.list().size(); ++c)
-      if (copies.is_own(copies.list()[c]) && is_unknown(copies.list()[c]))
-        own.push_back(c);
-    return own;
-  }
-
   /** Unknowns of other ranks that this rank's grid cells need. */
   template <int dim>
   std::vector<unsigned int>
@@ -307,18 +296,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  unsigned int
-  SplineSpace<dim>::piece(const unsigned int number,
-                          const unsigned int part) const
-  {
-    if (!bodies.empty())
-      return first_piece[part] + bodies[part].piece(number);
-    return copies.piece(
-      occupancy_.nodes().node(box().index(number), is_parted() ? part : 0));
-  }
-
-
 
   namespace
   {
@@ -435,18 +412,6 @@ namespace Morula
     return found - grid_cells_.begin();
   }
 
-
-  template <int dim>
-  void
-  SplineSpace<dim>::add_relevant(const IndexSet &unknowns)
-  {
-    const IndexSet before = relevant_;
-    relevant_.add_indices(unknowns);
-    relevant_.compress();
-    for (GridCell &grid_cell : grid_cells_)
-      for (unsigned int &unknown : grid_cell.unknowns)
-        unknown = relevant_.index_within_set(before.nth_index_in_set(unknown));
-  }
 
 
   template <int dim>

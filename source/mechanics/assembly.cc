@@ -358,18 +358,6 @@ namespace Morula
   }
 
   template <int dim, int n_components>
-  void
-  MatrixScatter<dim, n_components>::clear()
-  {
-    int    *offsets, *columns;
-    double *values;
-    matrix.trilinos_matrix().ExtractCrsDataPointers(offsets, columns, values);
-    std::fill(values, values + matrix.trilinos_matrix().NumMyNonzeros(), 0.);
-    for (auto &[rank, values] : sent)
-      std::fill(values.begin(), values.end(), 0.);
-  }
-
-  template <int dim, int n_components>
   std::map<unsigned int, std::vector<double>>
   MatrixScatter<dim, n_components>::exchange() const
   {

@@ -330,19 +330,6 @@ namespace Morula
   }
 
   template <int dim>
-  VolumeMean<dim>
-  InternalForce<dim>::with_points(VolumeMean<dim>        mean,
-                                  const unsigned int     grid_cell,
-                                  const LocalField<dim> &field,
-                                  const GrowthAt         growth) const
-  {
-    // The mean is all that is wanted of this loop over the points.
-    LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
-    add_forces(grid_cell, field, growth, &mean, unused);
-    return mean;
-  }
-
-  template <int dim>
   void
   InternalForce<dim>::add_tangent_of_grid_cell(const unsigned int     grid_cell,
                                                const LocalField<dim> &field,

@@ -78,42 +78,6 @@ namespace Morula
   }
 
   template <int dim>
-  Equilibrium::Evaluation
-  MomentumBalance<dim>::residual_and_magnitude(const Vector &u,
-                                               Vector       &R,
-                                               double       &magnitude) const
-  {
-    Vector           magnitudes;
-    const Evaluation evaluation = evaluate(u, R, &magnitudes);
-    magnitude = magnitudes.size() == 0 ? 0. : magnitudes.l2_norm();
-    return evaluation;
-  }
-
-  template <int dim>
-  double
-  MomentumBalance<dim>::residual_magnitude(const Vector &u) const
-  {
-    Vector R(u);
-    double magnitude;
-    residual_and_magnitude(u, R, magnitude);
-    return magnitude;
-  }
-
-  template <int dim>
-  Equilibrium::Evaluation
-  MomentumBalance<dim>::evaluate(const Vector &u,
-                                 Vector       &R,
-                                 Vector       *magnitudes) const
-  {
-    // The content of a lumen follows from the volume at u, which an inverted
-    // state does not have.
-    Evaluation evaluation = sum_up(u, R, magnitudes);
-    if (enclosure != nullptr && std::isfinite(evaluation.energy))
-      add_content(u, evaluation, R, magnitudes);
-    return evaluation;
-  }
-
-  template <int dim>
   std::pair<double, double>
   MomentumBalance<dim>::gain(const Vector &u,
                              Vector       &derivative,
@@ -288,16 +252,6 @@ namespace Morula
     return result;
   }
 
-  template <int dim>
-  NewtonScales
-  MomentumBalance<dim>::scales(const double youngs_modulus) const
-  {
-    const double h = space.box().spacing();
-    // A force on the face of a grid cell counts as small at a millionth of
-    // Young's modulus: doc/theory.md (5.3).
-    return {1e-6 * youngs_modulus * std::pow(h, dim - 1), h};
-  }
-
 
 
   namespace
@@ -372,20 +326,6 @@ namespace Morula
   MomentumBalance<dim>::smallest_J(const Evaluation &evaluation) const
   {
     return best_of_ranks(evaluation.smallest_J, std::less<double>(), comm);
-  }
-
-  template <int dim>
-  bool
-  MomentumBalance<dim>::is_far_from(const Vector &begin, const Vector &u) const
-  {
-    // Tissue that is squeezed to less than this part of its volume within a
-    // step has left the range in which Newton's method converges from the old
-    // state.
-    constexpr double least_J = 0.3;
-    Vector           moved(u), R(u);
-    moved -= begin;
-    return moved.linfty_norm() > space.box().spacing() ||
-           smallest_J(residual(u, R)).value < least_J;
   }
 
   template <int dim>

@@ -198,19 +198,6 @@ namespace Morula
   }
 
   template <int dim>
-  RigidModes<dim>::RigidModes(const SplineSpace<dim>     &space,
-                              const std::vector<Mass>    &masses,
-                              const std::vector<Support> &supports,
-                              const MPI_Comm              comm)
-    : space(space)
-    , comm(comm)
-    , pieces(space.n_pieces())
-  {
-    find_centers(masses);
-    find_free_modes(supports);
-  }
-
-  template <int dim>
   void
   RigidModes<dim>::find_centers(const std::vector<Mass> &masses)
   {

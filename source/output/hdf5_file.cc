@@ -212,16 +212,6 @@ namespace Morula
   }
 
 
-  void
-  Hdf5File::write_of_root(const std::string &name,
-                          const hid_t        type,
-                          const hsize_t      n,
-                          const void        *values)
-  {
-    const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
-    write_dataset(name, type, {n}, 0, root ? n : 0, values);
-  }
-
 
   void
   Hdf5File::write_rows(const std::string &name,
@@ -324,16 +314,6 @@ namespace Morula
     return Utilities::MPI::min(good ? 1 : 0, comm) == 1;
   }
 
-  std::string
-  Hdf5File::reason() const
-  {
-    for (const std::string &text :
-         Utilities::MPI::all_gather(comm, first_error))
-      if (!text.empty())
-        return text;
-    return "";
-  }
-
   void
   Hdf5File::read_attribute(const std::string &group,
                            const std::string &name,
@@ -411,16 +391,6 @@ namespace Morula
     std::vector<hsize_t> size(check(H5Sget_simple_extent_ndims(space), what));
     check(H5Sget_simple_extent_dims(space, size.data(), nullptr), what);
     return size;
-  }
-
-  hsize_t
-  Hdf5File::length(const std::string &name) const
-  {
-    const std::vector<hsize_t> n = size(name);
-    if (n.size() != 1)
-      throw std::runtime_error("cannot read the data set '" + name +
-                               "' as a vector");
-    return n[0];
   }
 
 

@@ -221,13 +221,6 @@ namespace Morula
   }
 
   void
-  Progress::step(const StepReport &report)
-  {
-    time_left.add(report.time, report.wall_seconds);
-    message(progress_line(report, end_time, time_left.seconds()));
-  }
-
-  void
   Progress::fail(const std::string &text) noexcept
   {
     try

@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/output/rows.h>
 
-#include <stdexcept>
 #include <tuple>
 
 namespace Morula
@@ -35,15 +34,6 @@ namespace Morula
         row.add(name + '_' + "xyz"[d], vector[d]);
     }
   } // namespace
-
-  double &
-  StatisticsRow::of_effect(const std::string &name)
-  {
-    for (auto &column : of_effects)
-      if (column.first == name)
-        return column.second;
-    throw std::out_of_range("No effect has a column " + name + '.');
-  }
 
   TableRow
   statistics_row(const StatisticsRow &row)

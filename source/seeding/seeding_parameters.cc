@@ -190,13 +190,6 @@ namespace Morula
     }
   } // namespace
 
-  bool
-  TissueParameters::has_size(const unsigned int d) const
-  {
-    return shape == "box" || shape == "ellipsoid" ||
-           (shape == "cylinder" && d == 2); // its axis
-  }
-
   void
   TissueParameters::check(const unsigned int dim) const
   {

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -168,15 +167,6 @@ namespace Morula
       return result;
     }
   } // namespace
-
-  double
-  ConditionEstimate::condition() const
-  {
-    const double least =
-      std::numeric_limits<double>::epsilon() * std::abs(largest);
-    return largest > 0. ? largest / std::max(smallest, least) :
-                          1. / std::numeric_limits<double>::epsilon();
-  }
 
   ConditionEstimate
   estimate_condition(Equilibrium         &problem,

@@ -94,15 +94,6 @@ namespace Morula
               parameters);
   }
 
-  int
-  OverlappingCholesky::number_of(const types::global_dof_index row) const
-  {
-    // Own rows come last in the block.
-    if (own.is_element(row))
-      return others.n_elements() + own.index_within_set(row);
-    return others.is_element(row) ? others.index_within_set(row) : -1;
-  }
-
   OverlappingCholesky::ReceivedRows
   OverlappingCholesky::receive(const Epetra_CrsMatrix &K,
                                const unsigned int      n_components) const
@@ -313,15 +304,6 @@ namespace Morula
       diagonal(row) = std::abs(K.diag_element(row));
     diagonal.compress(VectorOperation::insert);
     return diagonal;
-  }
-
-  Jacobi::Jacobi(const Vector &magnitude, const double shift)
-    : inverse(magnitude)
-  {
-    for (const auto row : inverse.locally_owned_elements())
-      inverse(row) =
-        magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
-    inverse.compress(VectorOperation::insert);
   }
 
 

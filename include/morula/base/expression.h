@@ -118,15 +118,36 @@ namespace Morula
 
     /** Name of a variable. */
     std::string
-    name_of(const Variable variable) const;
+    name_of(const Variable variable) const
+    {
+      return is_field(variable) ? fields[field_number(variable)] :
+                                  Morula::name_of(variable);
+    }
+
 
     /** All variables, the fields last. */
     std::vector<Variable>
-    all_variables() const;
+    all_variables() const
+    {
+      // Fields are variables with numbers behind all others.
+      std::vector<Variable> all = variables;
+      for (unsigned int k = 0; k < fields.size(); ++k)
+        all.push_back(field_variable(k));
+      return all;
+    }
+
 
     /** The names, separated by blanks. */
     std::string
-    names() const;
+    names() const
+    {
+      std::string text;
+      for (const Variable variable : all_variables())
+        text += (text.empty() ? "" : ", ") + name_of(variable);
+      for (const auto &[name, value] : constants)
+        text += ", " + name;
+      return text;
+    }
   };
 
   /** X, Y, Z and t: the variables that every place has at every time. */

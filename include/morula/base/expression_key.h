@@ -7,6 +7,9 @@
 #include <morula/base/expression.h>
 #include <morula/base/key.h>
 
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -82,16 +85,34 @@ namespace Morula
 
     /** Takes other text; it is parsed when it is next needed. */
     ExpressionKey &
-    operator=(const std::string &text);
+    operator=(const std::string &text)
+    {
+      text_ = text;
+      parsed.reset();
+      return *this;
+    }
+
 
     /** Takes a number. */
     ExpressionKey &
-    operator=(const double number);
+    operator=(const double number)
+    {
+      return *this = Patterns::Tools::to_string(number);
+    }
+
 
     /** The largest of the plain numbers that it has for the types of cells;
      *  none if there are only expressions. */
     std::optional<double>
-    largest_number(const unsigned int dim) const;
+    largest_number(const unsigned int dim) const
+    {
+      const Expression     &of_all  = expression(dim);
+      std::optional<double> largest = of_all.number();
+      for (const auto &[type, own] : of_all.types())
+        largest = std::max(largest, own.number());
+      return largest;
+    }
+
 
     /** When it is evaluated. */
     Evaluated

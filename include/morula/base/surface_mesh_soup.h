@@ -6,6 +6,7 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <string>
@@ -38,7 +39,15 @@ namespace Morula
 
     /** How often each edge belongs to a polygon; 2 if the surface is closed. */
     std::map<std::pair<std::size_t, std::size_t>, unsigned int>
-    edges() const;
+    edges() const
+    {
+      std::map<std::pair<std::size_t, std::size_t>, unsigned int> found;
+      for (const std::vector<std::size_t> &polygon : polygons)
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+          ++found[std::minmax(polygon[i], polygon[(i + 1) % polygon.size()])];
+      return found;
+    }
+
 
     const std::string                     key, name;
     std::vector<Kernel::Point_3>          points;

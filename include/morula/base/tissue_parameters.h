@@ -173,7 +173,12 @@ namespace Morula
 
     /** Whether Size is an extent of the shape in direction @p d. */
     bool
-    has_size(const unsigned int d) const;
+    has_size(const unsigned int d) const
+    {
+      return shape == "box" || shape == "ellipsoid" ||
+             (shape == "cylinder" && d == 2); // its axis
+    }
+
 
     /** Whether the cells fill a closed surface from a file. */
     bool

@@ -11,6 +11,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -59,13 +60,32 @@ namespace Morula
       CellIterator cell;   // of the triangulation
     };
 
-    BackgroundGrid(const GridParameters &parameters, const MPI_Comm comm);
+    BackgroundGrid(const GridParameters &parameters, const MPI_Comm comm)
+      : comm(comm)
+      , h(parameters.spacing)
+      , tria(comm)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        offset[d] = parameters.offset.value()[d];
+      box_ = GridBox<dim>({}, {}, h, offset);
+    }
+
 
     /**
      * Whether the grid cells first...last and their neighbours lie in the box.
      */
     bool
-    covers(const GridIndex<dim> &first, const GridIndex<dim> &last) const;
+    covers(const GridIndex<dim> &first, const GridIndex<dim> &last) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        // The neighbours of tissue must be in the box, too: splines stand on
+        // them.
+        if (first[d] - 1 < box_.first()[d] ||
+            last[d] + 1 >= box_.first()[d] + box_.n()[d])
+          return false;
+      return true;
+    }
+
 
     /**
      * Makes the triangulation for tissue in the grid cells first...last, with
@@ -120,7 +140,18 @@ namespace Morula
 
     /** Rank that owns a grid cell of the box. */
     unsigned int
-    owner(const GridIndex<dim> &index) const;
+    owner(const GridIndex<dim> &index) const
+    {
+      if (first_keys.empty())
+        return 0;
+      // The owner is the last rank whose first key is not behind that of the
+      // grid cell.
+      return std::upper_bound(first_keys.begin(),
+                              first_keys.end(),
+                              key(index)) -
+             first_keys.begin() - 1;
+    }
+
 
     /** This rank's grid cells of the box, in the order of their numbers. */
     const std::vector<OwnedGridCell> &

@@ -9,6 +9,7 @@
 #include <morula/grid/grid_box.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -24,15 +25,37 @@ namespace Morula
 
     /** Whether there is no grid cell in it. */
     bool
-    empty() const;
+    empty() const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (first[d] > last[d])
+          return true;
+      return false;
+    }
+
 
     /** Whether the grid cell is one of them. */
     bool
-    contains(const GridIndex<dim> &index) const;
+    contains(const GridIndex<dim> &index) const
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (index[d] < first[d] || index[d] > last[d])
+          return false;
+      return true;
+    }
+
 
     /** Makes it the smallest that holds the other one, too. */
     void
-    unite(const GridRange &other);
+    unite(const GridRange &other)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          first[d] = std::min(first[d], other.first[d]);
+          last[d]  = std::max(last[d], other.last[d]);
+        }
+    }
+
 
     /** The range, with @p rings more grid cells on all sides but inside of @p
      *  box. */
@@ -42,7 +65,17 @@ namespace Morula
     /** Layers of grid cells between the two; 0 if they touch, less if they
      *  have grid cells in common. */
     int
-    gap(const GridRange &other) const;
+    gap(const GridRange &other) const
+    {
+      // The largest distance of any direction: two boxes touch only if they
+      // touch in all of them.
+      int largest = std::numeric_limits<int>::lowest();
+      for (unsigned int d = 0; d < dim; ++d)
+        largest = std::max({largest,
+                            first[d] - other.last[d] - 1,
+                            other.first[d] - last[d] - 1});
+      return largest;
+    }
   };
 
   /**
@@ -85,7 +118,17 @@ namespace Morula
     /** Takes half as many rings more, where a rank wants to look farther.
      *  @param here whether this one does. Collective. */
     void
-    widen(const bool here);
+    widen(const bool here)
+    {
+      if (alone)
+        return; // knows all
+      // Only ranks that asked get wider windows, but all make theirs anew,
+      // since their neighbours' windows have changed.
+      if (here)
+        rings += rings / 2;
+      make();
+    }
+
 
     /** Number of grid cells. */
     unsigned int
@@ -260,7 +303,15 @@ namespace Morula
 
     /** Whether one of the ranges contains the grid cell. */
     static bool
-    is_in(const Ranges &ranges, const GridIndex<dim> &index);
+    is_in(const Ranges &ranges, const GridIndex<dim> &index)
+    {
+      return std::any_of(ranges.begin(),
+                         ranges.end(),
+                         [&](const GridRange<dim> &range) {
+                           return range.contains(index);
+                         });
+    }
+
 
     /** Grid cells of other ranks that splines of this rank's points may stand
      *  on, by owner. */

@@ -7,6 +7,7 @@
 #include <morula/grid/grid_box.h>
 #include <morula/grid/grid_contents.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -243,7 +244,15 @@ namespace Morula
     /** Whether the grid cell of @p x holds more than 4^dim boundary points,
      *  which is more than a surface needs. @p x may lie outside the box. */
     bool
-    crowded(const Point<dim> &x) const;
+    crowded(const Point<dim> &x) const
+    {
+      const GridBox<dim>  &whole = window().whole();
+      const GridIndex<dim> index = whole.locate(x);
+      return whole.contains(index) && std::binary_search(crowded_.begin(),
+                                                         crowded_.end(),
+                                                         whole.number(index));
+    }
+
 
   private:
     void

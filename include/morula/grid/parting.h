@@ -105,7 +105,15 @@ namespace Morula
     /** Whether two parts, of one grid cell or of two that touch, are linked. A
      *  part is linked with itself. */
     bool
-    are_linked(const GridCellPart &a, const GridCellPart &b) const;
+    are_linked(const GridCellPart &a, const GridCellPart &b) const
+    {
+      if (!is_contested(a.first) && !is_contested(b.first))
+        return true;
+      return a == b || std::binary_search(links.begin(),
+                                          links.end(),
+                                          std::make_pair(a, b));
+    }
+
 
     /** The part of a grid cell that a cell belongs to. */
     unsigned int

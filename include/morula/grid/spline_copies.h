@@ -156,7 +156,16 @@ namespace Morula
              const BackgroundGrid<dim>        &grid);
     /** Whether this rank's grid cells or splines need the copy. */
     bool
-    is_used(const SplineCopy &copy) const;
+    is_used(const SplineCopy &copy) const
+    {
+      if (is_own(copy))
+        return true;
+      for (const unsigned int node : nodes_of(copy))
+        if (own[nodes.grid_cell(node)])
+          return true;
+      return false;
+    }
+
     /** Connects grid cells by the copies that this rank uses. @return number
      *  of parts, which stand in `pieces` */
     unsigned int

@@ -119,7 +119,17 @@ namespace Morula
     /** Makes unknowns of other ranks relevant. The places of all unknowns in
      *  relevant() change. */
     void
-    add_relevant(const IndexSet &unknowns);
+    add_relevant(const IndexSet &unknowns)
+    {
+      const IndexSet before = relevant_;
+      relevant_.add_indices(unknowns);
+      relevant_.compress();
+      for (GridCell &grid_cell : grid_cells_)
+        for (unsigned int &unknown : grid_cell.unknowns)
+          unknown =
+            relevant_.index_within_set(before.nth_index_in_set(unknown));
+    }
+
 
     /** This rank's active grid cells in the order of their numbers, then of
      *  their parts. */
@@ -172,7 +182,14 @@ namespace Morula
     /** The piece of an active grid cell of this rank, by its number in the
      *  grid's box, and of one of the parts there; see SplineCopies. */
     unsigned int
-    piece(const unsigned int number, const unsigned int part = 0) const;
+    piece(const unsigned int number, const unsigned int part = 0) const
+    {
+      if (!bodies.empty())
+        return first_piece[part] + bodies[part].piece(number);
+      return copies.piece(
+        occupancy_.nodes().node(box().index(number), is_parted() ? part : 0));
+    }
+
 
     unsigned int
     n_pieces() const
@@ -235,7 +252,15 @@ namespace Morula
 
     /** Copies that are unknowns of this rank. */
     std::vector<unsigned int>
-    own_unknowns() const;
+    own_unknowns() const
+    {
+      std::vector<unsigned int> own;
+      for (unsigned int c = 0; c < copies.list().size(); ++c)
+        if (copies.is_own(copies.list()[c]) && is_unknown(copies.list()[c]))
+          own.push_back(c);
+      return own;
+    }
+
 
     std::vector<unsigned int>
     copies_of_others() const;

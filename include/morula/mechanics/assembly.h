@@ -12,6 +12,7 @@
 #include <Epetra_CrsGraph.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -55,7 +56,16 @@ namespace Morula
 
     /** Makes all entries zero. */
     void
-    clear();
+    clear()
+    {
+      int    *offsets, *columns;
+      double *values;
+      matrix.trilinos_matrix().ExtractCrsDataPointers(offsets, columns, values);
+      std::fill(values, values + matrix.trilinos_matrix().NumMyNonzeros(), 0.);
+      for (auto &[rank, values] : sent)
+        std::fill(values.begin(), values.end(), 0.);
+    }
+
 
     /** Adds what was added to other ranks' rows to these. Neighbours exchange
      *  it. */

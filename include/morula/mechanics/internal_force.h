@@ -217,7 +217,14 @@ namespace Morula
     with_points(VolumeMean<dim>        mean,
                 const unsigned int     grid_cell,
                 const LocalField<dim> &field,
-                const GrowthAt         growth) const;
+                const GrowthAt         growth) const
+    {
+      // The mean is all that is wanted of this loop over the points.
+      LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
+      add_forces(grid_cell, field, growth, &mean, unused);
+      return mean;
+    }
+
 
     /** The mean over the points of a grid cell. */
     VolumeMean<dim>

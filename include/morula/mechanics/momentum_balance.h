@@ -13,6 +13,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -80,12 +81,26 @@ namespace Morula
     }
 
     double
-    residual_magnitude(const Vector &u) const override;
+    residual_magnitude(const Vector &u) const override
+    {
+      Vector R(u);
+      double magnitude;
+      residual_and_magnitude(u, R, magnitude);
+      return magnitude;
+    }
+
 
     Evaluation
     residual_and_magnitude(const Vector &u,
                            Vector       &R,
-                           double       &magnitude) const override;
+                           double       &magnitude) const override
+    {
+      Vector           magnitudes;
+      const Evaluation evaluation = evaluate(u, R, &magnitudes);
+      magnitude = magnitudes.size() == 0 ? 0. : magnitudes.l2_norm();
+      return evaluation;
+    }
+
 
     /** The smallest J_e of an evaluation over all ranks. Collective. */
     Extreme
@@ -99,7 +114,18 @@ namespace Morula
      *  step is plainly too long: it moves the tissue by more than a grid
      * spacing, or squeezes some of it below 0.3 of its volume. Collective. */
     bool
-    is_far_from(const Vector &begin, const Vector &u) const;
+    is_far_from(const Vector &begin, const Vector &u) const
+    {
+      // Tissue that is squeezed to less than this part of its volume within a
+      // step has left the range in which Newton's method converges from the old
+      // state.
+      constexpr double least_J = 0.3;
+      Vector           moved(u), R(u);
+      moved -= begin;
+      return moved.linfty_norm() > space.box().spacing() ||
+             smallest_J(residual(u, R)).value < least_J;
+    }
+
 
     /** Describes the state u to the user if Newton's method fails there:
      *  extreme values and their places. Collective. */
@@ -145,13 +171,29 @@ namespace Morula
     /** The scales with which Newton's method compares; @p youngs_modulus is a
      *  typical one (kPa): doc/theory.md (5.3). */
     NewtonScales
-    scales(const double youngs_modulus) const;
+    scales(const double youngs_modulus) const
+    {
+      const double h = space.box().spacing();
+      // A force on the face of a grid cell counts as small at a millionth of
+      // Young's modulus: doc/theory.md (5.3).
+      return {1e-6 * youngs_modulus * std::pow(h, dim - 1), h};
+    }
+
 
   private:
     /** The functions below that get @p magnitudes also find the magnitudes of
      *  what is added up, if the pointer is not null. */
     Evaluation
-    evaluate(const Vector &u, Vector &R, Vector *magnitudes) const;
+    evaluate(const Vector &u, Vector &R, Vector *magnitudes) const
+    {
+      // The content of a lumen follows from the volume at u, which an inverted
+      // state does not have.
+      Evaluation evaluation = sum_up(u, R, magnitudes);
+      if (enclosure != nullptr && std::isfinite(evaluation.energy))
+        add_content(u, evaluation, R, magnitudes);
+      return evaluation;
+    }
+
 
     /** The terms' part of evaluate(). */
     Evaluation

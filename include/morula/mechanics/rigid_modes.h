@@ -49,7 +49,15 @@ namespace Morula
     RigidModes(const SplineSpace<dim>     &space,
                const std::vector<Mass>    &masses,
                const std::vector<Support> &supports,
-               const MPI_Comm              comm);
+               const MPI_Comm              comm)
+      : space(space)
+      , comm(comm)
+      , pieces(space.n_pieces())
+    {
+      find_centers(masses);
+      find_free_modes(supports);
+    }
+
 
     /** Whether any piece has an unsupported rigid motion. */
     bool

@@ -4,10 +4,13 @@
 #ifndef morula_output_hdf5_file_h
 #define morula_output_hdf5_file_h
 
+#include <deal.II/base/mpi.h>
+
 #include <hdf5.h>
 #include <mpi.h>
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -92,7 +95,15 @@ namespace Morula
 
     /** Why it has not, in the library's words; empty if it does not say. */
     std::string
-    reason() const;
+    reason() const
+    {
+      for (const std::string &text :
+           Utilities::MPI::all_gather(comm, first_error))
+        if (!text.empty())
+          return text;
+      return "";
+    }
+
 
     /** The value of an attribute of a group. */
     template <typename T>
@@ -183,7 +194,12 @@ namespace Morula
     write_of_root(const std::string &name,
                   const hid_t        type,
                   const hsize_t      n,
-                  const void        *values);
+                  const void        *values)
+    {
+      const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
+      write_dataset(name, type, {n}, 0, root ? n : 0, values);
+    }
+
 
     void
     write_rows(const std::string &name,
@@ -208,7 +224,15 @@ namespace Morula
 
     /** Of a vector. */
     hsize_t
-    length(const std::string &name) const;
+    length(const std::string &name) const
+    {
+      const std::vector<hsize_t> n = size(name);
+      if (n.size() != 1)
+        throw std::runtime_error("cannot read the data set '" + name +
+                                 "' as a vector");
+      return n[0];
+    }
+
 
     /** How many values the rows have, which must be there. */
     std::size_t

@@ -156,7 +156,12 @@ namespace Morula
 
     /** Reports an accepted step. */
     void
-    step(const StepReport &report);
+    step(const StepReport &report)
+    {
+      time_left.add(report.time, report.wall_seconds);
+      message(progress_line(report, end_time, time_left.seconds()));
+    }
+
 
     /** Shows and logs the summary of a run that has come to its end. */
     void

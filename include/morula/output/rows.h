@@ -24,6 +24,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -280,7 +281,14 @@ namespace Morula
 
     /** A column of the effects. @throws std::out_of_range */
     double &
-    of_effect(const std::string &name);
+    of_effect(const std::string &name)
+    {
+      for (auto &column : of_effects)
+        if (column.first == name)
+          return column.second;
+      throw std::out_of_range("No effect has a column " + name + '.');
+    }
+
     double
     of_effect(const std::string &name) const
     {

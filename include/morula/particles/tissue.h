@@ -13,6 +13,7 @@
 #include <morula/particles/point_store.h>
 
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -263,7 +264,18 @@ namespace Morula
             PointList<dim>        boundary_points,
             const GridIndex<dim> &first,
             const GridIndex<dim> &n,
-            const GridCellCounts &weights);
+            const GridCellCounts &weights)
+    {
+      // Box and partition come from the snapshot rather than from the points: a
+      // run that was not stopped has these, and its sums depend on them.
+      grid_.make(first, n);
+      grid_.partition(weights);
+      cells_.attach(grid_);
+      boundary_points_.attach(grid_);
+      cells_.insert(std::move(cells), grid_);
+      boundary_points_.insert(std::move(boundary_points), grid_);
+    }
+
 
     /** Removes mothers, given by their positions in cells(), and inserts
      *  daughters. Collective. */
@@ -330,7 +342,12 @@ namespace Morula
     /** The same, as if all points belonged to one body that is not parted.
      *  Collective. */
     SplineSpace<dim>
-    unparted_splines(const bool share_points = false) const;
+    unparted_splines(const bool share_points = false) const
+    {
+      return splines_around([](const unsigned int) { return true; },
+                            share_points);
+    }
+
 
     const BackgroundGrid<dim> &
     grid() const

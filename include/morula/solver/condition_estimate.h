@@ -6,7 +6,10 @@
 
 #include <morula/mechanics/equilibrium.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace Morula
 {
@@ -24,7 +27,13 @@ namespace Morula
     /** Their ratio, at most 1/ε: beyond that a matrix cannot be told from a
      *  singular one. An indefinite matrix has that value, too. */
     double
-    condition() const;
+    condition() const
+    {
+      const double least =
+        std::numeric_limits<double>::epsilon() * std::abs(largest);
+      return largest > 0. ? largest / std::max(smallest, least) :
+                            1. / std::numeric_limits<double>::epsilon();
+    }
   };
 
   /**

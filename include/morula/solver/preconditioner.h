@@ -69,7 +69,14 @@ namespace Morula
     /** Number of a row in this rank's block, -1 if it is not there: own ones
      *  come last. */
     int
-    number_of(const types::global_dof_index row) const;
+    number_of(const types::global_dof_index row) const
+    {
+      // Own rows come last in the block.
+      if (own.is_element(row))
+        return others.n_elements() + own.index_within_set(row);
+      return others.is_element(row) ? others.index_within_set(row) : -1;
+    }
+
 
     ReceivedRows
     receive(const Epetra_CrsMatrix &K, const unsigned int n_components) const;
@@ -136,7 +143,15 @@ namespace Morula
     using Vector = Equilibrium::Vector;
 
     /** @param magnitude |diag K| */
-    Jacobi(const Vector &magnitude, const double shift);
+    Jacobi(const Vector &magnitude, const double shift)
+      : inverse(magnitude)
+    {
+      for (const auto row : inverse.locally_owned_elements())
+        inverse(row) =
+          magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
+      inverse.compress(VectorOperation::insert);
+    }
+
 
     /** No communication. */
     void

@@ -373,7 +373,8 @@ namespace Morula
       return result;
     const std::size_t n = tissue.cells().size();
     if (keeps_rows)
-      result.rows.resize(n * columns_.n_numbers());
+      // let_live() appends them: memory of that size is not written twice.
+      result.rows.reserve(n * columns_.n_numbers());
     if (grows())
       {
         result.previous.resize(n);
@@ -465,10 +466,11 @@ namespace Morula
           PresentCell<dim>(after, cells.id(p), cells.position(p), after_step)
             .lame();
       }
-    if (keeps_rows)
-      std::copy(row.begin(),
-                row.end(),
-                result.rows.begin() + std::size_t(p) * columns_.n_numbers());
+    const std::size_t place = std::size_t(p) * row.size();
+    if (keeps_rows && place == result.rows.size())
+      result.rows.insert(result.rows.end(), row.begin(), row.end());
+    else if (keeps_rows)
+      std::copy(row.begin(), row.end(), result.rows.begin() + place);
   }
 
 

@@ -48,6 +48,18 @@ namespace Morula
 
   template <int dim>
   void
+  PointStore<dim>::insert(PointList<dim>             points,
+                          const BackgroundGrid<dim> &grid)
+  {
+    // A rank without points may not have set n_numbers.
+    if (points.size() == 0)
+      points.n_numbers = n_numbers;
+    points = send_to_owners(std::move(points), grid);
+    insert_own(points, grid);
+  }
+
+  template <int dim>
+  void
   PointStore<dim>::insert_own(const PointList<dim>      &points,
                               const BackgroundGrid<dim> &grid)
   {
@@ -107,6 +119,31 @@ namespace Morula
             }
       }
     replace(left, leaving, grid);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::take_out(const std::vector<unsigned int> &removed)
+  {
+    // One call removes all: deal.II counts the points of all ranks in each.
+    std::vector<Iterator> particles;
+    particles.reserve(removed.size());
+    for (const unsigned int p : removed)
+      particles.push_back(order[p]);
+    handler.remove_particles(particles);
+  }
+
+  template <int dim>
+  void
+  PointStore<dim>::reserve(const std::size_t n)
+  {
+    // deal.II's pool would double its memory when it is full, and for a moment
+    // hold three times what a growing tissue needs. An eighth more than needed
+    // is enough, as what is not used yet takes no memory.
+    if (n <= capacity)
+      return;
+    capacity = n + n / 8;
+    handler.get_property_pool().reserve(capacity);
   }
 
   template <int dim>

@@ -144,6 +144,24 @@ namespace Morula
 
   template <int dim>
   void
+  Tissue<dim>::restore(PointList<dim>        cells,
+                       PointList<dim>        boundary_points,
+                       const GridIndex<dim> &first,
+                       const GridIndex<dim> &n,
+                       const GridCellCounts &weights)
+  {
+    // Box and partition come from the snapshot rather than from the points: a
+    // run that was not stopped has these, and its sums depend on them.
+    grid_.make(first, n);
+    grid_.partition(weights);
+    cells_.attach(grid_);
+    boundary_points_.attach(grid_);
+    cells_.insert(std::move(cells), grid_);
+    boundary_points_.insert(std::move(boundary_points), grid_);
+  }
+
+  template <int dim>
+  void
   Tissue<dim>::replace(const std::vector<unsigned int> &mothers,
                        const PointList<dim>            &daughters)
   {
@@ -202,6 +220,14 @@ namespace Morula
     for (unsigned int p = 0; p < boundary_points_.size(); ++p)
       parts.push_back(parting_->part_of_patch(boundary_points_.id(p)));
     boundary_points_.set_parts(parts, grid_);
+  }
+
+  template <int dim>
+  SplineSpace<dim>
+  Tissue<dim>::unparted_splines(const bool share_points) const
+  {
+    return splines_around([](const unsigned int) { return true; },
+                          share_points);
   }
 
 

@@ -11,7 +11,6 @@
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/particles/particle_handler.h>
 
-#include <utility>
 #include <vector>
 
 namespace Morula
@@ -68,15 +67,7 @@ namespace Morula
      * its grid cell. Collective.
      */
     void
-    insert(PointList<dim> points, const BackgroundGrid<dim> &grid)
-    {
-      // A rank without points may not have set n_numbers.
-      if (points.size() == 0)
-        points.n_numbers = n_numbers;
-      points = send_to_owners(std::move(points), grid);
-      insert_own(points, grid);
-    }
-
+    insert(PointList<dim> points, const BackgroundGrid<dim> &grid);
 
     /**
      * Moves the points of this rank to these positions (µm), in order; those
@@ -304,30 +295,11 @@ namespace Morula
 
     /** Removes points, after which order is not valid. Collective. */
     void
-    take_out(const std::vector<unsigned int> &removed)
-    {
-      // One call removes all: deal.II counts the points of all ranks in each.
-      std::vector<Iterator> particles;
-      particles.reserve(removed.size());
-      for (const unsigned int p : removed)
-        particles.push_back(order[p]);
-      handler.remove_particles(particles);
-    }
-
+    take_out(const std::vector<unsigned int> &removed);
 
     /** Makes room for @p n points. */
     void
-    reserve(const std::size_t n)
-    {
-      // deal.II's pool would double its memory when it is full, and for a
-      // moment hold three times what a growing tissue needs. An eighth more
-      // than needed is enough, as what is not used yet takes no memory.
-      if (n <= capacity)
-        return;
-      capacity = n + n / 8;
-      handler.get_property_pool().reserve(capacity);
-    }
-
+    reserve(const std::size_t n);
 
     const unsigned int         n_numbers;
     const Column<unsigned int> body_column, part_column;

@@ -13,7 +13,6 @@
 #include <morula/particles/point_store.h>
 
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace Morula
@@ -264,18 +263,7 @@ namespace Morula
             PointList<dim>        boundary_points,
             const GridIndex<dim> &first,
             const GridIndex<dim> &n,
-            const GridCellCounts &weights)
-    {
-      // Box and partition come from the snapshot rather than from the points: a
-      // run that was not stopped has these, and its sums depend on them.
-      grid_.make(first, n);
-      grid_.partition(weights);
-      cells_.attach(grid_);
-      boundary_points_.attach(grid_);
-      cells_.insert(std::move(cells), grid_);
-      boundary_points_.insert(std::move(boundary_points), grid_);
-    }
-
+            const GridCellCounts &weights);
 
     /** Removes mothers, given by their positions in cells(), and inserts
      *  daughters. Collective. */
@@ -342,12 +330,7 @@ namespace Morula
     /** The same, as if all points belonged to one body that is not parted.
      *  Collective. */
     SplineSpace<dim>
-    unparted_splines(const bool share_points = false) const
-    {
-      return splines_around([](const unsigned int) { return true; },
-                            share_points);
-    }
-
+    unparted_splines(const bool share_points = false) const;
 
     const BackgroundGrid<dim> &
     grid() const

@@ -263,23 +263,6 @@ TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
 }
 
 
-TEST(SceneWarnings, OfAMethodThatChangesNothing)
-{
-  Scene scene                                          = good_scene();
-  scene.method                                         = "paper";
-  scene.as_written["Boundary conditions/Nitsche form"] = "bounded";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "20";
-  expect_warning(scene, "Method = 'paper'");
-  // one of them has the method's value: a choice
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "1e3";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.method                                            = "consistent";
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "20";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-}
-
-
 TEST(SceneWarnings, OfFormerNames)
 {
   Scene scene   = good_scene();

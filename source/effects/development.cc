@@ -24,11 +24,17 @@ namespace Morula
     , material(material)
     , random_seed(random_seed)
   {
-    // Rows are kept from of_step() to commit() where an effect has columns of
-    // its own, an expression reads the state, or tissue flows. Otherwise a row
-    // costs more memory than its second computation costs time.
-    keeps_rows = !this->effects.with_state.empty() || state_.any_in_use() ||
-                 !this->effects.flows.empty();
+    // Rows are kept from of_step() to commit() where an effect besides the cell
+    // cycle has columns of its own, an expression reads the state, or tissue
+    // flows. Otherwise a row costs more memory than its second computation
+    // costs time.
+    const auto &with_state = this->effects.with_state;
+    keeps_rows             = std::any_of(with_state.begin(),
+                             with_state.end(),
+                             [this](const Effect<dim> *effect) {
+                               return effect != this->effects.proliferation;
+                             }) ||
+                 state_.any_in_use() || !this->effects.flows.empty();
     announces_growth = this->effects.law && divides() &&
                        this->effects.fates.dividing->follows_growth();
   }
@@ -81,7 +87,8 @@ namespace Morula
   CellDevelopment<dim>::is_held(const PresentCell<dim> &cell,
                                 const double            t) const
   {
-    return cycle() != nullptr &&
+    // Of most cells the phase is all that is read.
+    return has_checkpoint() && effects.proliferation->is_waiting(cell.cell()) &&
            cycle()->is_held(clock(cell.cell()),
                             CellAt<dim>(cell, t),
                             t,

@@ -385,10 +385,10 @@ namespace Morula
     if (material.depends_on_state())
       result.lame.resize(n);
     result.flow_shares.resize(n * effects.flows.size());
-    std::vector<double> row;
+    const CellReader<dim> reader = this->reader(t0, past);
     everywhere(tissue.communicator(), [&]() {
       for (unsigned int p = 0; p < n; ++p)
-        let_live(tissue, p, t0, t1, nullptr, row, result);
+        let_live(tissue, p, t1, reader, nullptr, result);
     });
     if (effects.neighbours)
       see_neighbours(tissue, t0, t1, result);
@@ -412,14 +412,14 @@ namespace Morula
                                       state_,
                                       *effects.neighbours,
                                       result.events);
-    std::vector<double>     row;
+    const CellReader<dim>   reader = this->reader(t0, result.past);
     while (histories.exchange())
       everywhere(tissue.communicator(), [&]() {
         for (const unsigned int p : histories.to_live_again())
           {
             result.events.clear();
             const TypesAround<dim> around = histories.around(p);
-            let_live(tissue, p, t0, t1, &around, row, result);
+            let_live(tissue, p, t1, reader, &around, result);
             histories.set(p, result.events);
           }
       });
@@ -431,24 +431,31 @@ namespace Morula
   void
   CellDevelopment<dim>::let_live(const Tissue<dim>      &tissue,
                                  const unsigned int      p,
-                                 const double            t0,
                                  const double            t1,
+                                 const CellReader<dim>  &reader,
                                  const TypesAround<dim> *around,
-                                 std::vector<double>    &row,
                                  DevelopmentOfStep<dim> &result) const
   {
-    // The row is only the place for a cell's next state, so that a loop over
-    // cells does not ask the heap. Stiffness that depends on the state is that
-    // of the cell with its new type and age, so it is read with the time of the
-    // end.
-    const Cells<dim>      &cells  = tissue.cells();
-    const CellReader<dim>  reader = this->reader(t0, result.past);
-    const auto             cell   = cells[p];
+    // The next state is written where it is kept; all cells share one row where
+    // it is not. Stiffness that depends on the state is that of the cell with
+    // its new type and age, so it is read with the time of the end.
+    const Cells<dim>      &cells = tissue.cells();
+    const auto             cell  = cells[p];
     const PresentCell<dim> before(cell, cells.id(p), cells.position(p), reader);
-    row.assign(cell.row().begin(), cell.row().end());
-    const CellView<dim, double> after(make_array_view(row), columns_);
-    Errors                      errors;
-    develop(before, after, t0, t1, around, result.events, errors);
+    const std::size_t      width = columns_.n_numbers();
+    const std::size_t      place = keeps_rows ? p * width : 0;
+    if (place == result.rows.size())
+      result.rows.insert(result.rows.end(),
+                         cell.row().begin(),
+                         cell.row().end());
+    else
+      std::copy(cell.row().begin(),
+                cell.row().end(),
+                result.rows.begin() + place);
+    const CellView<dim, double> after(
+      ArrayView<double>(result.rows.data() + place, width), columns_);
+    Errors errors;
+    develop(before, after, reader.time, t1, around, result.events, errors);
     if (grows())
       {
         result.previous[p] = cell.growth();
@@ -466,11 +473,6 @@ namespace Morula
           PresentCell<dim>(after, cells.id(p), cells.position(p), after_step)
             .lame();
       }
-    const std::size_t place = std::size_t(p) * row.size();
-    if (keeps_rows && place == result.rows.size())
-      result.rows.insert(result.rows.end(), row.begin(), row.end());
-    else if (keeps_rows)
-      std::copy(row.begin(), row.end(), result.rows.begin() + place);
   }
 
 

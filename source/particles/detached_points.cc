@@ -383,7 +383,7 @@ namespace Morula
 
   template <int dim>
   SurfaceFit
-  surface_fit(const Tissue<dim> &tissue)
+  surface_fit(const Tissue<dim> &tissue, const std::optional<double> &volume)
   {
     // Everything follows from sums over the patches of this rank, a, a n, a x
     // and a n·x, and over its cells, V. One reduction makes them those of all
@@ -404,13 +404,13 @@ namespace Morula
             sums[3 + dim + d] += A.norm() * x[d];
           }
       }
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+    for (unsigned int p = 0; p < tissue.cells().size() && !volume; ++p)
       sums[2] += tissue.cells().volume(p);
     Utilities::MPI::sum(sums, tissue.communicator(), sums);
 
     SurfaceFit fit;
-    fit.cells = sums[2];
-    if (!(sums[0] > 0.) || !(sums[2] > 0.))
+    fit.cells = volume.value_or(sums[2]);
+    if (!(sums[0] > 0.) || !(fit.cells > 0.))
       return fit;
     Tensor<1, dim> opening;
     fit.enclosed = sums[1];

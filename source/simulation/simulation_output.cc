@@ -233,7 +233,7 @@ namespace Morula
           row.of_effect(column.name) = value->second;
       }
     if (surface.exists())
-      row.surface = surface_fit(tissue);
+      row.surface = surface_fit(tissue, row.tissue.total_volume);
     if (model.development.states_error() && !row.step_error)
       // No step has led to the first row, but the column exists from it on.
       row.step_error = 0.;

@@ -32,8 +32,8 @@ namespace Morula
     std::vector<Tensor<2, dim>> current;         // F_g at t + dt
     /** λ and μ at t + dt if they depend on the cells' state; else empty. */
     std::vector<Lame> lame;
-    /** The cells' rows at t + dt, one after the other, without a new F; empty
-     *  if commit() computes them anew. */
+    /** The cells' rows at t + dt, one after the other, without a new F; that of
+     *  the last one alone if commit() computes them anew. */
     std::vector<double> rows;
     /** Changes of type and deaths. */
     std::vector<CellEvent> events;
@@ -376,14 +376,13 @@ namespace Morula
            const TypesAround<dim>      *around) const;
 
     /** Lets cell @p p develop, and sets what @p result has of it; its events
-     *  are added. @param row is overwritten */
+     *  are added. @param reader of the beginning of the step */
     void
     let_live(const Tissue<dim>      &tissue,
              const unsigned int      p,
-             const double            t0,
              const double            t1,
+             const CellReader<dim>  &reader,
              const TypesAround<dim> *around,
-             std::vector<double>    &row,
              DevelopmentOfStep<dim> &result) const;
 
     /** Lets cells develop again until all have seen the changes of the types

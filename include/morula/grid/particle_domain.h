@@ -24,11 +24,19 @@ namespace Morula
   double
   largest_stretch_bound(const Tensor<2, dim> &A)
   {
-    const SymmetricTensor<2, dim> square   = symmetrize(A * transpose(A));
-    const double                  mean     = trace(square) / dim;
-    constexpr double              rounding = 1e-9;
-    return (1. + rounding) * std::sqrt(mean + std::sqrt((dim - 1.) / dim) *
-                                                deviator(square).norm());
+    // S = A Aᵀ is summed entry by entry, without tensors: this is asked of each
+    // cell after each step.
+    constexpr double rounding = 1e-9;
+    const double     mean     = A.norm_square() / dim;
+    double           dev      = 0.; // |dev S|²
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        dev += std::pow(A[i].norm_square() - mean, 2);
+        for (unsigned int j = 0; j < i; ++j)
+          dev += 2. * std::pow(A[i] * A[j], 2);
+      }
+    return (1. + rounding) *
+           std::sqrt(mean + std::sqrt((dim - 1.) / dim * dev));
   }
 
   /**

@@ -7,6 +7,7 @@
 #include <morula/particles/tissue.h>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -97,10 +98,12 @@ namespace Morula
   };
 
   /** How the surface of the tissue fits its cells; without boundary points only
-   *  their volume. Collective. */
+   *  their volume. @param volume of all cells, µm^dim, if it is known.
+   *  Collective. */
   template <int dim>
   SurfaceFit
-  surface_fit(const Tissue<dim> &tissue);
+  surface_fit(const Tissue<dim>           &tissue,
+              const std::optional<double> &volume = {});
 } // namespace Morula
 
 #endif

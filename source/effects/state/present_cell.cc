@@ -40,31 +40,18 @@ namespace Morula
 
 
   template <int dim>
-  PresentCell<dim>::PresentCell(const CellView<dim, const double> &cell,
-                                const types::particle_index        id,
-                                const Point<dim>                  &position,
-                                const CellReader<dim>             &reader)
-    : cell_(cell)
-    , id_(id)
-    , position_(position)
-    , reader_(reader)
-  {}
-
-
-  template <int dim>
   const CellQuantities &
   PresentCell<dim>::quantities() const
   {
     // Stress and energy are computed at most once for a cell, as several
     // expressions may ask for them. A PresentCell is made anew for each cell
     // and step, so they cannot become stale.
-    if (!has_quantities)
+    if (!quantities_)
       quantities_ = cell_quantities(cell_,
                                     reader_.material.material(),
                                     lame(),
                                     reader_.material.per_grown_volume());
-    has_quantities = true;
-    return quantities_;
+    return *quantities_;
   }
 
 

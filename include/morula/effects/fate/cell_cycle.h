@@ -325,6 +325,18 @@ namespace Morula
       state.growth_pre = invert(growth(state, at, 0.));
     }
 
+    /** Whether advance() to @p t1 (day) leaves a clock as it is whatever else
+     *  is in it. */
+    bool
+    stands_still(const CyclePhase phase,
+                 const double     event_time,
+                 const double     t1) const
+    {
+      return phase == CyclePhase::growing || phase == CyclePhase::never ||
+             (phase == CyclePhase::waiting && !has_own_hazard() &&
+              event_time > t1 + slack);
+    }
+
     /**
      * The state at @p t1 of a cell that is in @p state at @p t0 and does not
      * divide in between: a cell whose division falls into (t0, t1] stays

@@ -62,6 +62,13 @@ namespace Morula
               hazard.exists() ? cell.get(hazard) : 0.};
     }
 
+    /** Whether a cell waits in G0, or is held. */
+    bool
+    is_waiting(const CellView<dim, const double> &cell) const
+    {
+      return cell.get(phase) == CyclePhase::waiting;
+    }
+
     /** Sets a cell's clock. */
     void
     set_clock(const CellView<dim, double> &cell,
@@ -99,16 +106,19 @@ namespace Morula
     }
 
     /** Takes the clock through a stretch, and through a division in it, which
-     *  daughters() looks up. @return the clock at its end */
-    CycleState<dim>
+     *  daughters() looks up. */
+    void
     run_clock(const PresentCell<dim>      &cell,
               const CellView<dim, double> &row,
               const Stretch               &stretch) const
     {
-      const CycleState<dim> state =
-        next_clock(cell, clock(row), stretch.begin, stretch.end);
-      set_clock(row, state);
-      return state;
+      // Most clocks stand still in a step, so that the phase is all that is
+      // read of them.
+      if (!cycle_.stands_still(row.get(phase),
+                               row.get(event_time),
+                               stretch.end))
+        set_clock(row,
+                  next_clock(cell, clock(row), stretch.begin, stretch.end));
     }
 
     /** The cycle's part of F_g at @p t (day), which is that of the clock. */
@@ -144,11 +154,13 @@ namespace Morula
     time_of_division(const CellView<dim, const double> &cell,
                      const double                       t) const override
     {
+      constexpr double never = std::numeric_limits<double>::infinity();
+      if (cell.get(phase) != CyclePhase::growing)
+        return never;
       const CycleState<dim> state = clock(cell);
       const CellAt<dim>     at(cell.founder_position());
-      return cycle_.divides(state, at, t) ?
-               cycle_.division_time(state, at) :
-               std::numeric_limits<double>::infinity();
+      return cycle_.divides(state, at, t) ? cycle_.division_time(state, at) :
+                                            never;
     }
 
     void
@@ -164,7 +176,8 @@ namespace Morula
     {
       // Division is not carried out here. Its time says when the cell's own
       // life ends in this step; the daughters are made after the equilibrium.
-      const CycleState<dim> state = run_clock(cell, row, stretch);
+      run_clock(cell, row, stretch);
+      const CycleState<dim> state = clock(row);
       const CellAt<dim>     at(cell, stretch.begin);
       if (!cycle_.divides(state, at, stretch.end))
         return {};

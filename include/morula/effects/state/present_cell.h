@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 namespace Morula
 {
@@ -62,7 +63,12 @@ namespace Morula
     PresentCell(const CellView<dim, const double> &cell,
                 const types::particle_index        id,
                 const Point<dim>                  &position,
-                const CellReader<dim>             &reader);
+                const CellReader<dim>             &reader)
+      : cell_(cell)
+      , id_(id)
+      , position_(position)
+      , reader_(reader)
+    {}
 
     /** The cell's id. */
     types::particle_index
@@ -156,8 +162,8 @@ namespace Morula
     {
       // If the stress was computed before, the scalars are part of it;
       // otherwise the cheaper computation without the tensors is enough.
-      return has_quantities ?
-               quantities_ :
+      return quantities_ ?
+               *quantities_ :
                cell_scalars(cell_, reader_.material.material(), lame());
     }
 
@@ -244,14 +250,13 @@ namespace Morula
     double
     compute(const Variable variable, const double t) const;
 
-    CellView<dim, const double> cell_;
-    types::particle_index       id_;
-    Point<dim>                  position_;
-    const CellReader<dim>      &reader_;
-    mutable VariableValues      values;
-    mutable std::uint64_t       known = 0; // a bit for each variable
-    mutable CellQuantities      quantities_;
-    mutable bool                has_quantities = false;
+    CellView<dim, const double>           cell_;
+    types::particle_index                 id_;
+    Point<dim>                            position_;
+    const CellReader<dim>                &reader_;
+    mutable VariableValues                values;
+    mutable std::uint64_t                 known = 0; // a bit for each variable
+    mutable std::optional<CellQuantities> quantities_;
   };
 
   /** Cell number @p p of the tissue as it is now. */

@@ -108,11 +108,11 @@ namespace Morula
                const bool                     with_types,
                const MPI_Comm                 comm)
   {
-    std::vector<TableRow>              rows;
+    std::vector<std::string>           rows;
     std::vector<types::particle_index> ids;
     for (const Birth<dim> &birth : births)
       {
-        rows.push_back(lineage_row(birth, with_types));
+        rows.push_back(lineage_row(birth, with_types).text());
         ids.push_back(birth.id);
       }
     return rows_in_order(std::move(ids), rows, comm);
@@ -142,11 +142,11 @@ namespace Morula
              const EventsContents         &contents,
              const MPI_Comm                comm)
   {
-    std::vector<TableRow> rows;
-    std::vector<EventKey> keys;
+    std::vector<std::string> rows;
+    std::vector<EventKey>    keys;
     for (const CellEvent &event : events)
       {
-        rows.push_back(event_row(event, contents));
+        rows.push_back(event_row(event, contents).text());
         keys.push_back({event.time, event.id, event.kind.order});
       }
     // Several changes of a cell at one time stay in their order: each ends

@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -89,15 +90,15 @@ namespace Morula
     template <typename Number,
               typename = std::enable_if_t<std::is_arithmetic_v<Number>>>
     TableValue(const Number number)
-    {
-      append_number(text, number);
-    }
+      : number(number)
+    {}
 
     TableValue(std::string text)
       : text(std::move(text))
     {}
 
-    std::string text;
+    std::optional<double> number;
+    std::string           text; // of what is no number
   };
 
   /** A row of a table: names and values of its columns, in their order. Any row
@@ -107,6 +108,10 @@ namespace Morula
   public:
     TableRow(std::initializer_list<std::pair<std::string_view, TableValue>> row)
     {
+      // A row of ten numbers asks the heap once for each text: there may be a
+      // million rows.
+      names.reserve(128);
+      values.reserve(128);
       for (const auto &[name, value] : row)
         add(name, value);
     }
@@ -114,9 +119,15 @@ namespace Morula
     void
     add(const std::string_view name, const TableValue &value)
     {
-      const char *const comma = names.empty() ? "" : ",";
-      names.append(comma).append(name);
-      values.append(comma).append(value.text);
+      if (!names.empty())
+        {
+          names += ',';
+          values += ',';
+        }
+      names += name;
+      values += value.text;
+      if (value.number)
+        append_number(values, *value.number);
     }
 
     /** The names separated by commas, with the newline. */
@@ -145,17 +156,17 @@ namespace Morula
    */
   template <typename Key>
   std::string
-  rows_in_order(std::vector<Key>             keys,
-                const std::vector<TableRow> &rows,
-                const MPI_Comm               comm)
+  rows_in_order(std::vector<Key>                keys,
+                const std::vector<std::string> &rows,
+                const MPI_Comm                  comm)
   {
     // Rows travel as one text. Their lengths cut it into rows again.
     std::string              text;
     std::vector<std::size_t> lengths;
-    for (const TableRow &row : rows)
+    for (const std::string &row : rows)
       {
-        text += row.text();
-        lengths.push_back(row.text().size());
+        text += row;
+        lengths.push_back(row.size());
       }
     const auto all_keys    = gather_to_root(std::move(keys), comm);
     const auto all_lengths = gather_to_root(std::move(lengths), comm);

@@ -36,13 +36,6 @@ namespace Morula
       return i + 1 < s.size() && s[i + 1] == '=' ? 2 : 1;
     }
 
-    /** Whether && or || ends at @p i. */
-    bool
-    ends_logical(const std::string &s, const std::size_t i)
-    {
-      return i > 0 && s[i] == s[i - 1] && (s[i] == '&' || s[i] == '|');
-    }
-
     /** Whether a name may have this character. */
     bool
     is_of_name(const char c)
@@ -58,13 +51,6 @@ namespace Morula
       const std::size_t behind = s.find_first_not_of(' ', i);
       return before != std::string::npos && is_of_name(s[before]) &&
              behind != std::string::npos && s[behind] == '(';
-    }
-
-    /** Whether an operator that begins a new comparison stands at @p i. */
-    bool
-    separates_comparisons(const std::string &s, const std::size_t i)
-    {
-      return std::string("&|?:,=!").find(s[i]) != std::string::npos;
     }
 
     /** Position of the second comparison of a chain such as 0 < X < 5. */
@@ -87,7 +73,8 @@ namespace Morula
           compared.push_back(false);
         else if (s[i] == ')' && compared.size() > 1)
           compared.pop_back();
-        else if (separates_comparisons(s, i))
+        // These operators begin a new comparison.
+        else if (std::string("&|?:,=!").find(s[i]) != std::string::npos)
           compared.back() = false;
       return std::string::npos;
     }
@@ -171,7 +158,9 @@ namespace Morula
           if (component[i] == ' ' && ends_name_of_call(component, i))
             continue;
           append({component[i]}, i);
-          if (ends_logical(component, i))
+          // && or || ends here.
+          if (i > 0 && component[i] == component[i - 1] &&
+              (component[i] == '&' || component[i] == '|'))
             append(" ", i + 1);
         }
       result.positions.push_back(component.size());

@@ -11,13 +11,6 @@ namespace Morula
   {
     /** Messages show at most so many bytes of a text. */
     constexpr std::size_t longest = 400;
-
-    bool
-    is_unprintable(const char c)
-    {
-      const auto byte = static_cast<unsigned char>(c);
-      return byte < 0x20 || byte == 0x7F;
-    }
   } // namespace
 
 
@@ -33,11 +26,9 @@ namespace Morula
     const std::string digits = "0123456789abcdef";
     std::string       result;
     for (std::size_t i = 0; i < end; ++i)
-      if (is_unprintable(text[i]))
-        {
-          const auto byte = static_cast<unsigned char>(text[i]);
-          result += std::string("\\x") + digits[byte / 16] + digits[byte % 16];
-        }
+      if (const auto byte = static_cast<unsigned char>(text[i]);
+          byte < 0x20 || byte == 0x7F)
+        result += std::string("\\x") + digits[byte / 16] + digits[byte % 16];
       else
         result += text[i];
     return end < text.size() ? result + "..." : result;

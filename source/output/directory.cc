@@ -191,16 +191,6 @@ namespace Morula
       }
     };
 
-    /** Whether @p scene_file is the parameters.prm of the directory. Then the
-     *  run is repeated from its own keys. */
-    bool
-    is_own_parameters(const std::string &directory,
-                      const std::string &scene_file)
-    {
-      std::error_code ignored; // a missing file is another file
-      return fs::equivalent(parameters_file(directory), scene_file, ignored);
-    }
-
     /** The absolute path, with links resolved as far as the path exists. */
     fs::path
     full_path(const std::string &path, std::error_code &error)
@@ -216,7 +206,8 @@ namespace Morula
     {
       // A run that was started from its own parameters.prm is still of the
       // scene that it was of before.
-      if (is_own_parameters(directory, scene_file))
+      std::error_code ignored; // a missing file is another file
+      if (fs::equivalent(parameters_file(directory), scene_file, ignored))
         if (const auto record = RunRecord::read(directory))
           return record->scene;
       std::error_code error;

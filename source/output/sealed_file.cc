@@ -6,6 +6,8 @@
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -138,12 +140,6 @@ namespace Morula
       text.resize(size_of_seal, '\n');
       return text;
     }
-
-    bool
-    begins_with(const std::string &text, const std::string &start)
-    {
-      return text.compare(0, start.size(), start) == 0;
-    }
   } // namespace
 
   void
@@ -170,12 +166,12 @@ namespace Morula
     std::string found(size_of_seal, '\0');
     in.read(found.data(), found.size());
     found.resize(in.gcount());
-    if (begins_with(found, "\x89HDF\r\n\x1a\n"))
+    if (boost::starts_with(found, "\x89HDF\r\n\x1a\n"))
       refuse_snapshot(path,
                       "a snapshot that begins with a digest (this is the "
                       "HDF5 file of another program, or of a Morula that "
                       "wrote none)");
-    if (!begins_with(found, first_line))
+    if (!boost::starts_with(found, first_line))
       refuse_snapshot(path,
                       "a snapshot of Morula (this file does not begin as "
                       "one)");

@@ -74,20 +74,6 @@ namespace Morula
       cut_triangle(piece, n, pieces);
     }
 
-    /** The straight parts of the lines of a file. */
-    std::vector<CutPiece<2>>
-    read_cuts(const Key<std::string> &file, const Point<2> &)
-    {
-      return read_segments(file);
-    }
-
-    /** The triangles of a file. */
-    std::vector<CutPiece<3>>
-    read_cuts(const Key<std::string> &file, const Point<3> &)
-    {
-      return read_triangles(file.path(), file);
-    }
-
     /** The side of a surface's patches on which a place is. */
     template <int dim>
     class InsideOf
@@ -254,7 +240,13 @@ namespace Morula
     longest = Utilities::MPI::max(longest, comm);
     const InsideOf<dim> is_inside(surface, on_the_surface * longest, comm);
     std::vector<SurfacePatch<dim>> patches;
-    for (const CutPiece<dim> &whole : read_cuts(file, Point<dim>()))
+    // The straight parts of the lines of a file, or its triangles.
+    std::vector<CutPiece<dim>> cuts;
+    if constexpr (dim == 2)
+      cuts = read_segments(file);
+    else
+      cuts = read_triangles(file.path(), file);
+    for (const CutPiece<dim> &whole : cuts)
       {
         std::vector<CutPiece<dim>> pieces;
         divide<dim>(whole, is_inside.box(), area, pieces);

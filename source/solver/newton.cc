@@ -272,8 +272,8 @@ namespace Morula
                 (has_energy ?
                    energy <= compared + armijo * step * slope + slack :
                    falls ||
-                     norm <= rounding_of_residual(problem,
-                                                  values_of(new_group.getX()))))
+                     norm <= rounding_error * problem.residual_magnitude(
+                                                values_of(new_group.getX()))))
               return true;
             // A step of length 0 counts as a success for NOX, which goes on
             // from the old state.

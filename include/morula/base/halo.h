@@ -4,6 +4,7 @@
 #ifndef morula_base_halo_h
 #define morula_base_halo_h
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/partitioner.h>
 
@@ -28,17 +29,48 @@ namespace Morula
     /** Collective.
      *  @param own    an interval; those of all ranks follow each other
      *  @param others of other ranks */
-    Halo(const IndexSet &own, const IndexSet &others, const MPI_Comm comm);
+    Halo(const IndexSet &own, const IndexSet &others, const MPI_Comm comm)
+      : partitioner(own, others, comm)
+      , buffer(partitioner.n_import_indices())
+    {}
 
     /** Puts the other ranks' entries into @p others, in the order of their
      *  numbers. Neighbours have to do the same. */
     void
-    fetch(const double *own, double *others) const;
+    fetch(const double *own, double *others) const
+    {
+      // deal.II sends the own entries that others need and receives the ghost
+      // entries, without a barrier.
+      const ArrayView<double>  ghosts(others, partitioner.n_ghost_indices());
+      std::vector<MPI_Request> requests;
+      partitioner.export_to_ghosted_array_start(
+        channel,
+        ArrayView<const double>(own, partitioner.locally_owned_size()),
+        make_array_view(buffer),
+        ghosts,
+        requests);
+      partitioner.export_to_ghosted_array_finish(ghosts, requests);
+    }
 
     /** The transpose: adds @p others to the entries of the ranks that own them,
      *  and clears them. */
     void
-    add_back(double *others, double *own) const;
+    add_back(double *others, double *own) const
+    {
+      const ArrayView<double>  ghosts(others, partitioner.n_ghost_indices());
+      std::vector<MPI_Request> requests;
+      partitioner.import_from_ghosted_array_start(VectorOperation::add,
+                                                  channel,
+                                                  ghosts,
+                                                  make_array_view(buffer),
+                                                  requests);
+      partitioner.import_from_ghosted_array_finish(
+        VectorOperation::add,
+        ArrayView<const double>(buffer.data(), buffer.size()),
+        ArrayView<double>(own, partitioner.locally_owned_size()),
+        ghosts,
+        requests);
+    }
 
     /**
      * Lists of any length that go with the entries. Neighbours have to do the
@@ -53,69 +85,81 @@ namespace Morula
     void
     fetch_lists(const Append     &append,
                 const std::size_t length,
-                const Take       &take) const;
+                const Take       &take) const
+    {
+      static_assert(std::is_trivially_copyable<T>::value,
+                    "only plain values can be sent byte by byte");
+      constexpr int               tag  = 0;
+      const MPI_Comm              comm = partitioner.get_mpi_communicator();
+      std::vector<std::vector<T>> sent;
+      std::vector<MPI_Request>    requests;
+      for (const auto &[rank, entries] : needed_elsewhere())
+        {
+          std::vector<T> &lists = sent.emplace_back();
+          lists.reserve(entries.size() * length);
+          for (const unsigned int entry : entries)
+            append(entry, lists);
+          requests.emplace_back();
+          const int error = MPI_Isend(lists.data(),
+                                      lists.size() * sizeof(T),
+                                      MPI_BYTE,
+                                      rank,
+                                      tag,
+                                      comm,
+                                      &requests.back());
+          AssertThrowMPI(error);
+        }
+      for (const auto &source : partitioner.ghost_targets())
+        {
+          MPI_Status status;
+          int        error = MPI_Probe(source.first, tag, comm, &status);
+          AssertThrowMPI(error);
+          int n_bytes;
+          error = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+          AssertThrowMPI(error);
+          std::vector<T> lists(n_bytes / sizeof(T));
+          error = MPI_Recv(lists.data(),
+                           n_bytes,
+                           MPI_BYTE,
+                           source.first,
+                           tag,
+                           comm,
+                           MPI_STATUS_IGNORE);
+          AssertThrowMPI(error);
+          take(lists);
+        }
+      const int error =
+        MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+      AssertThrowMPI(error);
+    }
 
   private:
     /** The numbers of own entries that others need, by their rank. */
     std::vector<std::pair<unsigned int, std::vector<unsigned int>>>
-    needed_elsewhere() const;
+    needed_elsewhere() const
+    {
+      std::vector<std::pair<unsigned int, std::vector<unsigned int>>> result;
+      // The partitioner has the entries that others need as ranges, one rank
+      // after the other.
+      auto range = partitioner.import_indices().begin();
+      for (const auto &[rank, n] : partitioner.import_targets())
+        {
+          auto &entries =
+            result.emplace_back(rank, std::vector<unsigned int>()).second;
+          for (; entries.size() < n; ++range)
+            for (unsigned int entry = range->first; entry < range->second;
+                 ++entry)
+              entries.push_back(entry);
+        }
+      return result;
+    }
+
+    /** No other exchange is under way at the same time. */
+    static constexpr unsigned int channel = 0;
 
     Utilities::MPI::Partitioner partitioner;
     mutable std::vector<double> buffer; // of the messages
   };
-
-
-  template <typename T, typename Append, typename Take>
-  void
-  Halo::fetch_lists(const Append     &append,
-                    const std::size_t length,
-                    const Take       &take) const
-  {
-    static_assert(std::is_trivially_copyable<T>::value,
-                  "only plain values can be sent byte by byte");
-    constexpr int               tag  = 0;
-    const MPI_Comm              comm = partitioner.get_mpi_communicator();
-    std::vector<std::vector<T>> sent;
-    std::vector<MPI_Request>    requests;
-    for (const auto &[rank, entries] : needed_elsewhere())
-      {
-        std::vector<T> &lists = sent.emplace_back();
-        lists.reserve(entries.size() * length);
-        for (const unsigned int entry : entries)
-          append(entry, lists);
-        requests.emplace_back();
-        const int error = MPI_Isend(lists.data(),
-                                    lists.size() * sizeof(T),
-                                    MPI_BYTE,
-                                    rank,
-                                    tag,
-                                    comm,
-                                    &requests.back());
-        AssertThrowMPI(error);
-      }
-    for (const auto &source : partitioner.ghost_targets())
-      {
-        MPI_Status status;
-        int        error = MPI_Probe(source.first, tag, comm, &status);
-        AssertThrowMPI(error);
-        int n_bytes;
-        error = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
-        AssertThrowMPI(error);
-        std::vector<T> lists(n_bytes / sizeof(T));
-        error = MPI_Recv(lists.data(),
-                         n_bytes,
-                         MPI_BYTE,
-                         source.first,
-                         tag,
-                         comm,
-                         MPI_STATUS_IGNORE);
-        AssertThrowMPI(error);
-        take(lists);
-      }
-    const int error =
-      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    AssertThrowMPI(error);
-  }
 } // namespace Morula
 
 #endif

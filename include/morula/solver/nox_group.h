@@ -82,17 +82,11 @@ namespace Morula
     unsigned int               n_iterations = 0;
   };
 
-  /** A sum's rounding error, relative to the sum of its magnitudes. */
+  /** A sum's rounding error, relative to the sum of its magnitudes. For a
+   *  residual it is the one that rounding alone can cause, r_0 in doc/theory.md
+   *  (5.3). */
   constexpr double rounding_error =
     10. * std::numeric_limits<double>::epsilon();
-
-  /** The residual that rounding alone can cause, r_0 in doc/theory.md (5.3).
-   *  Collective. */
-  inline double
-  rounding_of_residual(const Equilibrium &problem, const Equilibrium::Vector &u)
-  {
-    return rounding_error * problem.residual_magnitude(u);
-  }
 
   inline const Equilibrium::Vector &
   values_of(const NOX::Abstract::Vector &vector);
@@ -442,7 +436,8 @@ namespace Morula
       return copy;
     }
 
-    /** computeF() and rounding_of_residual(), in one pass. */
+    /** computeF(), and the residual that rounding alone can cause, in one pass.
+     */
     double
     compute_with_rounding()
     {

@@ -98,7 +98,7 @@ namespace Morula
     reason() const
     {
       for (const std::string &text :
-           Utilities::MPI::all_gather(comm, first_error))
+           dealii::Utilities::MPI::all_gather(comm, first_error))
         if (!text.empty())
           return text;
       return "";
@@ -196,7 +196,7 @@ namespace Morula
                   const hsize_t      n,
                   const void        *values)
     {
-      const bool root = Utilities::MPI::this_mpi_process(comm) == 0;
+      const bool root = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
       write_dataset(name, type, {n}, 0, root ? n : 0, values);
     }
 

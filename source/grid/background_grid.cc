@@ -120,24 +120,6 @@ namespace Morula
 
   template <int dim>
   void
-  BackgroundGrid<dim>::enclose(const GridIndex<dim> &first,
-                               const GridIndex<dim> &last)
-  {
-    GridIndex<dim> lower, n;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        // The padding lets the tissue grow for some steps before the
-        // triangulation has to be made anew: two grid cells, and an eighth of
-        // its extent on each side.
-        const int padding = 2 + (last[d] - first[d] + 1) / 8;
-        lower[d]          = first[d] - padding;
-        n[d]              = last[d] + padding + 1 - lower[d];
-      }
-    make(lower, n);
-  }
-
-  template <int dim>
-  void
   BackgroundGrid<dim>::make(const GridIndex<dim> &first,
                             const GridIndex<dim> &n)
   {
@@ -274,42 +256,6 @@ namespace Morula
     for (std::size_t rank = first_keys.size() - 1; rank-- > 0;)
       if (first_keys[rank] == no_leaf)
         first_keys[rank] = first_keys[rank + 1];
-  }
-
-  template <int dim>
-  std::uint64_t
-  BackgroundGrid<dim>::key(GridIndex<dim> grid_cell) const
-  {
-    // Coordinates in the trees, then in one of them; the tree is the highest
-    // digit of the key.
-    for (unsigned int d = 0; d < dim; ++d)
-      grid_cell[d] -= first_of_trees[d];
-    const bool second = (grid_cell[split] >> n_levels) != 0;
-    if (second)
-      grid_cell[split] -= 1 << n_levels;
-    // Morton order: the bits of the coordinates in turn, the highest ones
-    // first.
-    std::uint64_t key = second != second_tree_first;
-    for (int level = n_levels - 1; level >= 0; --level)
-      for (int d = dim - 1; d >= 0; --d)
-        key = (key << 1) | ((grid_cell[d] >> level) & 1);
-    return key;
-  }
-
-  template <int dim>
-  typename BackgroundGrid<dim>::CellIterator
-  BackgroundGrid<dim>::grid_cell(const unsigned int number) const
-  {
-    const auto found = std::lower_bound(owned.begin(),
-                                        owned.end(),
-                                        number,
-                                        [](const OwnedGridCell &grid_cell,
-                                           const unsigned int   n) {
-                                          return grid_cell.number < n;
-                                        });
-    return found != owned.end() && found->number == number ?
-             found->cell :
-             CellIterator(tria.end());
   }
 
   template class BackgroundGrid<2>;

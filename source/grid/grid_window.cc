@@ -47,22 +47,6 @@ namespace Morula
 
 
   template <int dim>
-  GridRange<dim>
-  GridRange<dim>::grown(const int rings, const GridBox<dim> &box) const
-  {
-    GridRange range;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        range.first[d] = std::max(first[d] - rings, box.first()[d]);
-        range.last[d] =
-          std::min(last[d] + rings, box.first()[d] + box.n()[d] - 1);
-      }
-    return range;
-  }
-
-
-
-  template <int dim>
   std::vector<GridRange<dim>>
   separated(const std::vector<GridRange<dim>> &ranges, int gap)
   {

@@ -263,23 +263,6 @@ namespace Morula
 
 
   template <int dim>
-  void
-  Occupancy<dim>::find_crowded()
-  {
-    // Owners look at their sums, and all ranks get the list: a boundary point
-    // may be in a grid cell of any rank when its patch is to be split. It is
-    // short, as only crumpled surfaces have such grid cells.
-    std::vector<unsigned int> found;
-    for (const unsigned int number : this->own())
-      if (this->n_boundary_points(number) > Utilities::pow(4, dim))
-        found.push_back(window().whole().number(nodes().index(number)));
-    crowded_.clear();
-    for (const auto &list : gather_everywhere(found, window().communicator()))
-      crowded_.insert(crowded_.end(), list.begin(), list.end());
-    std::sort(crowded_.begin(), crowded_.end());
-  }
-
-  template <int dim>
   typename ParticleDomain<dim>::Numbers
   Occupancy<dim>::n_points_per_edge(const ParticleDomain<dim>  &domain,
                                     const types::particle_index id) const
@@ -302,22 +285,6 @@ namespace Morula
     else if (rod && below(two_layers))
       least = std::max(2u, least);
     return domain.n_per_edge(h, least);
-  }
-
-  template <int dim>
-  std::pair<Point<dim>, Point<dim>>
-  Occupancy<dim>::bounds(const unsigned int number) const
-  {
-    // The reaches are units of h from the lower and the upper end of the grid
-    // cell.
-    Point<dim> lower = window().whole().corner(nodes().index(number)),
-               upper = lower;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        upper[d] += this->up(number, d) * window().whole().spacing();
-        lower[d] += (1. - this->down(number, d)) * window().whole().spacing();
-      }
-    return {lower, upper};
   }
 
 

@@ -273,23 +273,6 @@ namespace Morula
 
 
   template <int dim>
-  unsigned int
-  Parting<dim>::part_of_cell(const types::particle_index id,
-                             const unsigned int          number) const
-  {
-    const auto place = places.find(id);
-    if (place == places.end())
-      return 0;
-    for (unsigned int i = first_of_cells[place->second];
-         i < first_of_cells[place->second + 1];
-         ++i)
-      if (const auto &[there, part] = parts[parts_of_cells[i]]; there == number)
-        return part;
-    return 0;
-  }
-
-
-  template <int dim>
   bool
   Parting<dim>::are_connected(const types::particle_index a,
                               const types::particle_index b) const

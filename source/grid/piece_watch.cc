@@ -119,23 +119,6 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  std::vector<typename PieceWatch<dim>::Former>
-  PieceWatch<dim>::former_pieces(const BackgroundGrid<dim> &grid) const
-  {
-    // Grid cells may have changed their owners since the last call. What this
-    // rank remembers is told to the owners of now.
-    std::map<unsigned int, std::vector<Former>> by_owner;
-    for (const Former &one : remembered)
-      if (grid.box().contains(one.grid_cell))
-        by_owner[grid.owner(one.grid_cell)].push_back(one);
-    std::vector<Former> list;
-    for (const auto &[sender, theirs] :
-         send_records(by_owner, grid.communicator()))
-      list.insert(list.end(), theirs.begin(), theirs.end());
-    return list;
-  }
-
-  template <int dim>
   std::optional<Point<dim>>
   PieceWatch<dim>::joined(const SplineSpace<dim>    &space,
                           const BackgroundGrid<dim> &grid)

@@ -82,23 +82,6 @@ namespace Morula
     return !search.needs_wider_window();
   }
 
-  template <int dim>
-  void
-  SplineSpace<dim>::count(const MPI_Comm comm)
-  {
-    // Each rank counts its own grid cells and splines. Splines of small pieces
-    // count as outer ones.
-    std::vector<unsigned int> n{
-      static_cast<unsigned int>(copies.own_nodes().size()), 0, 0};
-    for (const SplineCopy &copy : copies.list())
-      if (copies.is_own(copy))
-        ++n[copy.inner && small_pieces.count(copy.piece) == 0 ? 1 : 2];
-    Utilities::MPI::sum(n, comm, n);
-    n_active = n[0];
-    n_inner  = n[1];
-    n_outer  = n[2];
-  }
-
 
   template <int dim>
   unsigned int
@@ -391,25 +374,6 @@ namespace Morula
                 return std::tie(a.number, a.part) < std::tie(b.number, b.part);
               });
     find_relevant();
-  }
-
-
-  template <int dim>
-  unsigned int
-  SplineSpace<dim>::entry(const unsigned int number,
-                          const unsigned int part) const
-  {
-    const auto found =
-      std::lower_bound(grid_cells_.begin(),
-                       grid_cells_.end(),
-                       std::make_pair(number, is_parted() ? part : 0u),
-                       [](const GridCell &grid_cell, const auto &wanted) {
-                         return std::make_pair(grid_cell.number,
-                                               grid_cell.part) < wanted;
-                       });
-    Assert(found != grid_cells_.end() && is_at(*found, number, part),
-           ExcInternalError());
-    return found - grid_cells_.begin();
   }
 
 

@@ -69,24 +69,6 @@ namespace Morula
   }
 
   template <int dim, int n_components>
-  std::vector<unsigned int>
-  MatrixScatter<dim, n_components>::owners_of_relevant() const
-  {
-    // This rank's own unknowns need no question. Only the owners of the others
-    // are asked for. Collective.
-    const IndexSet &relevant = space.relevant();
-    IndexSet        foreign  = relevant;
-    foreign.subtract_set(space.owned());
-    const std::vector<unsigned int> owners =
-      Utilities::MPI::compute_index_owner(space.owned(), foreign, comm);
-    std::vector<unsigned int> all(relevant.n_elements(),
-                                  Utilities::MPI::this_mpi_process(comm));
-    for (types::global_dof_index k = 0; k < owners.size(); ++k)
-      all[relevant.index_within_set(foreign.nth_index_in_set(k))] = owners[k];
-    return all;
-  }
-
-  template <int dim, int n_components>
   typename MatrixScatter<dim, n_components>::Messages
   MatrixScatter<dim, n_components>::announce(
     const Couplings &columns, const std::vector<unsigned int> &owners)

@@ -130,24 +130,6 @@ namespace Morula
   } // namespace
 
   template <int dim>
-  typename RigidModes<dim>::Mode
-  RigidModes<dim>::elementary_mode(const unsigned int k, const double length)
-  {
-    Mode mode;
-    if (k < dim)
-      mode.a[k] = 1.;
-    else
-      {
-        // Rotations act in the planes (0,1), (1,2), (2,0); in 2-D there is only
-        // the first.
-        const unsigned int i = (k - dim) % dim, j = (i + 1) % dim;
-        mode.B[i][j] = 1. / length;
-        mode.B[j][i] = -1. / length;
-      }
-    return mode;
-  }
-
-  template <int dim>
   std::vector<typename RigidModes<dim>::Mode>
   RigidModes<dim>::free_motions(const double *S, const double length)
   {

@@ -51,22 +51,6 @@ namespace Morula
   }
 
   template <int dim>
-  Point<dim>
-  Lattice<dim>::position(std::uint64_t site) const
-  {
-    Point<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        // Sites are numbered with x fastest.
-        const std::int64_t i =
-          first[d] + static_cast<std::int64_t>(site % counts[d]);
-        x[d] = origin[d] + (static_cast<double>(i) + 0.5) * spacing;
-        site /= counts[d];
-      }
-    return x;
-  }
-
-  template <int dim>
   std::vector<std::uint64_t>
   Lattice<dim>::neighbors(const std::uint64_t site) const
   {

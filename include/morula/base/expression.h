@@ -124,7 +124,6 @@ namespace Morula
                                   Morula::name_of(variable);
     }
 
-
     /** All variables, the fields last. */
     std::vector<Variable>
     all_variables() const
@@ -135,7 +134,6 @@ namespace Morula
         all.push_back(field_variable(k));
       return all;
     }
-
 
     /** The names, separated by blanks. */
     std::string

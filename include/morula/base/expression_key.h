@@ -92,14 +92,12 @@ namespace Morula
       return *this;
     }
 
-
     /** Takes a number. */
     ExpressionKey &
     operator=(const double number)
     {
       return *this = Patterns::Tools::to_string(number);
     }
-
 
     /** The largest of the plain numbers that it has for the types of cells;
      *  none if there are only expressions. */
@@ -112,7 +110,6 @@ namespace Morula
         largest = std::max(largest, own.number());
       return largest;
     }
-
 
     /** When it is evaluated. */
     Evaluated

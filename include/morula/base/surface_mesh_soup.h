@@ -48,7 +48,6 @@ namespace Morula
       return found;
     }
 
-
     const std::string                     key, name;
     std::vector<Kernel::Point_3>          points;
     std::vector<std::vector<std::size_t>> polygons;

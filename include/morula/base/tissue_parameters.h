@@ -179,7 +179,6 @@ namespace Morula
              (shape == "cylinder" && d == 2); // its axis
     }
 
-
     /** Whether the cells fill a closed surface from a file. */
     bool
     is_mesh() const

@@ -70,7 +70,6 @@ namespace Morula
       box_ = GridBox<dim>({}, {}, h, offset);
     }
 
-
     /**
      * Whether the grid cells first...last and their neighbours lie in the box.
      */
@@ -86,13 +85,25 @@ namespace Morula
       return true;
     }
 
-
     /**
      * Makes the triangulation for tissue in the grid cells first...last, with
      * padding around them.
      */
     void
-    enclose(const GridIndex<dim> &first, const GridIndex<dim> &last);
+    enclose(const GridIndex<dim> &first, const GridIndex<dim> &last)
+    {
+      GridIndex<dim> lower, n;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // The padding lets the tissue grow for some steps before the
+          // triangulation has to be made anew: two grid cells, and an eighth of
+          // its extent on each side.
+          const int padding = 2 + (last[d] - first[d] + 1) / 8;
+          lower[d]          = first[d] - padding;
+          n[d]              = last[d] + padding + 1 - lower[d];
+        }
+      make(lower, n);
+    }
 
     /**
      * Makes the triangulation of exactly this box, e.g. that of a snapshot.
@@ -152,7 +163,6 @@ namespace Morula
              first_keys.begin() - 1;
     }
 
-
     /** This rank's grid cells of the box, in the order of their numbers. */
     const std::vector<OwnedGridCell> &
     owned_grid_cells() const
@@ -163,7 +173,19 @@ namespace Morula
     /** The triangulation's cell of a grid cell that this rank owns; the
      *  triangulation's end() for one of another rank. */
     CellIterator
-    grid_cell(const unsigned int number) const;
+    grid_cell(const unsigned int number) const
+    {
+      const auto found = std::lower_bound(owned.begin(),
+                                          owned.end(),
+                                          number,
+                                          [](const OwnedGridCell &grid_cell,
+                                             const unsigned int   n) {
+                                            return grid_cell.number < n;
+                                          });
+      return found != owned.end() && found->number == number ?
+               found->cell :
+               CellIterator(tria.end());
+    }
 
     /**
      * The counts of this rank's grid cells, summed over all ranks. Collective.
@@ -203,7 +225,23 @@ namespace Morula
 
     /** The place of a grid cell in the order of the trees' leaves. */
     std::uint64_t
-    key(GridIndex<dim> grid_cell) const;
+    key(GridIndex<dim> grid_cell) const
+    {
+      // Coordinates in the trees, then in one of them; the tree is the highest
+      // digit of the key.
+      for (unsigned int d = 0; d < dim; ++d)
+        grid_cell[d] -= first_of_trees[d];
+      const bool second = (grid_cell[split] >> n_levels) != 0;
+      if (second)
+        grid_cell[split] -= 1 << n_levels;
+      // Morton order: the bits of the coordinates in turn, the highest ones
+      // first.
+      std::uint64_t key = second != second_tree_first;
+      for (int level = n_levels - 1; level >= 0; --level)
+        for (int d = dim - 1; d >= 0; --d)
+          key = (key << 1) | ((grid_cell[d] >> level) & 1);
+      return key;
+    }
 
     const MPI_Comm comm;
     const double   h;

@@ -33,7 +33,6 @@ namespace Morula
       return false;
     }
 
-
     /** Whether the grid cell is one of them. */
     bool
     contains(const GridIndex<dim> &index) const
@@ -43,7 +42,6 @@ namespace Morula
           return false;
       return true;
     }
-
 
     /** Makes it the smallest that holds the other one, too. */
     void
@@ -56,11 +54,20 @@ namespace Morula
         }
     }
 
-
     /** The range, with @p rings more grid cells on all sides but inside of @p
      *  box. */
     GridRange
-    grown(const int rings, const GridBox<dim> &box) const;
+    grown(const int rings, const GridBox<dim> &box) const
+    {
+      GridRange range;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          range.first[d] = std::max(first[d] - rings, box.first()[d]);
+          range.last[d] =
+            std::min(last[d] + rings, box.first()[d] + box.n()[d] - 1);
+        }
+      return range;
+    }
 
     /** Layers of grid cells between the two; 0 if they touch, less if they
      *  have grid cells in common. */
@@ -128,7 +135,6 @@ namespace Morula
         rings += rings / 2;
       make();
     }
-
 
     /** Number of grid cells. */
     unsigned int
@@ -311,7 +317,6 @@ namespace Morula
                            return range.contains(index);
                          });
     }
-
 
     /** Grid cells of other ranks that splines of this rank's points may stand
      *  on, by owner. */

@@ -239,7 +239,19 @@ namespace Morula
      *  grid cell. If there are none, the upper corner is below the lower one.
      */
     std::pair<Point<dim>, Point<dim>>
-    bounds(const unsigned int number) const;
+    bounds(const unsigned int number) const
+    {
+      // The reaches are units of h from the lower and the upper end of the grid
+      // cell.
+      Point<dim> lower = window().whole().corner(nodes().index(number)),
+                 upper = lower;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          upper[d] += this->up(number, d) * window().whole().spacing();
+          lower[d] += (1. - this->down(number, d)) * window().whole().spacing();
+        }
+      return {lower, upper};
+    }
 
     /** Whether the grid cell of @p x holds more than 4^dim boundary points,
      *  which is more than a surface needs. @p x may lie outside the box. */
@@ -253,10 +265,23 @@ namespace Morula
                                                          whole.number(index));
     }
 
-
   private:
     void
-    find_crowded();
+    find_crowded()
+    {
+      // Owners look at their sums, and all ranks get the list: a boundary point
+      // may be in a grid cell of any rank when its patch is to be split. It is
+      // short, as only crumpled surfaces have such grid cells.
+      std::vector<unsigned int> found;
+      for (const unsigned int number : this->own())
+        if (this->n_boundary_points(number) > Utilities::pow(4, dim))
+          found.push_back(window().whole().number(nodes().index(number)));
+      crowded_.clear();
+      for (const auto &list : gather_everywhere(found, window().communicator()))
+        crowded_.insert(crowded_.end(), list.begin(), list.end());
+      std::sort(crowded_.begin(), crowded_.end());
+    }
+
     void
     find_rows();
     void

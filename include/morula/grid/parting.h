@@ -114,11 +114,22 @@ namespace Morula
                                           std::make_pair(a, b));
     }
 
-
     /** The part of a grid cell that a cell belongs to. */
     unsigned int
     part_of_cell(const types::particle_index id,
-                 const unsigned int          number) const;
+                 const unsigned int          number) const
+    {
+      const auto place = places.find(id);
+      if (place == places.end())
+        return 0;
+      for (unsigned int i = first_of_cells[place->second];
+           i < first_of_cells[place->second + 1];
+           ++i)
+        if (const auto &[there, part] = parts[parts_of_cells[i]];
+            there == number)
+          return part;
+      return 0;
+    }
 
     /** The part of its grid cell that a boundary point belongs to: that of the
      *  nearest cell behind it. */

@@ -40,7 +40,20 @@ namespace Morula
 
     /** What all ranks remember of this rank's grid cells. Collective. */
     std::vector<Former>
-    former_pieces(const BackgroundGrid<dim> &grid) const;
+    former_pieces(const BackgroundGrid<dim> &grid) const
+    {
+      // Grid cells may have changed their owners since the last call. What this
+      // rank remembers is told to the owners of now.
+      std::map<unsigned int, std::vector<Former>> by_owner;
+      for (const Former &one : remembered)
+        if (grid.box().contains(one.grid_cell))
+          by_owner[grid.owner(one.grid_cell)].push_back(one);
+      std::vector<Former> list;
+      for (const auto &[sender, theirs] :
+           send_records(by_owner, grid.communicator()))
+        list.insert(list.end(), theirs.begin(), theirs.end());
+      return list;
+    }
 
     std::vector<Former> remembered;   // of grid cells that were this rank's
     unsigned int        n_pieces = 0; // in the last call

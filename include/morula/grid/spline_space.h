@@ -114,7 +114,20 @@ namespace Morula
     /** The place in grid_cells() of this rank's active grid cell with this
      *  number that has the splines of this part. */
     unsigned int
-    entry(const unsigned int number, const unsigned int part) const;
+    entry(const unsigned int number, const unsigned int part) const
+    {
+      const auto found =
+        std::lower_bound(grid_cells_.begin(),
+                         grid_cells_.end(),
+                         std::make_pair(number, is_parted() ? part : 0u),
+                         [](const GridCell &grid_cell, const auto &wanted) {
+                           return std::make_pair(grid_cell.number,
+                                                 grid_cell.part) < wanted;
+                         });
+      Assert(found != grid_cells_.end() && is_at(*found, number, part),
+             ExcInternalError());
+      return found - grid_cells_.begin();
+    }
 
     /** Makes unknowns of other ranks relevant. The places of all unknowns in
      *  relevant() change. */
@@ -129,7 +142,6 @@ namespace Morula
           unknown =
             relevant_.index_within_set(before.nth_index_in_set(unknown));
     }
-
 
     /** This rank's active grid cells in the order of their numbers, then of
      *  their parts. */
@@ -190,7 +202,6 @@ namespace Morula
         occupancy_.nodes().node(box().index(number), is_parted() ? part : 0));
     }
 
-
     unsigned int
     n_pieces() const
     {
@@ -243,7 +254,21 @@ namespace Morula
     find_splines(const BackgroundGrid<dim> &grid,
                  const GridParameters      &parameters);
     void
-    count(const MPI_Comm comm);
+    count(const MPI_Comm comm)
+    {
+      // Each rank counts its own grid cells and splines. Splines of small
+      // pieces count as outer ones.
+      std::vector<unsigned int> n{
+        static_cast<unsigned int>(copies.own_nodes().size()), 0, 0};
+      for (const SplineCopy &copy : copies.list())
+        if (copies.is_own(copy))
+          ++n[copy.inner && small_pieces.count(copy.piece) == 0 ? 1 : 2];
+      Utilities::MPI::sum(n, comm, n);
+      n_active = n[0];
+      n_inner  = n[1];
+      n_outer  = n[2];
+    }
+
     bool
     is_unknown(const SplineCopy &copy) const
     {
@@ -260,7 +285,6 @@ namespace Morula
           own.push_back(c);
       return own;
     }
-
 
     std::vector<unsigned int>
     copies_of_others() const;

@@ -66,7 +66,6 @@ namespace Morula
         std::fill(values.begin(), values.end(), 0.);
     }
 
-
     /** Adds what was added to other ranks' rows to these. Neighbours exchange
      *  it. */
     void
@@ -111,7 +110,21 @@ namespace Morula
 
     /** Ranks, by relevant unknown. */
     std::vector<unsigned int>
-    owners_of_relevant() const;
+    owners_of_relevant() const
+    {
+      // This rank's own unknowns need no question. Only the owners of the
+      // others are asked for. Collective.
+      const IndexSet &relevant = space.relevant();
+      IndexSet        foreign  = relevant;
+      foreign.subtract_set(space.owned());
+      const std::vector<unsigned int> owners =
+        Utilities::MPI::compute_index_owner(space.owned(), foreign, comm);
+      std::vector<unsigned int> all(relevant.n_elements(),
+                                    Utilities::MPI::this_mpi_process(comm));
+      for (types::global_dof_index k = 0; k < owners.size(); ++k)
+        all[relevant.index_within_set(foreign.nth_index_in_set(k))] = owners[k];
+      return all;
+    }
 
     /** Messages by rank: an unknown's number, that of its columns, the columns;
      *  then the next unknown's. */

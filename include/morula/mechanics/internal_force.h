@@ -225,7 +225,6 @@ namespace Morula
       return mean;
     }
 
-
     /** The mean over the points of a grid cell. */
     VolumeMean<dim>
     mean_of(const unsigned int     grid_cell,

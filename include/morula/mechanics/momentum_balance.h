@@ -89,7 +89,6 @@ namespace Morula
       return magnitude;
     }
 
-
     Evaluation
     residual_and_magnitude(const Vector &u,
                            Vector       &R,
@@ -100,7 +99,6 @@ namespace Morula
       magnitude = magnitudes.size() == 0 ? 0. : magnitudes.l2_norm();
       return evaluation;
     }
-
 
     /** The smallest J_e of an evaluation over all ranks. Collective. */
     Extreme
@@ -125,7 +123,6 @@ namespace Morula
       return moved.linfty_norm() > space.box().spacing() ||
              smallest_J(residual(u, R)).value < least_J;
     }
-
 
     /** Describes the state u to the user if Newton's method fails there:
      *  extreme values and their places. Collective. */
@@ -179,7 +176,6 @@ namespace Morula
       return {1e-6 * youngs_modulus * std::pow(h, dim - 1), h};
     }
 
-
   private:
     /** The functions below that get @p magnitudes also find the magnitudes of
      *  what is added up, if the pointer is not null. */
@@ -193,7 +189,6 @@ namespace Morula
         add_content(u, evaluation, R, magnitudes);
       return evaluation;
     }
-
 
     /** The terms' part of evaluate(). */
     Evaluation

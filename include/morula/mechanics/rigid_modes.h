@@ -58,7 +58,6 @@ namespace Morula
       find_free_modes(supports);
     }
 
-
     /** Whether any piece has an unsupported rigid motion. */
     bool
     any() const
@@ -107,7 +106,21 @@ namespace Morula
     /** The @p k th translation or rotation; it moves points at the distance
      *  @p length (µm) from the axis by 1 µm. */
     static Mode
-    elementary_mode(const unsigned int k, const double length);
+    elementary_mode(const unsigned int k, const double length)
+    {
+      Mode mode;
+      if (k < dim)
+        mode.a[k] = 1.;
+      else
+        {
+          // Rotations act in the planes (0,1), (1,2), (2,0); in 2-D there is
+          // only the first.
+          const unsigned int i = (k - dim) % dim, j = (i + 1) % dim;
+          mode.B[i][j] = 1. / length;
+          mode.B[j][i] = -1. / length;
+        }
+      return mode;
+    }
 
     /** A basis of the motions that next to nothing of S holds, doc/theory.md
      *  (4.9). @param S   row by row, n_modes² numbers

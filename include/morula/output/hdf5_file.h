@@ -104,7 +104,6 @@ namespace Morula
       return "";
     }
 
-
     /** The value of an attribute of a group. */
     template <typename T>
     T
@@ -200,7 +199,6 @@ namespace Morula
       write_dataset(name, type, {n}, 0, root ? n : 0, values);
     }
 
-
     void
     write_rows(const std::string &name,
                const hid_t        type,
@@ -232,7 +230,6 @@ namespace Morula
                                  "' as a vector");
       return n[0];
     }
-
 
     /** How many values the rows have, which must be there. */
     std::size_t

@@ -162,7 +162,6 @@ namespace Morula
       message(progress_line(report, end_time, time_left.seconds()));
     }
 
-
     /** Shows and logs the summary of a run that has come to its end. */
     void
     finish(const FinalReport &summary)

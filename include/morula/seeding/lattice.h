@@ -42,7 +42,19 @@ namespace Morula
     /** Position of a site, µm; the same to the last bit on any number of ranks.
      */
     Point<dim>
-    position(std::uint64_t site) const;
+    position(std::uint64_t site) const
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // Sites are numbered with x fastest.
+          const std::int64_t i =
+            first[d] + static_cast<std::int64_t>(site % counts[d]);
+          x[d] = origin[d] + (static_cast<double>(i) + 0.5) * spacing;
+          site /= counts[d];
+        }
+      return x;
+    }
 
     /** L_p, µm. */
     double

@@ -117,7 +117,21 @@ namespace Morula
 
     /** The rows of the block row k as the matrix's column k. */
     void
-    read(const int k, const Rows &rows, Row &row, Column &column) const;
+    read(const int k, const Rows &rows, Row &row, Column &column) const
+    {
+      // The matrix is symmetric: row k from the diagonal on is column k below
+      // it. So entry j of row i goes to column i of block j. The factor works
+      // on the scaled matrix.
+      for (int i = 0; i < n; ++i)
+        {
+          rows(n * k + i, row);
+          for (std::size_t e = 0; e < row.columns.size(); ++e)
+            if (const int j = row.columns[e]; j / n >= k)
+              column[j / n].column[i][j % n] =
+                row.values[e] * scales[n * k + i] * scales[j];
+          column[k].column[i][i] = 1.; // raised, and scaled
+        }
+    }
 
     /** Subtracts what the columns before k contribute to it, and makes them
      *  await their next row. */

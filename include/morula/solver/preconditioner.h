@@ -77,7 +77,6 @@ namespace Morula
       return others.is_element(row) ? others.index_within_set(row) : -1;
     }
 
-
     ReceivedRows
     receive(const Epetra_CrsMatrix &K, const unsigned int n_components) const;
 
@@ -151,7 +150,6 @@ namespace Morula
           magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
       inverse.compress(VectorOperation::insert);
     }
-
 
     /** No communication. */
     void

@@ -230,6 +230,8 @@ namespace Morula
       everywhere(comm, [&]() {
         list = types_of(model, founders.positions, founders.types);
       });
+      // Without types all cells are of one.
+      list.resize(founders.positions.size(), 0);
       return list;
     }
 

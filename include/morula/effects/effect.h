@@ -87,16 +87,16 @@ namespace Morula
     }
 
     /** Makes the keys in sections that others name, before any key has its
-     *  value. @param names the value of the names_key
-     *  @param types names of the cells' types, in the order of their numbers;
-     *         not known yet to equations. @throws InputError */
+     *  value: from the value of the names_key, and from the names of the cells'
+     *  types, in the order of their numbers, which equations do not know yet.
+     *  @throws InputError */
     virtual void
     declare_sections(const std::string & /*names*/,
                      const std::vector<std::string> & /*types*/)
     {}
 
     /** Takes from others' keys what concerns the effect, when all have their
-     *  values. @param of_cells those whose expressions speak of cells
+     *  values; also from those whose expressions speak of cells.
      *  @throws InputError */
     virtual void
     see(const SceneKeys & /*scene*/,

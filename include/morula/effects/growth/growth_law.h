@@ -179,7 +179,7 @@ namespace Morula
          const double                 t0,
          const double                 t1) const = 0;
 
-    /** Keeps what the next step must know of this one. @param f of the step */
+    /** Keeps what the next step must know of this one, whose f is given. */
     virtual void
     remember_motion(const CellView<dim, double> & /*cell*/,
                     const Tensor<2, dim> & /*f*/) const

@@ -20,8 +20,8 @@ CUBE = (TESTS / "programs/small-cube.prm", "-s", "Time/End time=0.125")
 def said(runs, *words, cwd=None, code=0):
     """What a command prints, with a home of its own, and without this tree's packages
     for Python."""
-    ended = call(["env", "-u", "PYTHONPATH", f"HOME={runs.work}/home", *words],
-                 cwd=cwd or runs.work)
+    ended = call(words, cwd=cwd or runs.work,
+                 env={"PYTHONPATH": "", "HOME": f"{runs.work}/home"})
     assert ended.code == code, f"{' '.join(map(str, words))}\n{ended.text}"
     return ended.text
 

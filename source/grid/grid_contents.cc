@@ -185,6 +185,23 @@ namespace Morula
 
   template <int dim>
   void
+  GridContents<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
+  {
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    // Each owner keeps the sums of its own grid cells. The tables are made anew
+    // for the wider window, and filled by another round of messages.
+    std::vector<Record> own;
+    for (const Record &record : records())
+      if (grid.owner(record.number) == rank)
+        own.push_back(record);
+    window_.widen(here);
+    nodes_ = GridNodes<dim>(window_, nodes_.parting());
+    spread(own);
+  }
+
+  template <int dim>
+  void
   GridContents<dim>::spread(const std::vector<Record> &list)
   {
     // Own grid cells come first, since find_own() takes all that is in the
@@ -232,6 +249,20 @@ namespace Morula
                         reaches[node],
                         volumes[node]});
     return list;
+  }
+
+  template <int dim>
+  void
+  GridContents<dim>::add(const Record &record)
+  {
+    // Records carry the number in the grid's box, tables are by node.
+    const unsigned int node =
+      nodes_.node(window_.whole().index(record.number), record.part);
+    volumes[node] += record.volume;
+    for (unsigned int k = 0; k < record.counts.size(); ++k)
+      counts[node][k] += record.counts[k];
+    for (unsigned int k = 0; k < record.reaches.size(); ++k)
+      reaches[node][k] = std::max(reaches[node][k], record.reaches[k]);
   }
 
   template class GridNodes<2>;

@@ -216,20 +216,7 @@ namespace Morula
 
     /** Sees a wider window, see GridWindow, after all sums. Collective. */
     void
-    widen(const BackgroundGrid<dim> &grid, const bool here)
-    {
-      const unsigned int rank =
-        Utilities::MPI::this_mpi_process(grid.communicator());
-      // Each owner keeps the sums of its own grid cells. The tables are made
-      // anew for the wider window, and filled by another round of messages.
-      std::vector<Record> own;
-      for (const Record &record : records())
-        if (grid.owner(record.number) == rank)
-          own.push_back(record);
-      window_.widen(here);
-      nodes_ = GridNodes<dim>(window_, nodes_.parting());
-      spread(own);
-    }
+    widen(const BackgroundGrid<dim> &grid, const bool here);
 
     /** The volume of particles, in units of h^dim / resolution. */
     std::int64_t
@@ -317,17 +304,7 @@ namespace Morula
     records() const;
 
     void
-    add(const Record &record)
-    {
-      // Records carry the number in the grid's box, tables are by node.
-      const unsigned int node =
-        nodes_.node(window_.whole().index(record.number), record.part);
-      volumes[node] += record.volume;
-      for (unsigned int k = 0; k < record.counts.size(); ++k)
-        counts[node][k] += record.counts[k];
-      for (unsigned int k = 0; k < record.reaches.size(); ++k)
-        reaches[node][k] = std::max(reaches[node][k], record.reaches[k]);
-    }
+    add(const Record &record);
 
     /** Empties the tables. */
     void

@@ -185,6 +185,16 @@ namespace Morula
 
   template <int dim>
   void
+  GridContents<dim>::sum(const BackgroundGrid<dim> &grid)
+  {
+    // Owners add up what all ranks have counted, then tell all ranks in whose
+    // windows their grid cells lie.
+    spread(window_.to_owners(records(), grid));
+  }
+
+
+  template <int dim>
+  void
   GridContents<dim>::widen(const BackgroundGrid<dim> &grid, const bool here)
   {
     const unsigned int rank =

@@ -199,12 +199,7 @@ namespace Morula
 
     /** Sums all but the quadrature points over all ranks. Collective. */
     void
-    sum(const BackgroundGrid<dim> &grid)
-    {
-      // Owners add up what all ranks have counted, then tell all ranks in whose
-      // windows their grid cells lie.
-      spread(window_.to_owners(records(), grid));
-    }
+    sum(const BackgroundGrid<dim> &grid);
 
     /** Ends the sums on one rank. */
     void

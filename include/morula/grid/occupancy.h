@@ -274,7 +274,7 @@ namespace Morula
       // short, as only crumpled surfaces have such grid cells.
       std::vector<unsigned int> found;
       for (const unsigned int number : this->own())
-        if (this->n_boundary_points(number) > Utilities::pow(4, dim))
+        if (this->n_boundary_points(number) > Utilities::pow(4u, dim))
           found.push_back(window().whole().number(nodes().index(number)));
       crowded_.clear();
       for (const auto &list : gather_everywhere(found, window().communicator()))

@@ -153,6 +153,25 @@ namespace Morula
 
   template <int dim>
   PointList<dim>
+  by_id(const PointList<dim> &points)
+  {
+    std::vector<std::size_t> order(points.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+      return points.ids[a] < points.ids[b];
+    });
+    PointList<dim> sorted(points.n_numbers);
+    sorted.reserve(points.size());
+    for (const std::size_t i : order)
+      sorted.add(points.ids[i],
+                 points.positions[i],
+                 ArrayView<const double>(points.row(i)));
+    return sorted;
+  }
+
+
+  template <int dim>
+  PointList<dim>
   of_all_ranks(const PointList<dim> &own, const MPI_Comm comm)
   {
     // All ranks get all points, sorted by id, so that they find the same in the
@@ -169,18 +188,7 @@ namespace Morula
         part.numbers   = numbers[rank];
         all.append(part);
       }
-    std::vector<std::size_t> order(all.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-      return all.ids[a] < all.ids[b];
-    });
-    PointList<dim> sorted(own.n_numbers);
-    sorted.reserve(all.size());
-    for (const std::size_t i : order)
-      sorted.add(all.ids[i],
-                 all.positions[i],
-                 ArrayView<const double>(all.row(i)));
-    return sorted;
+    return by_id(all);
   }
 
 
@@ -270,6 +278,7 @@ namespace Morula
   exchange(const std::map<unsigned int, PointList<3>> &,
            const unsigned int,
            const MPI_Comm);
+  MORULA_INSTANTIATE(by_id);
   MORULA_INSTANTIATE(of_all_ranks);
   MORULA_INSTANTIATE(send_to_owners);
   MORULA_INSTANTIATE(halo);

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -54,51 +53,25 @@ namespace Morula
      *  left the tissue. */
     constexpr double longest_split = 64.;
 
-    /** Throws on all ranks if any has a patch that is too long to be split. */
-    template <int dim>
-    void
-    check_lengths(const PointList<dim>       &points,
-                  const BoundaryColumns<dim> &columns,
-                  const std::vector<bool>    &crowded,
-                  const double                longest_edge,
-                  const MPI_Comm              comm)
-    {
-      // Each rank finds its longest patch, and the longest of all decides. The
-      // rank that has it writes the message; of several the lowest one. All
-      // ranks throw it.
-      double                length = 0.;
-      types::particle_index id     = 0;
-      Point<dim>            where;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        {
-          const BoundaryView<dim> point(points.row(i), columns);
-          const double edge = crowded[i] ? 0. : longest(point).second;
-          if (edge > length)
-            {
-              length = edge;
-              id     = points.ids[i];
-              where  = points.positions[i];
-            }
-        }
-      const double of_all = Utilities::MPI::max(length, comm);
-      if (!(of_all > longest_split * longest_edge))
-        return;
-      const unsigned int rank =
-        Utilities::MPI::min(length == of_all ?
-                              Utilities::MPI::this_mpi_process(comm) :
-                              numbers::invalid_unsigned_int,
-                            comm);
-      std::ostringstream text;
-      text << "the patch of boundary point " << id << " at (" << where
-           << ") um has become " << length << " um long, which is more than "
-           << longest_split << " times the " << longest_edge
-           << " um beyond which it is split: the point has left the tissue. "
-              "Choose a shape without corners that stand off from the cells, "
-              "a smaller Tissue/Cell spacing or Grid/Spacing, or "
-              "Tissue/Refine surface = false";
-      throw SurfaceTorn(Utilities::MPI::broadcast(comm, text.str(), rank));
-    }
   } // namespace
+
+
+  template <int dim>
+  bool
+  has_torn_patch(const PointList<dim>                          &points,
+                 const BoundaryColumns<dim>                    &columns,
+                 const double                                   longest_edge,
+                 const std::function<bool(const Point<dim> &)> &crowded,
+                 const MPI_Comm                                 comm)
+  {
+    bool is_torn = false;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      is_torn =
+        is_torn || (longest(BoundaryView<dim>(points.row(i), columns)).second >
+                      longest_split * longest_edge &&
+                    !crowded(points.positions[i]));
+    return Utilities::MPI::logical_or(is_torn, comm);
+  }
 
 
   template <int dim>
@@ -123,7 +96,6 @@ namespace Morula
     const auto view = [&](const std::size_t i) {
       return BoundaryView<dim, double>(points.row(i), columns);
     };
-    check_lengths(points, columns, leave, longest_edge, comm);
     for (bool any = false;; any = true)
       {
         std::vector<std::size_t>           split;
@@ -160,6 +132,7 @@ namespace Morula
       }
   }
 
+  MORULA_INSTANTIATE(has_torn_patch);
   MORULA_INSTANTIATE(refine_surface);
 
 

@@ -99,13 +99,15 @@ namespace Morula
     /** The effects of a scene.
      *  @param counts  of boundary points
      *  @param applied what the conditions act on: names and texts
-     *  @param n_founders, n_proliferating on all ranks */
+     *  @param n_founders, n_proliferating on all ranks
+     *  @param remakes whether some surface is made from the cells */
     EffectRows
     effect_rows(const Scene                              &scene,
                 const ConditionCounts                    &counts,
                 const std::map<std::string, std::string> &applied,
                 const types::particle_index               n_founders,
-                const types::particle_index               n_proliferating)
+                const types::particle_index               n_proliferating,
+                const bool                                remakes)
     {
       const Catalogue          &catalogue = scene.catalogue;
       const DivisionParameters &division  = scene.division;
@@ -157,7 +159,11 @@ namespace Morula
       add_effects(out, catalogue.forces);
       out.push_back({"material", material_text(scene)});
       add_effects(out, catalogue.flows);
-      if (scene.tissue.refine_surface)
+      if (remakes)
+        out.push_back({"surface",
+                       "made from the cells; what is fixed or slips is held at "
+                       "its place of t = 0, whichever cells are there"});
+      else if (scene.tissue.refine_surface)
         out.push_back({"surface refinement",
                        "patches longer than " +
                          as_text(0.5 * scene.grid.spacing) + " um are split"});
@@ -284,7 +290,8 @@ namespace Morula
                     tissue.counts,
                     {tissue.applied.begin(), tissue.applied.end()},
                     tissue.founders.n_global,
-                    tissue.n_proliferating);
+                    tissue.n_proliferating,
+                    has_surface(model) && model.any_surface(true));
       add_bodies(result.effects, model, tissue, comm);
       std::string pieces;
       for (const std::string &text : tissue.pieces)

@@ -223,7 +223,7 @@ namespace Morula
           const Tensor<1, dim>  &N    = at.normals[i];
           const SurfaceCondition kind = conditions.condition(X, N);
           const unsigned int     k    = conditions.winner(X, N);
-          if (kind == SurfaceCondition::fixed || kind == SurfaceCondition::slip)
+          if (is_held(kind))
             require_elastic(material, X);
           acting.fixed += kind == SurfaceCondition::fixed;
           for (unsigned int c = 0; c < n; ++c)

@@ -244,7 +244,7 @@ namespace Morula
           const Point<dim>      &X    = surface.positions[i];
           const Tensor<1, dim>  &N    = surface.normals[i];
           const SurfaceCondition kind = conditions.condition(X, N);
-          if (kind != SurfaceCondition::fixed && kind != SurfaceCondition::slip)
+          if (!is_held(kind))
             continue;
           pieces.add_support(piece[i],
                              X,

@@ -250,12 +250,12 @@ namespace Morula
         scene.tissue.has_surface_file() || scene.tissue.is_mesh() ||
         (!scene.tissue.is_points() && !interaction.takes_types_as_bodies());
       if (!is_of_all)
-        return seed_points_surface(scene.tissue, founders, comm);
+        return seed_points_surface(scene.tissue, scene.grid, founders, comm);
       Founders<dim> as_one(founders);
       as_one.bodies.clear();
       SurfacePatches<dim> patches =
         scene.tissue.is_points() ?
-          seed_points_surface(scene.tissue, as_one, comm) :
+          seed_points_surface(scene.tissue, scene.grid, as_one, comm) :
           seed_surface<dim>(scene.tissue, comm);
       patches.bodies = bodies_of_patches(patches, founders, comm);
       return patches;
@@ -276,7 +276,7 @@ namespace Morula
       if (!scene.tissue.is_points())
         return seed_surface<dim>(scene.tissue, comm);
       return has_surface(model) ?
-               seed_points_surface(scene.tissue, founders, comm) :
+               seed_points_surface(scene.tissue, scene.grid, founders, comm) :
                SurfacePatches<dim>();
     }
   } // namespace

@@ -3,6 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
+#include <morula/effects/fate/types_around.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/pieces_at_start.h>

@@ -5,23 +5,32 @@
 #include <morula/base/near_tree.h>
 #include <morula/seeding/bodies.h>
 
-#include <deal.II/base/mpi.templates.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
-
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <numeric>
 
 namespace Morula
 {
-  namespace
+  double
+  sum_of_all_ranks(const std::vector<double> &mine, const MPI_Comm comm)
   {
-    namespace bgi = boost::geometry::index;
-  } // namespace
+    return Utilities::MPI::sum(std::accumulate(mine.begin(), mine.end(), 0.),
+                               comm);
+  }
+
+
+  template <int dim>
+  double
+  longest_length(const Founders<dim> &founders, const MPI_Comm comm)
+  {
+    double largest = 0.;
+    for (const double V : founders.volumes)
+      largest = std::max(largest, V);
+    return std::pow(Utilities::MPI::max(largest, comm), 1. / dim);
+  }
 
 
   template <int dim>
@@ -38,8 +47,7 @@ namespace Morula
     std::vector<double>       lengths;
     for (const double volume : volumes)
       lengths.push_back(std::pow(volume, 1. / dim));
-    const double longest =
-      lengths.empty() ? 0. : *std::max_element(lengths.begin(), lengths.end());
+    const double              longest = longest_length(founders, comm);
     const NearTree<dim>       tree(positions);
     std::vector<unsigned int> depth(positions.size(), 0),
       parent(positions.size());
@@ -83,52 +91,107 @@ namespace Morula
       of_all_ranks(founders.positions, comm);
     const std::vector<unsigned int> bodies =
       of_all_ranks(founders.bodies, comm);
-    const auto                tree = pack_rtree_of_indices(positions);
+    const NearTree<dim>       tree(positions);
     std::vector<unsigned int> list;
     for (std::size_t k = 0; k < patches.positions.size(); ++k)
       {
-        const Point<dim>         &x = patches.positions[k];
-        const Tensor<1, dim>     &n = patches.normals[k];
-        std::vector<unsigned int> found;
-        tree.query(bgi::nearest(x, 1) &&
-                     bgi::satisfies([&](const unsigned int i) {
-                       return (positions[i] - x) * n < 0.;
-                     }),
-                   std::back_inserter(found));
-        if (found.empty())
-          tree.query(bgi::nearest(x, 1), std::back_inserter(found));
-        list.push_back(bodies[found.at(0)]);
+        const Point<dim> &x      = patches.positions[k];
+        const auto        behind = tree.nearest(x, [&](const unsigned int i) {
+          return (positions[i] - x) * patches.normals[k] < 0.;
+        });
+        list.push_back(bodies[behind ? *behind : tree.nearest(x)]);
       }
     return list;
   }
 
 
   template <int dim>
-  void
-  part_bodies(SurfacePatches<dim> &patches)
+  unsigned int
+  number_of_bodies(const Founders<dim> &founders, const MPI_Comm comm)
   {
-    // Each pass measures all overlaps and moves all patches then, so that the
-    // order of the patches does not matter. Halves of the overlaps of both
-    // sides add up to all of it; curved and uneven surfaces take some passes
-    // more.
+    unsigned int n = 0;
+    for (const unsigned int body : founders.bodies)
+      n = std::max(n, body + 1);
+    return Utilities::MPI::max(n, comm);
+  }
+
+
+  namespace
+  {
+    /** Moves the patches of a body outwards by one distance, as far as each has
+     *  room (µm), so that its surface encloses a volume (µm^dim). */
+    template <int dim>
+    void
+    enclose(const unsigned int         body,
+            const double               volume,
+            const std::vector<double> &room,
+            SurfacePatches<dim>       &patches)
+    {
+      // Patches keep their areas. So a way along the normals counts by 1/dim of
+      // the area, as the flux of x does. Each round shares out what those
+      // without more room have left to the others. It is no longer than two
+      // patches: a body with little free surface would burst there.
+      const auto [begin, end] =
+        std::equal_range(patches.bodies.begin(), patches.bodies.end(), body);
+      const std::size_t first = begin - patches.bodies.begin(),
+                        last  = end - patches.bodies.begin();
+      double way              = 0.;
+      for (unsigned int round = 0; round < 10; ++round)
+        {
+          double       missing = volume, area = 0.;
+          unsigned int n = 0;
+          for (std::size_t b = first; b < last; ++b)
+            {
+              const double a = patches.areas[b];
+              missing -= ((patches.positions[b] - patches.positions[first]) *
+                            patches.normals[b] +
+                          std::min(way, room[b])) *
+                         a / dim;
+              area += room[b] > way ? a : 0.;
+              n += room[b] > way;
+            }
+          if (n == 0)
+            break;
+          way = std::clamp(way + dim * missing / area,
+                           0.,
+                           2. * std::pow(area / n, 1. / (dim - 1)));
+        }
+      for (std::size_t b = first; b < last; ++b)
+        patches.positions[b] += std::min(way, room[b]) * patches.normals[b];
+    }
+  } // namespace
+
+
+  template <int dim>
+  void
+  part_bodies(const std::vector<double> &volumes, SurfacePatches<dim> &patches)
+  {
+    // Each pass measures all gaps and moves all patches then, so that the order
+    // of the patches does not matter. Halves of the overlaps of both sides add
+    // up to all of it; curved and uneven surfaces take some passes more. A tiny
+    // patch looks as far as the others.
     constexpr unsigned int most_passes = 10;
     const std::size_t      n           = patches.positions.size();
-    for (unsigned int pass = 0; pass < most_passes; ++pass)
+    const double           mean =
+      std::accumulate(patches.areas.begin(), patches.areas.end(), 0.) / n;
+    std::vector<double> room(n); // half of the mean gap, µm
+    bool                any = true;
+    for (unsigned int pass = 0; pass < most_passes && any; ++pass)
       {
         const NearTree<dim> tree(patches.positions);
-        std::vector<double> overlaps(n, 0.); // mean, µm
-        bool                any = false;
+        any = false;
         for (std::size_t b = 0; b < n; ++b)
           {
             const Point<dim>     &x      = patches.positions[b];
             const Tensor<1, dim> &normal = patches.normals[b];
-            const double l     = std::pow(patches.areas[b], 1. / (dim - 1));
+            const double          l =
+              std::pow(std::max(mean, patches.areas[b]), 1. / (dim - 1));
             const double reach = 2. * l;
             double       sum = 0., weights = 0.;
             for (const unsigned int c : tree.within(x, reach))
               {
                 if (patches.bodies[c] == patches.bodies[b] ||
-                    patches.normals[c] * normal >= -0.3)
+                    patches.normals[c] * normal >= 0.)
                   continue;
                 const Tensor<1, dim> way = x - patches.positions[c];
                 const double gap = 0.5 * (patches.normals[c] - normal) * way;
@@ -139,17 +202,18 @@ namespace Morula
                 sum += weight * gap;
                 weights += weight;
               }
-            if (weights > 0. && sum < 0.)
-              {
-                overlaps[b] = -sum / weights;
-                any         = any || overlaps[b] > 1e-6 * l;
-              }
+            room[b] = weights > 0. ? 0.5 * sum / weights :
+                                     std::numeric_limits<double>::max();
+            any     = any || room[b] < -1e-6 * l;
           }
-        if (!any)
-          return;
         for (std::size_t b = 0; b < n; ++b)
-          patches.positions[b] -= 0.5 * overlaps[b] * patches.normals[b];
+          if (room[b] < 0.)
+            patches.positions[b] += room[b] * patches.normals[b];
       }
+    for (double &way : room)
+      way = std::max(0., way);
+    for (unsigned int body = 0; body < volumes.size(); ++body)
+      enclose(body, volumes[body], room, patches);
   }
 
 
@@ -159,10 +223,7 @@ namespace Morula
                      const SurfacePatches<dim> &patches,
                      const MPI_Comm             comm)
   {
-    unsigned int n = 0;
-    for (const unsigned int body : founders.bodies)
-      n = std::max(n, body + 1);
-    n = Utilities::MPI::max(n, comm);
+    const unsigned int n = number_of_bodies(founders, comm);
     // By body: cells, volume, area, and the components of Σ a n.
     constexpr unsigned int m = 3 + dim;
     std::vector<double>    sums(m * n, 0.);
@@ -192,6 +253,8 @@ namespace Morula
   }
 
 
+  MORULA_INSTANTIATE(longest_length);
+  MORULA_INSTANTIATE(number_of_bodies);
   MORULA_INSTANTIATE(part_bodies);
   MORULA_INSTANTIATE(measures_of_bodies);
   MORULA_INSTANTIATE(bodies_apart);

@@ -11,13 +11,10 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.templates.h>
-#include <deal.II/boost_adaptors/point.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 namespace Morula
@@ -42,93 +39,55 @@ namespace Morula
     template <int dim>
     using CutPiece = std::array<Point<dim>, dim>;
 
-    Tensor<1, 2>
-    vector_of(const CutPiece<2> &piece)
+    template <int dim>
+    Tensor<1, dim>
+    vector_of(const CutPiece<dim> &piece)
     {
-      return cross_product_2d(piece[1] - piece[0]);
-    }
-
-    Tensor<1, 3>
-    vector_of(const CutPiece<3> &piece)
-    {
-      return area_vector(piece);
+      if constexpr (dim == 2)
+        return cross_product_2d(piece[1] - piece[0]);
+      else
+        return area_vector(piece);
     }
 
     /** Appends a piece in @p n equal ones. */
-    void
-    cut_piece(const CutPiece<2>        &piece,
-              const std::uint64_t       n,
-              std::vector<CutPiece<2>> &pieces)
-    {
-      const Tensor<1, 2> way = piece[1] - piece[0];
-      for (std::uint64_t k = 0; k < n; ++k)
-        pieces.push_back(
-          {{piece[0] + (1. * k / n) * way, piece[0] + ((k + 1.) / n) * way}});
-    }
-
-    void
-    cut_piece(const CutPiece<3>        &piece,
-              const std::uint64_t       n,
-              std::vector<CutPiece<3>> &pieces)
-    {
-      cut_triangle(piece, n, pieces);
-    }
-
-    /** The side of a surface's patches on which a place is. */
     template <int dim>
-    class InsideOf
+    void
+    cut_piece(const CutPiece<dim>        &piece,
+              const std::uint64_t         n,
+              std::vector<CutPiece<dim>> &pieces)
     {
-    public:
+      const Tensor<1, dim> way = piece[1] - piece[0];
+      if constexpr (dim == 3)
+        cut_triangle(piece, n, pieces);
+      else
+        for (std::uint64_t k = 0; k < n; ++k)
+          pieces.push_back(
+            {{piece[0] + (1. * k / n) * way, piece[0] + ((k + 1.) / n) * way}});
+    }
+
+    /** All ranks' patches of a surface. */
+    template <int dim>
+    struct WholeSurface
+    {
       /** Collective. */
-      InsideOf(const SurfacePatches<dim> &surface,
-               const double               tolerance,
-               const MPI_Comm             comm)
+      WholeSurface(const SurfacePatches<dim> &surface, const MPI_Comm comm)
         : positions(of_all_ranks(surface.positions, comm))
         , normals(of_all_ranks(surface.normals, comm))
-        , tree(pack_rtree_of_indices(positions))
-        , box_(positions)
-        , tolerance(tolerance)
+        , tree(positions)
       {}
 
-      /** What is outside of it is outside of the surface. */
-      const BoundingBox<dim> &
-      box() const
-      {
-        return box_;
-      }
-
-      /** Whether @p x is behind the patch that is nearest to it, or on its
-       *  plane. */
-      bool
-      operator()(const Point<dim> &x) const
-      {
-        return height(x) < tolerance;
-      }
-
-      /** The same, but not on its plane. */
-      bool
-      truly(const Point<dim> &x) const
-      {
-        return height(x) < -tolerance;
-      }
-
-    private:
+      /** How far @p x is above the plane of the patch that is nearest to it,
+       *  µm: below it is inside. */
       double
       height(const Point<dim> &x) const
       {
-        std::vector<unsigned int> nearest;
-        tree.query(boost::geometry::index::nearest(x, 1),
-                   std::back_inserter(nearest));
-        const unsigned int i = nearest.at(0);
+        const unsigned int i = tree.nearest(x);
         return (x - positions[i]) * normals[i];
       }
 
-      const std::vector<Point<dim>>                       positions;
-      const std::vector<Tensor<1, dim>>                   normals;
-      const decltype(pack_rtree_of_indices(
-        std::declval<const std::vector<Point<dim>> &>())) tree;
-      const BoundingBox<dim>                              box_;
-      const double                                        tolerance; // µm
+      const std::vector<Point<dim>>     positions;
+      const std::vector<Tensor<1, dim>> normals;
+      const NearTree<dim>               tree;
     };
 
     /** Appends what of a piece overlaps a box, in pieces of about this area. */
@@ -148,13 +107,13 @@ namespace Morula
         if (own.lower_bound(d) > box.upper_bound(d) ||
             own.upper_bound(d) < box.lower_bound(d))
           return;
-      const double               n = vector_of(piece).norm() / area;
+      const double               n = vector_of<dim>(piece).norm() / area;
       std::vector<CutPiece<dim>> parts;
       if (n < large)
-        return cut_piece(piece,
-                         std::max<std::uint64_t>(1, std::llround(n)),
-                         pieces);
-      cut_piece(piece, Utilities::pow(2, dim - 1), parts);
+        return cut_piece<dim>(piece,
+                              std::max<std::uint64_t>(1, std::llround(n)),
+                              pieces);
+      cut_piece<dim>(piece, Utilities::pow(2, dim - 1), parts);
       for (const CutPiece<dim> &part : parts)
         divide<dim>(part, box, area, pieces);
     }
@@ -170,28 +129,29 @@ namespace Morula
     }
 
     /** Appends what of a piece is inside, in smaller pieces where its corners
-     *  differ. */
+     *  differ. Corners within @p tolerance (µm) of the surface are inside. */
     template <int dim>
     void
     add_inside(const CutPiece<dim>            &piece,
-               const InsideOf<dim>            &is_inside,
+               const WholeSurface<dim>        &surface,
+               const double                    tolerance,
                const unsigned int              more_halvings,
                std::vector<SurfacePatch<dim>> &patches)
     {
-      const auto n         = std::count_if(piece.begin(),
-                                   piece.end(),
-                                   [&is_inside](const Point<dim> &x) {
-                                     return is_inside(x);
-                                   });
-      const bool is_middle = is_inside.truly(middle_of<dim>(piece));
+      const auto n =
+        std::count_if(piece.begin(), piece.end(), [&](const Point<dim> &x) {
+          return surface.height(x) < tolerance;
+        });
+      const bool is_middle = surface.height(middle_of<dim>(piece)) < -tolerance;
       if (more_halvings > 0 && (n != dim || !is_middle) && (n > 0 || is_middle))
         {
           std::vector<CutPiece<dim>> parts;
-          cut_piece(piece, Utilities::pow(2, dim - 1), parts);
+          cut_piece<dim>(piece, Utilities::pow(2, dim - 1), parts);
           for (const CutPiece<dim> &part : parts)
-            add_inside<dim>(part, is_inside, more_halvings - 1, patches);
+            add_inside<dim>(
+              part, surface, tolerance, more_halvings - 1, patches);
         }
-      else if (const Tensor<1, dim> vector = vector_of(piece);
+      else if (const Tensor<1, dim> vector = vector_of<dim>(piece);
                is_middle && vector.norm() > 0.)
         patches.push_back(
           {middle_of<dim>(piece), vector / vector.norm(), vector.norm()});
@@ -231,14 +191,11 @@ namespace Morula
     // patches of the surface, and takes what is behind it. Then it asks its own
     // cells on which sides of each patch they stand: tissue is cut where cells
     // of any ranks are on both.
-    double area = 0., longest = 0.;
-    for (const double a : surface.areas)
-      area += a;
-    for (const double V : founders.volumes)
-      longest = std::max(longest, std::pow(V, 1. / dim));
-    area    = Utilities::MPI::sum(area, comm) / surface.n_global;
-    longest = Utilities::MPI::max(longest, comm);
-    const InsideOf<dim> is_inside(surface, on_the_surface * longest, comm);
+    const double area =
+      sum_of_all_ranks(surface.areas, comm) / surface.n_global;
+    const double                   longest = longest_length(founders, comm);
+    const WholeSurface<dim>        whole(surface, comm);
+    const BoundingBox<dim>         box(whole.positions);
     std::vector<SurfacePatch<dim>> patches;
     // The straight parts of the lines of a file, or its triangles.
     std::vector<CutPiece<dim>> cuts;
@@ -246,12 +203,13 @@ namespace Morula
       cuts = read_segments(file);
     else
       cuts = read_triangles(file.path(), file);
-    for (const CutPiece<dim> &whole : cuts)
+    for (const CutPiece<dim> &cut : cuts)
       {
         std::vector<CutPiece<dim>> pieces;
-        divide<dim>(whole, is_inside.box(), area, pieces);
+        divide<dim>(cut, box, area, pieces);
         for (const CutPiece<dim> &piece : pieces)
-          add_inside<dim>(piece, is_inside, halvings, patches);
+          add_inside<dim>(
+            piece, whole, on_the_surface * longest, halvings, patches);
       }
     const NearTree<dim>       tree(founders.positions);
     std::vector<unsigned int> sides(2 * patches.size(), 0);
@@ -282,9 +240,8 @@ namespace Morula
       if (sides[2 * k] + sides[2 * k + 1] == 2)
         for (const double sign : {1., -1.})
           {
-            faces.positions.push_back(patches[k].position);
-            faces.normals.push_back(sign * patches[k].normal);
-            faces.areas.push_back(patches[k].area);
+            faces.add(
+              {patches[k].position, sign * patches[k].normal, patches[k].area});
           }
     if (faces.areas.empty())
       file.refuse("cuts in um that run between cells",

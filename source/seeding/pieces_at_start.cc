@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/seeding/bodies.h>
 #include <morula/seeding/pieces_at_start.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <vector>
 
 namespace Morula
@@ -56,20 +58,13 @@ namespace Morula
                const std::vector<GridPlace<dim>> &patches,
                const MPI_Comm                     comm)
     {
-      PlaceNumbers<dim> mine, all;
-      for (const auto *list : {&founders, &patches})
-        for (const GridPlace<dim> &place : *list)
-          mine[place] = 0;
-      std::vector<int> flat;
-      for (const auto &entry : mine)
-        flat.insert(flat.end(), entry.first.begin(), entry.first.end());
-      for (const auto &list : Utilities::MPI::all_gather(comm, flat))
-        for (std::size_t k = 0; k < list.size(); k += dim + 1)
-          {
-            GridPlace<dim> place;
-            std::copy_n(&list[k], dim + 1, place.begin());
-            all[place] = 0;
-          }
+      std::set<GridPlace<dim>> mine(founders.begin(), founders.end());
+      mine.insert(patches.begin(), patches.end());
+      PlaceNumbers<dim> all;
+      for (const auto &place :
+           of_all_ranks(std::vector<GridPlace<dim>>(mine.begin(), mine.end()),
+                        comm))
+        all[place] = 0;
       unsigned int n = 0;
       for (auto &entry : all)
         entry.second = n++;
@@ -135,12 +130,11 @@ namespace Morula
     template <int dim>
     using Run = std::array<int, dim + 1>;
 
-    /** The cubes of a lattice, its lines at @p offset + i @p length (µm), that
-     *  hold points, as runs; all ranks' on rank 0. Collective. */
+    /** The cubes of a lattice, its lines at i @p length (µm), that hold points,
+     *  as runs; all ranks' on rank 0. Collective. */
     template <int dim>
     std::vector<Run<dim>>
     occupied(const std::vector<Point<dim>> &points,
-             const Point<dim>              &offset,
              const double                   length,
              const MPI_Comm                 comm)
     {
@@ -149,8 +143,7 @@ namespace Morula
       std::vector<std::array<int, dim>> places(points.size());
       for (std::size_t i = 0; i < points.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          places[i][d] =
-            static_cast<int>(std::floor((points[i][d] - offset[d]) / length));
+          places[i][d] = static_cast<int>(std::floor(points[i][d] / length));
       std::sort(places.begin(), places.end());
 
       std::vector<Run<dim>> mine;
@@ -173,11 +166,11 @@ namespace Morula
       return all;
     }
 
-    /** How many groups the cubes form, of which neighbours stand at most
-     *  @p reach cubes apart along each axis. */
+    /** How many groups the cubes form, of which neighbours stand at most two
+     *  cubes apart along each axis. */
     template <int dim>
     unsigned int
-    n_groups(const std::vector<Run<dim>> &runs, const int reach)
+    n_groups(const std::vector<Run<dim>> &runs)
     {
       // Each run is joined with those found before it in all rows within reach,
       // where they overlap along the last axis or come as near as that. All
@@ -196,36 +189,20 @@ namespace Morula
           Row             row;
           std::copy_n(run.begin(), dim - 1, row.begin());
           // This joins it with runs that came before.
-          for (int k = 0; k < Utilities::pow(2 * reach + 1, dim - 1); ++k)
+          for (int k = 0; k < Utilities::pow(5, dim - 1); ++k)
             {
               Row other = row;
-              for (int d = 0, rest = k; d < dim - 1; ++d)
-                {
-                  other[d] += rest % (2 * reach + 1) - reach;
-                  rest /= 2 * reach + 1;
-                }
+              for (int d = 0, rest = k; d < dim - 1; ++d, rest /= 5)
+                other[d] += rest % 5 - 2;
               if (const auto found = rows.find(other); found != rows.end())
                 for (const std::size_t s : found->second)
-                  if (run[dim - 1] < runs[s][dim] + reach &&
-                      runs[s][dim - 1] < run[dim] + reach)
+                  if (run[dim - 1] < runs[s][dim] + 2 &&
+                      runs[s][dim - 1] < run[dim] + 2)
                     groups.union_set(r, s);
             }
           rows[row].push_back(r);
         }
       return groups.count_sets(list.begin(), list.end());
-    }
-
-    /** Founders and boundary points, which make grid cells active. */
-    template <int dim>
-    std::vector<Point<dim>>
-    all_points(const Founders<dim>       &founders,
-               const SurfacePatches<dim> &surface)
-    {
-      std::vector<Point<dim>> points = founders.positions;
-      points.insert(points.end(),
-                    surface.positions.begin(),
-                    surface.positions.end());
-      return points;
     }
   } // namespace
 
@@ -238,27 +215,12 @@ namespace Morula
                const MPI_Comm             comm)
   {
     // Bodies are groups of cubes as long as the longest cell that stand at most
-    // two apart, pieces are groups of grid cells that touch. Both are counted
-    // on rank 0. The grid sticks bodies together that the cells keep apart
-    // where there are fewer pieces than bodies.
-    double longest = 0.;
-    for (const double V : founders.volumes)
-      longest = std::max(longest, std::pow(V, 1. / dim));
-    longest = Utilities::MPI::max(longest, comm);
-
-    Point<dim>                offset;
-    const std::vector<double> of_grid = grid.offset;
-    for (unsigned int d = 0; d < dim; ++d)
-      offset[d] = of_grid[d];
-    const auto of_bodies =
-      occupied<dim>(founders.positions, Point<dim>(), longest, comm);
-    // Boundary points make grid cells active, too.
-    const auto of_pieces =
-      occupied<dim>(all_points(founders, surface), offset, grid.spacing, comm);
-    const std::array<unsigned int, 2> counts = {
-      {n_groups<dim>(of_bodies, 2), n_groups<dim>(of_pieces, 1)}};
-    const auto of_root = Utilities::MPI::broadcast(comm, counts, 0);
-    return {of_root[0], of_root[1]};
+    // two apart, counted on rank 0. The grid sticks bodies together that the
+    // cells keep apart where there are fewer pieces than bodies.
+    const std::vector<Run<dim>> runs =
+      occupied<dim>(founders.positions, longest_length(founders, comm), comm);
+    return {Utilities::MPI::broadcast(comm, n_groups<dim>(runs), 0),
+            pieces_at_start(grid, founders, surface, comm).n};
   }
 
 

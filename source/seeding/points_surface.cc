@@ -4,19 +4,16 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
+#include <morula/particles/point_exchange.h>
+#include <morula/particles/point_store.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/filling.h>
 #include <morula/seeding/points_surface.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <boost/serialization/vector.hpp>
+#include <morula/surface/cell_surface.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -24,202 +21,200 @@ namespace Morula
 {
   namespace
   {
-    /** The surface around cells, which are refused if they have no common one.
-     */
+    /** The surface around the cells of a body. */
     template <int dim>
-    ClosedSurface<dim>
-    checked_surface(const TissueParameters &parameters,
-                    const AllCells<dim>    &cells)
+    struct SurfaceOfBody
     {
-      std::string        misfit;
-      ClosedSurface<dim> surface =
-        enclose(cells, parameters.closed_gap, misfit);
-      if (misfit.empty())
-        return surface;
-      parameters.points_file.refuse(
-        "cells side by side, as there is a surface around them (Tissue/Points "
-        "surface = " +
-          parameters.points_surface + ')',
-        misfit +
-          " If the file is in another unit, scale it to um; else give each "
-          "cell its volume, or set Tissue/Cell spacing to their length; or set "
-          "Points surface = none.");
-    }
+      CellSurface<dim> surface;
+      /** All ranks' patches in their order, with their area vectors. */
+      PointList<dim> patches;
+      double         volume = 0.; // of the cells, µm^dim
+      /** Of all ranks' cells, and those not behind the patch that is nearest to
+       *  them. */
+      std::uint64_t n_cells = 0, n_outside = 0;
 
-    /** Moves the patches along their normals, all as far, so that they enclose
-     *  this volume, µm^dim. */
-    template <int dim>
-    void
-    enclose_exactly(const double volume, SurfacePatches<dim> &patches)
-    {
-      // The volume as in enclosed_volume(), from the patches. A shift by w
-      // along all normals changes it by w/dim times their area: positions move,
-      // areas and normals stay.
-      const Point<dim> apex   = patches.positions.front();
-      double           so_far = 0., area = 0.;
-      for (std::size_t i = 0; i < patches.areas.size(); ++i)
-        {
-          so_far += patches.areas[i] / dim *
-                    ((patches.positions[i] - apex) * patches.normals[i]);
-          area += patches.areas[i];
-        }
-      const double way = dim * (volume - so_far) / area;
-      for (std::size_t i = 0; i < patches.areas.size(); ++i)
-        patches.positions[i] += way * patches.normals[i];
-    }
+      /** Makes the surface on the lattice of a grid of this rank's cells.
+       *  Collective. */
+      SurfaceOfBody(const PointList<dim> &cells,
+                    const GridParameters &parameters,
+                    const MPI_Comm        comm)
+        : patches(dim)
+      {
+        volume  = sum_of_all_ranks(cells.numbers, comm);
+        n_cells = Utilities::MPI::sum(std::uint64_t(cells.size()), comm);
+        if (n_cells == 0)
+          return;
+        // The tissue has no grid yet, so the body gets one of its own.
+        BackgroundGrid<dim> grid(parameters, comm);
+        const auto [first, last] = extent<dim>({&cells.positions}, grid);
+        grid.enclose(first, last);
+        grid.partition(count_points(cells.positions, grid));
+        surface = surface_of_cells(send_to_owners(cells, grid), grid);
+        for (std::size_t k = 0; k < surface.places.size(); ++k)
+          patches.add_value(surface.places[k],
+                            surface.positions[k],
+                            surface.areas[k]);
+        patches = of_all_ranks(patches, comm);
 
-    /** The cells of all ranks, on rank 0, body by body: those of one body if
-     *  founders do not know theirs. Collective. */
-    template <int dim>
-    std::vector<AllCells<dim>>
-    cells_of_bodies(const Founders<dim> &founders, const MPI_Comm comm)
-    {
-      // Each list arrives in the order of the ranks, so that positions, volumes
-      // and bodies stay in step.
-      std::vector<Point<dim>>   positions;
-      std::vector<double>       volumes;
-      std::vector<unsigned int> bodies;
-      for (const auto &part : Utilities::MPI::gather(comm, founders.positions))
-        positions.insert(positions.end(), part.begin(), part.end());
-      for (const auto &part : Utilities::MPI::gather(comm, founders.volumes))
-        volumes.insert(volumes.end(), part.begin(), part.end());
-      for (const auto &part : Utilities::MPI::gather(comm, founders.bodies))
-        bodies.insert(bodies.end(), part.begin(), part.end());
-      if (bodies.empty())
-        return {AllCells<dim>(positions, volumes)};
-      const unsigned int n =
-        *std::max_element(bodies.begin(), bodies.end()) + 1;
-      std::vector<std::vector<Point<dim>>> places(n);
-      std::vector<std::vector<double>>     sizes(n);
-      for (std::size_t i = 0; i < bodies.size(); ++i)
-        {
-          places[bodies[i]].push_back(positions[i]);
-          sizes[bodies[i]].push_back(volumes[i]);
-        }
-      std::vector<AllCells<dim>> list;
-      for (unsigned int b = 0; b < n; ++b)
-        list.emplace_back(places[b], sizes[b]);
-      return list;
-    }
+        const NearTree<dim> tree(patches.positions);
+        std::uint64_t       n = 0;
+        for (const Point<dim> &x : cells.positions)
+          if (const auto k = tree.nearest(x, [](const auto) { return true; });
+              !k || (x - patches.positions[*k]) * area(*k) > 0.)
+            ++n;
+        n_outside = Utilities::MPI::sum(n, comm);
+      }
 
-    /** Adds the patches of one body to those of all. @param body its number, if
-     *  bodies are told apart */
-    template <int dim>
-    void
-    append_patches(const SurfacePatches<dim>         &more,
-                   const std::optional<unsigned int> &body,
-                   SurfacePatches<dim>               &all)
-    {
-      all.positions.insert(all.positions.end(),
-                           more.positions.begin(),
-                           more.positions.end());
-      all.normals.insert(all.normals.end(),
-                         more.normals.begin(),
-                         more.normals.end());
-      all.areas.insert(all.areas.end(), more.areas.begin(), more.areas.end());
-      if (body)
-        all.bodies.insert(all.bodies.end(), more.positions.size(), *body);
-      all.n_global += more.n_global;
-    }
+      /** The area vector of a patch, µm^(dim-1). */
+      Tensor<1, dim>
+      area(const std::size_t k) const
+      {
+        return patches.template value<Tensor<1, dim>>(k);
+      }
 
-    /** This rank's share of the patches that rank 0 has. Collective. */
+      /** Refuses a surface that is not around the cells: if half of them are
+       *  outside, if it has more parts than half of them, or encloses less than
+       *  half of their volume. @throws InputError */
+      void
+      check(const TissueParameters &parameters) const
+      {
+        // Where cells leave gaps, the surface is around each of them, or around
+        // some of them, whose neighbourhood has room for the volumes of all.
+        // Where they overlap, it cannot be so far from them as their volumes
+        // demand.
+        const double       ratio = surface.volume / volume;
+        const unsigned int n     = surface.n_parts;
+        const bool         is_around =
+          n > 0 && 2 * n_outside <= n_cells && (n == 1 || 2 * n <= n_cells);
+        if (n_cells > 0 && !(is_around && ratio > 0.5))
+          parameters.points_file.refuse(
+            "cells side by side, as there is a surface around them "
+            "(Tissue/Points surface = " +
+              parameters.points_surface + ')',
+            "It would have " + std::to_string(n) +
+              (n == 1 ? " part" : " parts") + " for " +
+              std::to_string(n_cells) + " cells, of which " +
+              std::to_string(n_outside) + " are outside, and enclose " +
+              as_text(ratio) + " of their volume: they " +
+              (is_around ? "overlap" : "leave gaps") +
+              ". If the file is in another unit, scale it to um; else give "
+              "each cell its volume, or set Tissue/Cell spacing to their "
+              "length; or set Points surface = none.");
+      }
+    };
+
+    /** All ranks' patches of the surfaces around the cells of each body, on the
+     *  lattice of a grid of the spacing @p h (µm). Collective.
+     *  @throws InputError if there is none around all of them */
     template <int dim>
     SurfacePatches<dim>
-    shares_of(const SurfacePatches<dim> &all, const MPI_Comm comm)
+    patches_around(const TissueParameters &parameters,
+                   const GridParameters   &grid,
+                   const Founders<dim>    &founders,
+                   const double            h,
+                   const MPI_Comm          comm)
     {
-      // Rank 0 sends the whole list to all, and each takes its share. Surfaces
-      // are small beside the tissue.
-      const auto take = [comm](const auto &list, auto &mine) {
-        const auto everything   = Utilities::MPI::broadcast(comm, list, 0);
-        const auto [begin, end] = share(everything.size(), comm);
-        mine.assign(everything.begin() + begin, everything.begin() + end);
-      };
-      SurfacePatches<dim> mine;
-      take(all.positions, mine.positions);
-      take(all.normals, mine.normals);
-      take(all.areas, mine.areas);
-      take(all.bodies, mine.bodies);
-      mine.closed_room = Utilities::MPI::broadcast(comm, all.closed_room, 0);
-      const std::uint64_t n =
-        Utilities::MPI::sum<std::uint64_t>(mine.areas.size(), comm);
-      mine.first_id = static_cast<types::particle_index>(share(n, comm).first);
-      mine.n_global = static_cast<types::particle_index>(n);
-      return mine;
+      // All cells are one body if founders do not know theirs. A type of cells
+      // may have no founder.
+      const unsigned int          n = number_of_bodies(founders, comm);
+      const bool                  know_bodies = n > 0;
+      std::vector<PointList<dim>> bodies(std::max(1u, n), PointList<dim>(1));
+      for (std::size_t i = 0; i < founders.positions.size(); ++i)
+        bodies[know_bodies ? founders.bodies[i] : 0].add_value(
+          founders.first_id + i, founders.positions[i], founders.volumes[i]);
+      SurfacePatches<dim> all;
+      std::vector<double> volumes;
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          GridParameters lattice;
+          lattice.spacing = h;
+          lattice.offset  = grid.offset.value();
+          // A surface that stays is not coarser than the cells, unless it is
+          // wished. Bodies that touch may be thinner than the lattice resolves.
+          // Then it becomes finer, down to half a cell.
+          SurfaceOfBody<dim> body(bodies[b], lattice, comm);
+          if (const double fine = 2.5 * body.surface.cell_length;
+              parameters.boundary_points == 0 && fine < h)
+            {
+              lattice.spacing = fine;
+              body            = SurfaceOfBody<dim>(bodies[b], lattice, comm);
+            }
+          while (know_bodies && body.n_outside > 0.1 * body.n_cells &&
+                 lattice.spacing > 2. * body.surface.cell_length)
+            {
+              lattice.spacing = 0.5 * lattice.spacing;
+              body            = SurfaceOfBody<dim>(bodies[b], lattice, comm);
+            }
+          body.check(parameters);
+          all.filled += body.surface.filled;
+          all.n_outside += body.n_outside;
+          volumes.push_back(body.surface.volume);
+          // What tiny patches would have added to the sum of the area vectors
+          // is shared out among those that there are.
+          Tensor<1, dim> opening;
+          for (std::size_t k = 0; k < body.patches.size(); ++k)
+            opening += body.area(k) / body.surface.area;
+          for (std::size_t k = 0; k < body.patches.size(); ++k)
+            {
+              const Tensor<1, dim> A =
+                body.area(k) - body.area(k).norm() * opening;
+              all.add({body.patches.positions[k], A / A.norm(), A.norm()});
+            }
+          if (know_bodies)
+            all.bodies.resize(all.areas.size(), b);
+        }
+      if (know_bodies)
+        part_bodies(volumes, all);
+      return all;
     }
   } // namespace
 
   template <int dim>
   SurfacePatches<dim>
   seed_points_surface(const TissueParameters &parameters,
+                      const GridParameters   &grid,
                       const Founders<dim>    &founders,
                       const MPI_Comm          comm)
   {
-    // Rank 0 has all cells and makes the surface; the shares go to all ranks.
-    // Without a number in the scene there is about one patch for the face of a
-    // cell.
-    const std::vector<AllCells<dim>> bodies = cells_of_bodies(founders, comm);
-    const bool                       know_bodies =
-      Utilities::MPI::logical_or(!founders.bodies.empty(), comm);
-    SurfacePatches<dim> all;
-    on_root(comm, [&]() {
-      std::vector<ClosedSurface<dim>> surfaces;
-      double                          area = 0.;
-      // A type of cells may have no founder.
-      for (const AllCells<dim> &cells : bodies)
+    // All ranks get all patches, as surfaces are small beside the tissue, and
+    // keep their shares. The number of patches goes with the edge of the
+    // lattice to the power of 1 - dim, but also depends on where lines and
+    // nodes are. So each try for a wished number corrects the lattice of the
+    // one before, and the best one counts.
+    const double        n = parameters.boundary_points;
+    double              h = grid.spacing, least = 0.;
+    SurfacePatches<dim> mine;
+    if (parameters.has_surface_file())
+      for (const auto &patch :
+           patches_of_file(parameters.points_surface, founders, n, comm))
+        mine.add(patch);
+    else
+      for (unsigned int i = 0; i < (n > 0. ? 6 : 1); ++i)
         {
-          surfaces.emplace_back();
-          if (cells.positions.empty() && know_bodies)
-            continue;
-          surfaces.back() =
-            (parameters.has_surface_file() ?
-               read_surface(parameters.points_surface, cells.positions) :
-               checked_surface(parameters, cells));
-          area += total_area(surfaces.back());
+          SurfacePatches<dim> all =
+            patches_around(parameters, grid, founders, h, comm);
+          const double ratio = all.areas.size() / n;
+          if (i == 0 || std::abs(std::log(ratio)) < least)
+            {
+              mine  = std::move(all);
+              least = std::abs(std::log(ratio));
+            }
+          h *= std::pow(ratio, (i == 0 ? 1. : 0.5) / (dim - 1));
         }
-      double closed = 0.;
-      for (unsigned int b = 0; b < bodies.size(); ++b)
-        {
-          if (surfaces[b].facets.empty())
-            continue;
-          const double of_body = total_area(surfaces[b]);
-          append_patches(
-            tiled(surfaces[b],
-                  parameters.boundary_points > 0 ?
-                    std::ceil(parameters.boundary_points * of_body / area) :
-                    of_body / std::pow(bodies[b].length, dim - 1)),
-            know_bodies ? std::optional<unsigned int>(b) : std::nullopt,
-            all);
-          // A surface from a file closes what its author has meant.
-          if (!parameters.has_surface_file())
-            closed += room_without_cells(bodies[b], all);
-        }
-      all.closed_room = closed;
-      if (know_bodies)
-        part_bodies(all);
-    });
-    return shares_of(all, comm);
-  }
 
-  template <int dim>
-  std::optional<SurfacePatches<dim>>
-  surface_around(const std::vector<Point<dim>> &positions,
-                 const std::vector<double>     &volumes,
-                 const SurfaceWish             &wish)
-  {
-    // Called on one rank, with all cells: so there is nothing to exchange, and
-    // the result is the same for any number of ranks.
-    std::string              misfit;
-    const ClosedSurface<dim> surface =
-      enclose(AllCells<dim>(positions, volumes, wish.length), wish.gap, misfit);
-    if (!misfit.empty())
-      return {};
-    SurfacePatches<dim> patches =
-      tiled(surface, total_area(surface) / wish.patch_area);
-    if (wish.volume > 0.)
-      enclose_exactly(wish.volume, patches);
-    return patches;
+    const auto [begin, end] = share(mine.areas.size(), comm);
+    const auto keep_share   = [begin = begin, end = end](auto &list) {
+      if (!list.empty())
+        list = {list.begin() + begin, list.begin() + end};
+    };
+    mine.first_id = begin;
+    mine.n_global = mine.areas.size();
+    keep_share(mine.positions);
+    keep_share(mine.normals);
+    keep_share(mine.areas);
+    keep_share(mine.bodies);
+    return mine;
   }
 
   MORULA_INSTANTIATE(seed_points_surface);
-  MORULA_INSTANTIATE(surface_around);
 } // namespace Morula

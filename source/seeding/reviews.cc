@@ -3,6 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
+#include <morula/seeding/bodies.h>
 #include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,26 +26,9 @@ namespace Morula
     double
     cell_length(const Founders<dim> &founders, const MPI_Comm comm)
     {
-      // The mean of all ranks' cells.
-      double volume = 0.;
-      for (const double V : founders.volumes)
-        volume += V;
-      return std::pow(Utilities::MPI::sum(volume, comm) / founders.n_global,
+      return std::pow(sum_of_all_ranks(founders.volumes, comm) /
+                        founders.n_global,
                       1. / dim);
-    }
-
-    /** Mean length of a surface patch, µm; 0 without a surface. */
-    template <int dim>
-    double
-    patch_length(const SurfacePatches<dim> &surface, const MPI_Comm comm)
-    {
-      double area = 0.;
-      for (const double A : surface.areas)
-        area += A;
-      area = Utilities::MPI::sum(area, comm);
-      return surface.n_global == 0 ?
-               0. :
-               std::pow(area / surface.n_global, 1. / (dim - 1));
     }
 
     /** Smallest extent of the tissue along an axis, µm. */
@@ -134,7 +118,11 @@ namespace Morula
           tissue.cell_spacing.path() + " at most a third of that.");
 
     // Only slip walls are affected: fixed points keep their distances.
-    const double patch = patch_length(surface, comm);
+    const double patch =
+      surface.n_global == 0 ?
+        0. :
+        std::pow(sum_of_all_ranks(surface.areas, comm) / surface.n_global,
+                 1. / (dim - 1));
     if (slips && !tissue.refine_surface && patch > (0.5 - rounding) * h)
       review.warn(tissue.boundary_points.path(),
                   std::to_string(surface.n_global),
@@ -175,15 +163,13 @@ namespace Morula
                         const SurfacePatches<dim> &surface,
                         const MPI_Comm             comm)
     {
-      double enclosed = 0., cells = 0.;
+      double enclosed = 0.;
       for (std::size_t i = 0; i < surface.areas.size(); ++i)
         // By the divergence theorem the patches give the volume.
         enclosed +=
           surface.areas[i] / dim * (surface.normals[i] * surface.positions[i]);
-      for (const double V : founders.volumes)
-        cells += V;
       return Utilities::MPI::sum(enclosed, comm) /
-             Utilities::MPI::sum(cells, comm);
+             sum_of_all_ranks(founders.volumes, comm);
     }
 
     /** Lengths of cells, µm: those of bacteria and egg cells lie between. */
@@ -219,42 +205,50 @@ namespace Morula
                     " um long, where 5 to 50 is usual. Is a length in another "
                     "unit than um, such as m, mm or nm?",
                   "Scale places to um and volumes to um^3 (2-D: um^2).");
-    if (tissue.is_points() && surface.n_global > 0)
-      {
-        const double ratio = enclosed_over_cells(founders, surface, comm);
-        if (std::abs(ratio - 1.) > most_off)
-          review.warn(tissue.points_file.path(),
-                      tissue.points_file,
-                      "the surface around the cells encloses " +
-                        as_text(ratio) +
-                        " times their volume: a pressure on it squeezes them "
-                        "by so many times that pressure.",
-                      "Give each cell its volume in the file, or set "
-                      "Tissue/Cell spacing to the length of the cells.");
-        if (surface.closed_room > 0.)
-          review.warn(tissue.closed_gap.path(),
-                      as_text(tissue.closed_gap) + " cell lengths",
-                      "the surface around the cells has closed gaps or "
-                      "cavities: it encloses about " +
-                        as_text(surface.closed_room) +
-                        (dim == 3 ? " um^3" : " um^2") +
-                        " in which no cell is, and lies closer to the cells "
-                        "elsewhere for it.",
-                      "Lower this key, or fill the holes, or give the surface "
-                      "as a file in Tissue/Points surface.");
-      }
-    if (!tissue.is_points() && surface.n_global > 0 &&
-        tissue.surface_cells == "whole")
-      {
-        const double ratio = enclosed_over_cells(founders, surface, comm);
-        if (std::abs(1. / ratio - 1.) > most_off_of_lattice)
-          review.warn(tissue.cell_spacing.path(),
-                      as_text(tissue.cell_spacing) + " um",
-                      "the lattice does not fit the shape: its cells have " +
-                        as_text(1. / ratio) + " of the shape's volume.",
-                      "Choose a spacing that divides the shape, a smaller one, "
-                      "or Tissue/Surface cells = trimmed.");
-      }
+    const double ratio =
+      surface.n_global > 0 ? enclosed_over_cells(founders, surface, comm) : 1.;
+    const std::string advice =
+      "Give each cell its volume in the file, or set "
+      "Tissue/Cell spacing to the length of the cells.";
+    if (tissue.is_points() && std::abs(ratio - 1.) > most_off)
+      review.warn(tissue.points_file.path(),
+                  tissue.points_file,
+                  "the surface around the cells encloses " + as_text(ratio) +
+                    " times their volume: a pressure on it squeezes them "
+                    "by so many times that pressure.",
+                  advice);
+    if (tissue.is_points() && surface.n_outside > most_off * founders.n_global)
+      review.warn(tissue.points_file.path(),
+                  tissue.points_file,
+                  std::to_string(surface.n_outside) + " of " +
+                    std::to_string(founders.n_global) +
+                    " cells stand outside of the surface around them: "
+                    "they leave gaps, and it encloses no more than their "
+                    "volume.",
+                  advice);
+    if (tissue.is_points() && surface.filled > 0.)
+      review.warn(tissue.points_surface.path(),
+                  tissue.points_surface,
+                  "the surface around the cells has filled cavities: it "
+                  "encloses about " +
+                    as_text(surface.filled) + (dim == 3 ? " um^3" : " um^2") +
+                    " in which no cell is, and lies closer to the cells "
+                    "elsewhere for it.",
+                  "Fill the holes, or give the surface as a file here.");
+    if (tissue.renew_surface > 0.)
+      review.warn(tissue.renew_surface.path(),
+                  tissue.renew_surface.text(),
+                  "it has no effect since 0.3.0: Tissue/Surface says when the "
+                  "surface is made anew.",
+                  "Remove it.");
+    if (!tissue.is_points() && tissue.surface_cells == "whole" &&
+        std::abs(1. / ratio - 1.) > most_off_of_lattice)
+      review.warn(tissue.cell_spacing.path(),
+                  as_text(tissue.cell_spacing) + " um",
+                  "the lattice does not fit the shape: its cells have " +
+                    as_text(1. / ratio) + " of the shape's volume.",
+                  "Choose a spacing that divides the shape, a smaller one, or "
+                  "Tissue/Surface cells = trimmed.");
     if (tissue.is_mesh())
       review_mesh(TissueKeys::surface_mesh, tissue.surface_mesh, review);
   }

@@ -210,12 +210,7 @@ namespace Morula
     patches.first_id        = static_cast<types::particle_index>(begin);
     patches.n_global = static_cast<types::particle_index>(tiling.n_patches);
     for (std::uint64_t i = begin; i < end; ++i)
-      {
-        const SurfacePatch<dim> patch = tiling.patch(i);
-        patches.positions.push_back(patch.position);
-        patches.normals.push_back(patch.normal);
-        patches.areas.push_back(patch.area);
-      }
+      patches.add(tiling.patch(i));
     return patches;
   }
 

@@ -21,6 +21,7 @@ namespace Morula
 {
   TissueParameters::TissueParameters()
   {
+    surface.with("paper", "tracked");
     // These keys name files, which are looked for beside the scene as well.
     for (Key<std::string> *key :
          {&surface_mesh, &points_file, &points_surface, &cuts})
@@ -163,16 +164,15 @@ namespace Morula
           "false, as Tissue/Points surface = none",
           "Set Refine surface = false, or Points surface = "
           "automatic.");
+      if (tissue.closed_gap != 2.)
+        tissue.closed_gap.refuse("2",
+                                 "Other cavities are those of a surface from a "
+                                 "file: Tissue/Points surface.");
       if (tissue.coarsen_surface && !tissue.refine_surface)
         tissue.coarsen_surface.refuse(
           "false, as Tissue/Refine surface = false",
           "What is merged must be split again: set Refine "
           "surface = true.");
-      if (tissue.renew_surface > 0. && !tissue.coarsen_surface)
-        tissue.renew_surface.refuse(
-          "0, as Tissue/Coarsen surface = false",
-          "Between two renewals patches are split and merged: "
-          "set Coarsen surface = true.");
     }
 
     /** Refuses a lattice that misses the shape. */

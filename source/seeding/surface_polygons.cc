@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/key.h>
+#include <morula/base/agreement.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/seeding.h>
 
 #include <boost/algorithm/string.hpp>
 #include <boost/geometry.hpp>
@@ -149,39 +148,44 @@ namespace Morula
       return body;
     }
 
-    /** Appends a closed line: counter-clockwise, or clockwise that of a hole.
-     */
     template <typename Ring>
-    void
-    append(const Ring &ring, ClosedSurface<2> &surface)
+    std::vector<Point<2>>
+    points_of(const Ring &ring)
     {
-      // The last point repeats the first one, so it makes no vertex.
-      const auto begin = static_cast<unsigned int>(surface.vertices.size());
-      const auto n     = static_cast<unsigned int>(ring.size() - 1);
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          surface.vertices.emplace_back(ring[i].x(), ring[i].y());
-          surface.facets.push_back({{begin + i, begin + (i + 1) % n}});
-        }
+      std::vector<Point<2>> points;
+      for (const Place &place : ring)
+        points.emplace_back(place.x(), place.y());
+      return points;
     }
   } // namespace
 
 
-  ClosedSurface<2>
-  read_surface(const Key<std::string> &file, const std::vector<Point<2>> &cells)
+  std::vector<SurfacePatch<2>>
+  patches_of_file(const Key<std::string> &file,
+                  const Founders<2>      &founders,
+                  const double            n_wished,
+                  const MPI_Comm          comm)
   {
-    const Body body = read_polygons(file);
-    refuse_outside<2>(file, cells, [&body](const Point<2> &x) {
-      return geometry::within(Place(x[0], x[1]), body);
-    });
-    ClosedSurface<2> surface;
+    Body body;
+    everywhere(comm, [&]() { body = read_polygons(file); });
+    std::vector<std::vector<Point<2>>> lines;
     for (const Polygon &polygon : body)
       {
-        append(polygon.outer(), surface);
+        lines.push_back(points_of(polygon.outer()));
         for (const auto &hole : polygon.inners())
-          append(hole, surface);
+          lines.push_back(points_of(hole));
       }
-    return surface;
+    const double length = geometry::perimeter(body);
+    const double n      = n_patches<2>(
+      file,
+      founders,
+      [&](const Point<2> &x) {
+        return geometry::within(Place(x[0], x[1]), body);
+      },
+      length,
+      n_wished,
+      comm);
+    return cut_into_patches(lines, length / n);
   }
 
 
@@ -190,9 +194,11 @@ namespace Morula
   {
     std::vector<std::array<Point<2>, 2>> segments;
     for (const Line &line : read_shapes<ManyLines>(file, "LINESTRING"))
-      for (std::size_t i = 0; i + 1 < line.size(); ++i)
-        segments.push_back({{Point<2>(line[i].x(), line[i].y()),
-                             Point<2>(line[i + 1].x(), line[i + 1].y())}});
+      {
+        const std::vector<Point<2>> points = points_of(line);
+        for (std::size_t i = 0; i + 1 < points.size(); ++i)
+          segments.push_back({{points[i], points[i + 1]}});
+      }
     return segments;
   }
 } // namespace Morula

@@ -188,6 +188,10 @@ namespace Morula
       data.numbers["enclosed_share"] = *state.enclosed_share;
     if (state.drag > 1.)
       data.numbers["drag"] = state.drag;
+    if (state.surface_way > 0.)
+      data.numbers["surface_way"] = state.surface_way;
+    if (!state.walls.empty())
+      data.tables["walls"] = state.walls;
     const GridBox<dim> &box = tissue.grid().box();
     data.integer_tables["box_first"].assign(box.first().begin(),
                                             box.first().end());
@@ -275,6 +279,10 @@ namespace Morula
     // Snapshots of versions that did not know the share do not have it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
+    if (data.numbers.count("surface_way") > 0)
+      state.surface_way = data.number("surface_way");
+    if (data.tables.count("walls") > 0)
+      state.walls = data.table("walls");
     if (data.numbers.count("drag") > 0)
       state.drag = data.number("drag");
     if (data.numbers.count("step_error") > 0)

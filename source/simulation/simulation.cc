@@ -145,9 +145,9 @@ namespace Morula
         run_state.error.add(mu);
       }
     // The displacement is extrapolated beyond the outermost cells and carries
-    // boundary points away there, doc/theory.md (4.13). A surface that is kept
-    // near its cells in follow_surface() has a rule of its own for such points.
-    if (!surface.restores(run_state.enclosed_share))
+    // boundary points away there, doc/theory.md (4.13). A surface that is made
+    // from the cells is never far from them.
+    if (!surface.is_remade())
       {
         const TimerOutput::Scope section(timer, "strays");
         pull_back_detached_points(tissue);

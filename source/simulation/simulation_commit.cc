@@ -6,7 +6,6 @@
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/plain_kernels.h>
-#include <morula/particles/surface_refinement.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
@@ -205,6 +204,7 @@ namespace Morula
       run_state.kept[name] = number;
     events         = std::move(growth_of_step.events);
     growth_of_step = {};
+    run_state.surface_way += surface.largest.u;
     tissue.move(cells.positions, surface.positions);
   }
 
@@ -259,7 +259,8 @@ namespace Morula
     remove_the_dead();
     for_moments(&Moments<dim>::rearrange, time_steps.time(), row.dt);
     count(space);
-    follow_surface(space, former);
+    if (surface.follow(tissue, space, former, time_steps.time(), row.dt))
+      watches.look_at_conditions(tissue, time_steps.time());
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
     for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
@@ -300,61 +301,19 @@ namespace Morula
   {
     if (!model.development.is_mortal())
       return;
-    // The boundary points are counted before and after the removal: those of
-    // lost tissue go with it, and a large loss opens the surface. A cut also
-    // changes what the next step has to balance, so that its length is chosen
-    // anew.
-    const TimerOutput::Scope section(timer, "removal");
-    const auto               n_points = [&]() {
-      return Utilities::MPI::sum<std::uint64_t>(tissue.boundary_points().size(),
-                                                comm);
-    };
-    watches.begin_conditions(tissue);
-    const std::uint64_t          n_before = n_points();
+    // Boundary points of lost tissue go with it. A cut also changes what the
+    // next step has to balance, so that its length is chosen anew.
+    const TimerOutput::Scope     section(timer, "removal");
     const std::vector<CellEvent> removals = remove_dead_cells(tissue,
                                                               model.development,
                                                               time_steps.time(),
                                                               model.densities);
     events.insert(events.end(), removals.begin(), removals.end());
-    // A cut surface stays open unless the scene renews it. What it encloses
-    // is no measure any more.
-    const std::uint64_t n_left = n_points();
-    if (n_left < n_before)
-      watches.look_at_conditions(tissue, time_steps.time());
-    if (surface.is_cut(n_before, n_left))
-      run_state.enclosed_share.reset();
     // The events are those of this rank's cells. The length of a step is the
     // same on all ranks.
     if (Utilities::MPI::logical_or(cuts(events), comm))
       time_steps.begin_anew();
   }
-
-  template <int dim>
-  void
-  Simulation<dim>::follow_surface(const SplineSpace<dim> &space,
-                                  const PointList<dim>   &former)
-  {
-    try
-      {
-        surface.follow(tissue,
-                       space,
-                       former,
-                       run_state.enclosed_share,
-                       time_steps.time(),
-                       row.dt);
-      }
-    catch (const SurfaceTorn &error)
-      {
-        // The tissue has moved already, so the step counts and gets its row.
-        // The next one could not be done without a surface. give_up() takes one
-        // off the count of steps, which is therefore raised first.
-        complete_row();
-        write_rows();
-        ++run_state.n_steps;
-        give_up(error.what() + std::string("."));
-      }
-  }
-
 
   template class Simulation<2>;
   template class Simulation<3>;

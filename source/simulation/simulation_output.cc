@@ -163,8 +163,9 @@ namespace Morula
         << share_at_start
         << " at t = 0: boundary points have left the cells, the surface has a "
            "hole, or cells share space. Loads on the surface and fields that "
-           "enter through it are wrong by as much. Tissue/Renew surface makes "
-           "it anew; a smaller Grid/Spacing follows the tissue more closely. "
+           "enter through it are wrong by as much. Tissue/Surface = from cells "
+           "makes it anew; a smaller Grid/Spacing follows the tissue more "
+           "closely. "
            "The columns enclosed_volume, total_volume and surface_distance of "
            "statistics.csv have the numbers.";
       return text.str();

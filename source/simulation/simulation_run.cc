@@ -3,13 +3,10 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/fate/removal.h>
-#include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/output/rows.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
-#include <morula/simulation/step_checks.h>
 #include <morula/solver/linear_solver.h>
 
 #include <deal.II/base/mpi.h>
@@ -117,7 +114,7 @@ namespace Morula
     , tissue(model.empty_tissue(comm))
     , time_steps(scene.time)
     , watches(model, [this](const std::string &text) { files->message(text); })
-    , surface(model, run_state.next_boundary_id, timer, comm)
+    , surface(model, run_state, timer, comm)
   {
     for (const auto &[name, equation] : model.equations)
       equations.push_back(equation->in_run(
@@ -179,7 +176,8 @@ namespace Morula
     run_state.kept             = model.tables.kept();
     run_state.next_id          = seeded.founders.n_global;
     run_state.next_boundary_id = seeded.surface.n_global;
-    run_state.enclosed_share   = surface.begin(tissue);
+    if (surface.exists())
+      surface.begin(tissue);
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, 0., 0.);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
@@ -202,11 +200,10 @@ namespace Morula
                   tissue.boundary_points().columns(),
                   comm);
     run_state =
-      saved_run_state(*resumed_from,
-                      model.scene.tissue.refine_surface || model.scene.flows(),
-                      model.tables.kept());
+      saved_run_state(*resumed_from, surface.exists(), model.tables.kept());
     time_steps.restore(saved_time_steps(*resumed_from));
     restore_tissue(*resumed_from, tissue);
+    surface.resume(tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     describe_state();
     check_resumed_cycle();
@@ -280,6 +277,7 @@ namespace Morula
         for (const std::string &warning : warnings)
           files->message(warning);
         const auto find_steady = [&]() {
+          first_splines.reset();
           first_splines.emplace(splines());
           const std::optional<SplineSpace<dim>> apart =
             splines_of_equations(*first_splines);
@@ -306,7 +304,9 @@ namespace Morula
           find_steady();
         begin_moments();
         for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
-        watches.count_pieces(*first_splines, comm, time_steps.time());
+        watches.look_at_pieces(*first_splines,
+                               tissue.grid(),
+                               time_steps.time());
         count(*first_splines);
         describe_state();
         write_rows();
@@ -319,6 +319,8 @@ namespace Morula
         begin_moments();
       }
     resumed_from.reset();
+    if (model.development.is_mortal())
+      watches.look_at_conditions(tissue, time_steps.time());
     // What holds at the beginning already needs no message from a step on: the
     // user was told of it before the run, or by the run before.
     warned_of_long_cells = row.lengths.n_too_long > 0;
@@ -335,10 +337,11 @@ namespace Morula
     // the cells. The surface is closed first; what is measured on it, or on the
     // cells that are left, is then found again. All ranks go the same way, as
     // the count is that of all.
-    events = Morula::carve(tissue, model.development);
+    const PointList<dim> former = surface.before_losses(tissue);
+    events                      = Morula::carve(tissue, model.development);
     if (count(CellEvent::removal) == 0)
       return false;
-    run_state.enclosed_share = surface.close_cuts(tissue);
+    surface.close_cuts(tissue, former);
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, 0., 0.);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);

@@ -130,12 +130,7 @@ TEST_2D_3D(DetachedPoints, ArePulledBackToTheTissue)
 }
 
 
-TEST(DetachedPoints, BelongLessToTheTissue)
+TEST_2D_3D(DetachedPoints, BelongLessToTheTissue)
 {
-  MORULA_BOTH_DIMENSIONS(check_attachment);
-  EXPECT_EQ(attachment(0., 10.), 1.);
-  EXPECT_EQ(attachment(10., 10.), 1.);
-  EXPECT_NEAR(attachment(35. / 3., 10.), 0.5, 1e-14);
-  EXPECT_NEAR(attachment(40. / 3., 10.), 0., 1e-14);
-  EXPECT_EQ(attachment(1e3, 10.), 0.);
+  check_attachment<dim>();
 }

@@ -81,21 +81,3 @@ TEST_2D_3D(SurfaceFit, IsThatOfACube)
       EXPECT_LT(fit.opening, 1e-12);
     }
 }
-
-
-// The point goes back until it is near enough, and keeps its area.
-TEST_2D_3D(SurfaceFit, IsRestored)
-{
-  for (const double way : {5., 20., 90.})
-    {
-      SCOPED_TRACE(way);
-      Cube<dim> cube(way);
-      EXPECT_EQ(pull_to_cells(cube.tissue, 12.5), way > 7.5 ? 1u : 0u);
-      EXPECT_NEAR(surface_fit(cube.tissue).distance,
-                  std::min(12.5, 5. + way),
-                  1e-10);
-      const BoundaryPoints<dim> &points = cube.tissue.boundary_points();
-      for (unsigned int p = 0; p < points.size(); ++p)
-        EXPECT_EQ((points.F(p) - unit_tensor<dim>()).norm(), 0.);
-    }
-}

@@ -10,7 +10,6 @@ from scipy.spatial import cKDTree
 from tests.common.program import assert_same_file
 
 SCENE = {"Time/End time": 1.5, "Time/Step": 0.05, "Tissue/Refine surface": "true",
-         "Tissue/Coarsen surface": "true", "Tissue/Renew surface": 0.25,
          "Material/Relaxation time": 0.05, "Material/Energy per": "grown volume",
          "Material/Volumetric strain": "pooled", "Cell types/Names": "A, B",
          "Cell types/A/Tension/With surface": 2, "Cell types/B/Where": "X > 0",

@@ -163,13 +163,6 @@ def test_a_hairpin_in_3d(runs):
     check_closing_and_opening(run, 3)
 
 
-def test_a_fold_whose_surface_is_made_anew(runs):
-    """closes and opens as before."""
-    check_closing_and_opening(runs.run("anew", Strip(20, 10, 40).scene(runs), {
-        "Tissue/Boundary points": 150, "Tissue/Renew surface": 0.2,
-        "Tissue/Refine surface": "true", "Tissue/Coarsen surface": "true"}), 2)
-
-
 def two_blocks(runs):
     """Blocks of 60 um by 30 um, 2 um apart."""
     cells = [(1 + 2 * i, y + 1 + 2 * j, 4) for y in (0, 32) for j in range(15) for i in range(30)]

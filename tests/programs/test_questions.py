@@ -38,7 +38,7 @@ def test_bodies_near_each_other(runs):
         surface = run.surface(1)
         left = surface.query("X < 0")
         assert abs(left["x"] - left["X"]).max() < 1e-6
-        assert abs(surface["x"].max() - 90.249) <= 0.01
+        assert abs(surface["x"].max() - 90.339) <= 0.01
 
 
 @pytest.mark.parametrize("offset", [OFFSETS[0], OFFSETS[2]])

@@ -225,7 +225,7 @@ def test_wound(scene):
         "Tissue/Shape": "sphere", "Tissue/Radius": 250, "Tissue/Inner radius": 60,
         "Tissue/Cell spacing": 4, "Tissue/Surface cells": "trimmed",
         "Tissue/Refine surface": "true", "Tissue/Coarsen surface": "true",
-        "Tissue/Renew surface": 0.5, "Grid/Spacing": 14,
+        "Grid/Spacing": 14,
         "Material/Poisson's ratio": 0.45, "Material/Relaxation time": tau,
         "Material/Volumetric strain": "projected",
         "Boundary conditions/Surface tension where": "X^2 + Y^2 < 100^2",

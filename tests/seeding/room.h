@@ -13,7 +13,6 @@
 #include <morula/seeding/points_surface.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
-#include <morula/seeding/surface_renewal.h>
 
 #include <deal.II/base/numbers.h>
 

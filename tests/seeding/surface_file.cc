@@ -57,7 +57,7 @@ surface(const std::string &file, const double hole, const MPI_Comm comm)
   TissueParameters parameters;
   parameters.shape          = "points";
   parameters.points_surface = file;
-  return seed_points_surface(parameters, mine, comm);
+  return seed_points_surface(parameters, GridParameters(), mine, comm);
 }
 
 /** Checks the sums over all ranks: areas times normals add up to nothing, the

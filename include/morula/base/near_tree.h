@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <vector>
 
 namespace Morula
@@ -53,6 +54,35 @@ namespace Morula
                   found.end());
       std::sort(found.begin(), found.end());
       return found;
+    }
+
+    /** The number of the position nearest to @p x. There must be one. */
+    unsigned int
+    nearest(const Point<dim> &x) const
+    {
+      std::vector<unsigned int> found;
+      tree.query(boost::geometry::index::nearest(x, 1),
+                 std::back_inserter(found));
+      return found.at(0);
+    }
+
+    /** The lowest number of the positions nearest to @p x of those that
+     *  @p counts(number); nothing if there is none. */
+    template <typename Counts>
+    std::optional<unsigned int>
+    nearest(const Point<dim> &x, const Counts &counts) const
+    {
+      std::vector<unsigned int> found;
+      tree.query(boost::geometry::index::nearest(x, 1) &&
+                   boost::geometry::index::satisfies(counts),
+                 std::back_inserter(found));
+      if (found.empty())
+        return {};
+      for (const unsigned int i :
+           within(x, x.distance(positions[found[0]]) * (1. + 1e-9)))
+        if (counts(i))
+          return i;
+      return found[0];
     }
 
   private:

@@ -82,10 +82,9 @@ namespace Morula
       "with boundary points that can be held and loaded. automatic: where "
       "the scene has a boundary condition, or a key asks for the depth below "
       "the surface or its normal. always: also without one. It "
-      "stands where the cells end, and encloses their volume. Gaps and "
-      "cavities narrower than Closed gap are closed. Or the file of the "
-      "closed surface around the cells in um, cavities and all: STL, OFF, "
-      "PLY or OBJ; in 2-D polygons as well-known text, WKT."};
+      "stands where the cells end, and encloses their volume. Or the file of "
+      "the closed surface around the cells in um, cavities and all: STL, "
+      "OFF, PLY or OBJ; in 2-D polygons as well-known text, WKT."};
 
     Key<std::string> cuts{
       {this, TissueKeys::cuts},
@@ -98,10 +97,10 @@ namespace Morula
 
     Key<double> closed_gap{
       {this, "Tissue/Closed gap"},
-      4.,
-      "For the shape points: width of gaps and cavities that an "
-      "automatic surface closes; from 2 on. Units: cell lengths.",
-      {2.}};
+      2.,
+      "Of surfaces around cells: cavities with less room than a cube (2-D: a "
+      "square) of this edge are filled, others have a surface of their own. "
+      "Units: cell lengths."};
 
     Key<double> cell_spacing{
       {this, "Tissue/Cell spacing"},
@@ -128,8 +127,11 @@ namespace Morula
     Key<unsigned int> boundary_points{
       {this, "Tissue/Boundary points"},
       0,
-      "Number of points on the surface, met as nearly as the "
-      "shape allows; 0: one per L_p^2 of surface (2-D: L_p)."};
+      "Number of points on the surface, met as nearly as the shape allows. "
+      "0: one per L_p^2 of surface (2-D: L_p), and around points one for "
+      "each cell of a lattice of a third of Grid/Spacing, or of the length of "
+      "a cell if that is shorter, that the surface crosses. Another number makes that lattice finer or coarser, and the "
+      "surface less or more smooth with it."};
 
     Key<bool> refine_surface{
       {this, "Tissue/Refine surface"},
@@ -146,14 +148,24 @@ namespace Morula
       "that shrinks. Area and enclosed volume are kept. Needs Refine "
       "surface."};
 
+    Key<std::string> surface{
+      {this, "Tissue/Surface"},
+      "automatic",
+      "How the surface follows the tissue. tracked: its points are carried "
+      "along, and only where cells are lost new ones close it. from cells: it "
+      "is made anew around the cells when it has moved by half a cell of its "
+      "lattice, and when points were lost; what is fixed or slips is then held "
+      "where it was at t = 0. automatic: from "
+      "cells where cells exchange places, where tissue flows and loses cells, "
+      "and where it flows and nothing holds it; tracked otherwise, with "
+      "Traction where, with folds that never fuse (Contact/Between = all) and "
+      "with Method = paper.",
+      {"automatic|tracked|from cells"}};
+
     Key<double> renew_surface{
       {this, "Tissue/Renew surface"},
       0.,
-      "Time after which the surface is made anew around the cells, as around "
-      "points from a file, and at once when boundary points have lost "
-      "the cells near them or are carried off: for tissue that is lost, parts, joins or turns over. "
-      "Points that are held stay. 0: never. Needs Coarsen surface. Units: "
-      "day.",
+      "Without effect since 0.3.0: see Surface. Units: day.",
       {0.}};
 
     /**

@@ -86,6 +86,14 @@ namespace Morula
       return {};
     }
 
+    /** Whether tissue loses cells by the effect after t = 0. Expressions must
+     *  know the names of the scene. */
+    virtual bool
+    loses_cells() const
+    {
+      return false;
+    }
+
     /** Makes the keys in sections that others name, before any key has its
      *  value: from the value of the names_key, and from the names of the cells'
      *  types, in the order of their numbers, which equations do not know yet.

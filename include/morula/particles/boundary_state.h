@@ -46,6 +46,14 @@ namespace Morula
     loaded = 3
   };
 
+  /** Whether a boundary point is fixed or slips, and so is held. */
+  inline bool
+  is_held(const SurfaceCondition condition)
+  {
+    return condition == SurfaceCondition::fixed ||
+           condition == SurfaceCondition::slip;
+  }
+
   /**
    * The columns of the boundary points. All scenes have the same ones, except
    * those of a point's patch, which exist only if the scene refines the

@@ -12,32 +12,13 @@
 
 namespace Morula
 {
-  /** The largest distance from a boundary point to its nearest cell, on the
-   *  point's side where it has one, µm. Collective. */
-  template <int dim>
-  double
-  largest_distance(const Tissue<dim> &tissue);
-
   /**
-   * How far a cell's part of the tissue reaches, µm: 1.5 times its present
-   * width |F_e| (V⁰ det F_g)^(1/dim), at least h/4. No surface of a lattice of
-   * cells lies farther from it: doc/theory.md (4.13). Boundary points farther
-   * from their nearest cell than that are detached from the tissue.
+   * How much each of these boundary points of this rank belongs to the tissue,
+   * that is to cells of its @p sides where it has one. It follows from the
+   * distance to the nearest cell and that cell's reach, 1.5 times its present
+   * width |F_e| (V⁰ det F_g)^(1/dim) and at least h/4: 1 up to the reach, 0
+   * from 4/3 of it on, linear between; doc/theory.md (4.13). Collective.
    */
-  template <int dim>
-  double
-  surface_reach(const CellView<dim, const double> &cell, const double h);
-
-  /**
-   * How much a boundary point belongs to the tissue. It follows from the
-   * distance to the nearest cell and that cell's reach (µm): 1 up to the reach,
-   * 0 from 4/3 of it on, linear between.
-   */
-  double
-  attachment(const double distance, const double reach);
-
-  /** The attachment of each of these boundary points of this rank, to cells of
-   *  their @p sides where they have some. Collective. */
   template <int dim>
   std::vector<double>
   attachment(const std::vector<Point<dim>> &points,
@@ -64,17 +45,6 @@ namespace Morula
   std::uint64_t
   pull_back_detached_points(Tissue<dim> &tissue);
 
-  /**
-   * Moves boundary points that are farther than @p farthest (µm, at most a grid
-   * spacing) from their nearest cell towards it, until they are as near. Their
-   * areas and normals stay. Fixed points stay where they are held, slip points
-   * in their plane.
-   * @return how many points were moved, over all ranks. Collective.
-   */
-  template <int dim>
-  std::uint64_t
-  pull_to_cells(Tissue<dim> &tissue, const double farthest);
-
 
   /** How the boundary points fit the cells that they enclose. */
   struct SurfaceFit
@@ -89,7 +59,8 @@ namespace Morula
     /** |Σ a n|/Σ a: how far the surface is from being closed. */
     double opening = 0.;
 
-    /** The enclosed volume over that of the cells, of which there are some. */
+    /** The enclosed volume over that of the cells, of which there are some: q
+     *  of doc/theory.md (4.12f). */
     double
     share() const
     {

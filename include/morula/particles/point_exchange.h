@@ -33,6 +33,11 @@ namespace Morula
            const unsigned int                            n_numbers,
            const MPI_Comm                                comm);
 
+  /** The points in the order of their ids. */
+  template <int dim>
+  PointList<dim>
+  by_id(const PointList<dim> &points);
+
   /** The points of all ranks, by id. Collective. */
   template <int dim>
   PointList<dim>

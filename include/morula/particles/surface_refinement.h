@@ -15,13 +15,16 @@
 
 namespace Morula
 {
-  /** A boundary point was carried away so far that its patch cannot be split.
-   */
-  class SurfaceTorn : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
+  /** Whether a patch of any rank that is to be split has an edge that is longer
+   *  than 64 @p longest_edge (µm): its point was carried away from the tissue.
+   *  Arguments as of refine_surface(). Collective. */
+  template <int dim>
+  bool
+  has_torn_patch(const PointList<dim>                          &points,
+                 const BoundaryColumns<dim>                    &columns,
+                 const double                                   longest_edge,
+                 const std::function<bool(const Point<dim> &)> &crowded,
+                 const MPI_Comm                                 comm);
 
   /**
    * Splits every boundary point whose patch has an edge F E, doc/theory.md
@@ -45,8 +48,6 @@ namespace Morula
    * @param crowded whether there are enough points around a place already
    * @param next_id first free id, the same on all ranks; advanced
    * @return whether any rank has split a point. Collective.
-   * @throws SurfaceTorn on all ranks, before anything is split, if an edge that
-   *         is to be split is longer than 64 @p longest_edge
    */
   template <int dim>
   bool

@@ -115,6 +115,15 @@ namespace Morula
     /** Of step effects, then of conditions, with the effects' names. */
     const std::vector<std::pair<std::string, const Moments<dim> *>> moments;
 
+    /** Whether the surface of body number @p body is made from its cells, as
+     *  Tissue/Surface says, and not tracked. */
+    bool
+    remakes_surface(const unsigned int body) const;
+
+    /** Whether that of some body @p is_remade. */
+    bool
+    any_surface(const bool is_remade) const;
+
     /** The columns of the boundary points that the scene needs. */
     BoundaryColumns<dim>
     boundary_columns() const;

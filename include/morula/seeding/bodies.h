@@ -28,6 +28,16 @@ namespace Morula
   }
 
 
+  /** Collective. */
+  double
+  sum_of_all_ranks(const std::vector<double> &mine, const MPI_Comm comm);
+
+  /** The length V^(1/dim) of the longest cell, µm. Collective. */
+  template <int dim>
+  double
+  longest_length(const Founders<dim> &founders, const MPI_Comm comm);
+
+
   /**
    * The body of each of this rank's founders: founders that stand together,
    * each at most widest_bond lengths from some other. Bodies have the numbers
@@ -37,16 +47,25 @@ namespace Morula
   std::vector<unsigned int>
   bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
 
+  /** How many bodies there are, 0 if founders do not know theirs. Collective.
+   */
+  template <int dim>
+  unsigned int
+  number_of_bodies(const Founders<dim> &founders, const MPI_Comm comm);
+
   /**
    * Moves the patches of bodies that touch so that their surfaces do not
    * overlap: surfaces that were made around each body's cells alone may, by
    * part of a cell, and would start with a pressure. Each patch goes back along
-   * its normal by half of its mean overlap with the patches that face it.
+   * its normal by half of its mean overlap with the patches that face it. What
+   * a body has lost by that, its patches that face no other body make good by
+   * one distance along their normals.
+   * @param volumes that the bodies shall enclose, µm^dim
    * @param patches all of them
    */
   template <int dim>
   void
-  part_bodies(SurfacePatches<dim> &patches);
+  part_bodies(const std::vector<double> &volumes, SurfacePatches<dim> &patches);
 
   /** The measures of all bodies, by their numbers. Collective. */
   template <int dim>

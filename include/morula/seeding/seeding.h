@@ -13,6 +13,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -48,6 +49,18 @@ namespace Morula
     std::vector<std::string> skipped_columns;
   };
 
+  /** One patch of a tissue's initial surface. */
+  template <int dim>
+  struct SurfacePatch
+  {
+    /** Centre: a point of the surface that is on no edge or corner; µm. */
+    Point<dim> position;
+    /** Outward unit normal. */
+    Tensor<1, dim> normal;
+    /** µm^(dim-1) */
+    double area;
+  };
+
   /**
    * The boundary points that one rank seeds. They are the centres of patches
    * that tile the tissue's surface, with outward unit normal and area. The
@@ -63,9 +76,20 @@ namespace Morula
     types::particle_index       n_global = 0;
     /** Numbers of their bodies; empty without contact. */
     std::vector<unsigned int> bodies;
-    /** Room without cells that a surface around points has closed, about,
-     *  µm^dim; the same on all ranks. */
-    double closed_room = 0.;
+    /** Of a surface around points: the volume of the cavities that it has
+     *  filled, µm^dim, and how many cells are outside of it; the same on all
+     *  ranks. */
+    double        filled    = 0.;
+    std::uint64_t n_outside = 0;
+
+    /** Adds a patch at the end. */
+    void
+    add(const SurfacePatch<dim> &patch)
+    {
+      positions.push_back(patch.position);
+      normals.push_back(patch.normal);
+      areas.push_back(patch.area);
+    }
   };
 
   /**

@@ -20,18 +20,6 @@ namespace Morula
 {
   using namespace dealii;
 
-  /** One patch of a tissue's initial surface. */
-  template <int dim>
-  struct SurfacePatch
-  {
-    /** Centre: a point of the surface that is on no edge or corner; µm. */
-    Point<dim> position;
-    /** Outward unit normal. */
-    Tensor<1, dim> normal;
-    /** µm^(dim-1) */
-    double area;
-  };
-
   /**
    * A surface cut into numbered patches. Each patch is computed on request, so
    * that a rank computes only its own. It may outlive the shape that made it.

@@ -209,6 +209,11 @@ namespace Morula
     /** The volume that the surface enclosed at t = 0 over that of the cells;
      *  nothing if it was not closed. */
     std::optional<double> enclosed_share = {};
+    /** walls_of() the surface at t = 0, if it is made from the cells. */
+    std::vector<double> walls = {};
+    /** How far the surface has moved at most since it was made from the cells,
+     *  µm. */
+    double surface_way = 0.;
     /** The drag of tissue that goes slowly: slow_steps.h. */
     double drag = 1.;
     /** The estimated error of the steps so far. */

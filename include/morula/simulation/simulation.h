@@ -142,11 +142,14 @@ namespace Morula
     void
     watch(const SplineSpace<dim> &space)
     {
-      // Where folds have contact, tissue that comes near does not stick.
+      // Where folds have contact, tissue that comes near does not stick. A gap
+      // closes in many steps, so that not each of them has to search.
+      constexpr unsigned int every = 10;
       if (tissue.cells().has_parts())
         return;
       watches.look_at_pieces(space, tissue.grid(), time_steps.time());
-      watches.look_at_gaps(tissue, space, time_steps.time());
+      if (run_state.n_steps % every == 1)
+        watches.look_at_gaps(tissue, space, time_steps.time());
     }
     /** Moves the tissue to the end of the step. Collective. */
     void
@@ -224,8 +227,6 @@ namespace Morula
     divide();
     void
     remove_the_dead();
-    void
-    follow_surface(const SplineSpace<dim> &space, const PointList<dim> &former);
 
     /** Updates what the row says of the state, and keeps what it says of the
      *  step. */
@@ -266,12 +267,10 @@ namespace Morula
     SnapshotData<dim>
     snapshot() const
     {
-      // Boundary points get new ids where patches are split or made anew.
       return snapshot_of(tissue,
                          time_steps.state(),
                          run_state,
-                         model.scene.tissue.refine_surface ||
-                           model.scene.flows());
+                         surface.exists());
     }
     /** @throws StoppedBySignal */
     void

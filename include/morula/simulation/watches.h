@@ -27,20 +27,11 @@ namespace Morula
       , announce(announce)
     {}
 
-    /** Counts the points of each condition, before cells are removed for the
-     *  first time. Collective. */
-    void
-    begin_conditions(const Tissue<dim> &tissue)
-    {
-      if (!has_begun)
-        points_before = count_points(tissue);
-      has_begun = true;
-    }
-
     /** Tells when a condition on the surface, of the tissue or of a field, has
-     *  lost its last point, as the cells there are gone: what it held, loaded
-     *  or fed goes on without it. To be called after boundary points have gone
-     *  with their cells, at @p t (day). Collective. */
+     *  lost its last point since the last call, as the cells there are gone:
+     *  what it held, loaded or fed goes on without it. To be called at the
+     *  beginning and after the surface has lost points, at @p t (day).
+     *  Collective. */
     void
     look_at_conditions(const Tissue<dim> &tissue, const double t);
 
@@ -51,14 +42,7 @@ namespace Morula
                    const BackgroundGrid<dim> &grid,
                    const double               t);
 
-    /** Counts the pieces, if cells die: only death can part the tissue. Tells
-     *  if it has parted. Collective. */
-    void
-    count_pieces(const SplineSpace<dim> &space,
-                 const MPI_Comm          comm,
-                 const double            t);
-
-    /** The last count. */
+    /** How many pieces the last call has seen, if cells die. */
     unsigned int
     n_pieces() const
     {
@@ -66,28 +50,20 @@ namespace Morula
     }
 
     /** Tells, once a run, of the first gap of the tissue across which splines
-     *  reach: its sides stick together. Looks at the tissue at @p t (day)
-     *  before every tenth step, the first one included. Collective. */
+     *  reach: its sides stick together. Looks at the tissue at @p t (day).
+     *  Collective. */
     void
     look_at_gaps(const Tissue<dim>      &tissue,
                  const SplineSpace<dim> &space,
                  const double            t);
 
   private:
-    /** How many points each condition acts on. Collective. */
-    std::map<std::string, std::uint64_t>
-    count_points(const Tissue<dim> &tissue) const;
-
     const TissueModel<dim>              &model;
     const Announce                       announce;
-    std::map<std::string, std::uint64_t> points_before;
-    bool                                 has_begun = false;
+    std::map<std::string, std::uint64_t> points_before; // of conditions
     PieceWatch<dim>                      watch;
-    unsigned int                         n_pieces_  = 0;
-    bool                                 has_joined = false; // the user knows
-    bool                                 has_parted = false; // likewise
-    bool                                 has_told_of_gap = false;
-    unsigned int                         n_looks         = 0; // at gaps
+    unsigned int                         n_pieces_ = 0;
+    bool has_joined = false, has_parted = false, has_told_of_gap = false;
   };
 } // namespace Morula
 

@@ -68,8 +68,7 @@ namespace Morula
       for (unsigned int p = 0; p < store.size(); ++p)
         {
           const auto point = store[p];
-          if (!whole_surface && point.condition() != SurfaceCondition::fixed &&
-              point.condition() != SurfaceCondition::slip)
+          if (!whole_surface && !is_held(point.condition()))
             continue;
           const Tensor<1, dim> area    = point.area_vector();
           const double         spacing = point.spacing();

@@ -77,6 +77,16 @@ namespace Morula
         return {&rate};
       }
 
+      bool
+      loses_cells() const override
+      {
+        // What is taken away at t = 0 alone is part of the seeding.
+        const auto condition = when.expression(3);
+        return !rate.expression(3).is_always(0.) ||
+               !shrinking_time.expression(3).is_always(0.) ||
+               condition.depends_on_state() || condition.depends_on_time();
+      }
+
       /** Refuses dead cells that shrink with the stiffness of whole ones. */
       void
       check(const SceneKeys &scene, Review &) const override

@@ -36,6 +36,12 @@ namespace Morula
         return {&rate};
       }
 
+      bool
+      loses_cells() const override
+      {
+        return true;
+      }
+
       std::string
       details() const override
       {

@@ -23,27 +23,6 @@ namespace Morula
 
 
   template <int dim>
-  bool
-  is_mostly_held(const Tissue<dim> &tissue)
-  {
-    // A square held at two of its four sides is not: rounding, and so the
-    // number of ranks, must not decide there.
-    constexpr double           most  = 0.55;
-    const BoundaryPoints<dim> &store = tissue.boundary_points();
-    double                     held = 0., all = 0.;
-    for (unsigned int p = 0; p < store.size(); ++p)
-      {
-        const double area = store.area_vector(p).norm();
-        all += area;
-        if (is_held(store.condition(p)))
-          held += area;
-      }
-    return Utilities::MPI::sum(held, tissue.communicator()) >
-           most * Utilities::MPI::sum(all, tissue.communicator());
-  }
-
-
-  template <int dim>
   void
   add_carriers(BoundaryColumns<dim> &columns)
   {
@@ -113,7 +92,6 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(is_mostly_held);
   MORULA_INSTANTIATE(add_carriers);
   MORULA_INSTANTIATE(carriers);
   MORULA_INSTANTIATE(renew_carriers);

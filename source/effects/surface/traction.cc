@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/catalogue.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/placed_condition.h>
 
@@ -25,6 +26,16 @@ namespace Morula
         "X, Y, Z, t separated by ';'. Units: kPa.",
         Evaluated::place,
         3};
+      void
+      check(const SceneKeys &scene, Review &) const override
+      {
+        if (is_on() && scene.tissue.surface == "from cells")
+          scene.tissue.surface.refuse(
+            "tracked, as " + where.path() + " is set",
+            "A traction is a force per area of t = 0, which a surface that is "
+            "made anew does not know.");
+      }
+
       std::string
       details() const override
       {

@@ -16,20 +16,6 @@ namespace Morula
   // doc/theory.md, section 4.2. Were it the nearest cell of each step, the
   // traction of the point would jump whenever another cell comes nearer.
 
-  /** Whether a boundary point is fixed or slips, and so is held. */
-  inline bool
-  is_held(const SurfaceCondition condition)
-  {
-    return condition == SurfaceCondition::fixed ||
-           condition == SurfaceCondition::slip;
-  }
-
-  /** Whether conditions hold most of the surface's area, more than 0.55 of it.
-   *  Collective. */
-  template <int dim>
-  bool
-  is_mostly_held(const Tissue<dim> &tissue);
-
   /** The held points of this rank by active grid cell. */
   template <int dim>
   PointGroups

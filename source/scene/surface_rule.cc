@@ -4,6 +4,8 @@
 #include <morula/effects/growth/relaxation.h>
 #include <morula/scene/tissue_model.h>
 
+#include <algorithm>
+
 // Which surfaces are made from the cells: Tissue/Surface.
 
 namespace Morula
@@ -15,7 +17,7 @@ namespace Morula
     // Only bodies of one type of cells each can differ.
     const std::size_t n =
       interaction && interaction->effect->takes_types_as_bodies() ?
-        scene.cell_types.types.size() :
+        std::max<std::size_t>(1, scene.cell_types.types.size()) :
         1;
     for (unsigned int b = 0; b < n; ++b)
       if (remakes_surface(b) == is_remade)

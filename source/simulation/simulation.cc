@@ -147,7 +147,7 @@ namespace Morula
     // The displacement is extrapolated beyond the outermost cells and carries
     // boundary points away there, doc/theory.md (4.13). A surface that is made
     // from the cells is never far from them.
-    if (!surface.is_remade())
+    if (surface.is_tracked())
       {
         const TimerOutput::Scope section(timer, "strays");
         pull_back_detached_points(tissue);

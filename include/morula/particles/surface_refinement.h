@@ -10,7 +10,6 @@
 #include <mpi.h>
 
 #include <functional>
-#include <stdexcept>
 #include <vector>
 
 namespace Morula

@@ -62,11 +62,11 @@ namespace Morula
         state.walls = walls_of(tissue.boundary_points(), comm);
     }
 
-    /** Whether the surface of some body is made from its cells. */
+    /** Whether the surface of some body is tracked. */
     bool
-    is_remade() const
+    is_tracked() const
     {
-      return remakes;
+      return tracks;
     }
 
     /**

@@ -289,13 +289,13 @@ namespace Morula
                              Tensor<2, dim>               F_g,
                              const double                 t0,
                              const double                 t1,
-                             std::vector<double>         &shares) const
+                             Errors                      &errors) const
   {
     // Flows act one after the other on what is left of the elastic part. Each
     // has a share that step_error uses to weigh what the flow's forecast
     // missed; a share is pushed for every flow, whether it acts or not, since
     // missed_flow() reads them by cell and number of the flow.
-    shares.clear();
+    errors.flow_shares.clear();
     Tensor<2, dim> at_t0 = before.cell().growth();
     for (const auto &flow : effects.flows)
       {
@@ -307,7 +307,8 @@ namespace Morula
         // the next flow must not weigh it in.
         if (of_step.begins_anew)
           at_t0 = F_g;
-        shares.push_back(of_step.share);
+        errors.flow_shares.push_back(of_step.share);
+        errors.relaxed.add(of_step);
       }
     return F_g;
   }

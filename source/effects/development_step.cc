@@ -347,7 +347,7 @@ namespace Morula
     for (const Dies<dim> *const dies : effects.fates.deadly)
       if (dies->time_of_death(after) <= t1)
         F_g *= dies->shrink(after, t1);
-    F_g = flow(before, after, F_g, t0, t1, errors.flow_shares);
+    F_g = flow(before, after, F_g, t0, t1, errors);
     after.set(columns_.growth, F_g);
   }
 
@@ -385,6 +385,8 @@ namespace Morula
     if (material.depends_on_state())
       result.lame.resize(n);
     result.flow_shares.resize(n * effects.flows.size());
+    if (!effects.flows.empty())
+      result.relaxation.resize(n);
     const CellReader<dim> reader = this->reader(t0, past);
     everywhere(tissue.communicator(), [&]() {
       for (unsigned int p = 0; p < n; ++p)
@@ -466,6 +468,8 @@ namespace Morula
     std::copy(errors.flow_shares.begin(),
               errors.flow_shares.end(),
               result.flow_shares.begin() + p * effects.flows.size());
+    if (!effects.flows.empty())
+      result.relaxation[p] = errors.relaxed;
     if (material.depends_on_state())
       {
         const CellReader<dim> after_step = this->reader(t1);

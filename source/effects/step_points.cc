@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/step_points.h>
-#include <morula/mechanics/internal_force.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
@@ -11,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <utility>
@@ -26,6 +26,9 @@ namespace Morula
     {
       Lame              lame;
       ElasticState<dim> current, previous;
+      // Where volumes are pooled: c and V⁰ det F_g, µm^dim.
+      double carried;
+      Grown  grown;
     };
 
     template <int dim>
@@ -70,21 +73,45 @@ namespace Morula
         }
       else
         data.current = elastic_state(cell, cell.growth(), material);
+      const double V0 = cell.initial_volume();
+      data.carried    = cell.carried_volume();
+      data.grown      = growth.present ?
+                          Grown{V0 * determinant(growth.previous[i]),
+                                  V0 * determinant(growth.current[i])} :
+                          Grown{V0 * determinant(cell.growth()),
+                                  V0 * determinant(cell.growth())};
       return data;
+    }
+
+    /** Number of a value's class on a logarithmic scale from the largest one
+     *  downwards; values of a class differ by a quarter at most. */
+    unsigned int
+    class_of(const double value, const double largest)
+    {
+      constexpr double ratio = 1.25, last = 999.;
+      return value > 0. ?
+               std::lround(
+                 std::min(last, std::log(largest / value) / std::log(ratio))) :
+               last;
     }
 
     template <int dim>
     void
     append(const PointData<dim> &data,
            const bool            growing,
-           const bool            uniform,
+           const TissueMaterial &material,
            MaterialPoints<dim>  &points)
     {
-      if (!uniform || points.lame.empty())
+      if (!material.is_uniform() || points.lame.empty())
         points.lame.push_back(data.lame);
       points.current.push_back(data.current);
       if (growing)
         points.previous.push_back(data.previous);
+      if (material.volumetric_form() == VolumetricStrain::pooled)
+        {
+          points.carried.push_back(data.carried);
+          points.grown.push_back(data.grown);
+        }
     }
 
     /** The number of points of a cell that has n[k] of them along edge k. */
@@ -95,15 +122,19 @@ namespace Morula
       return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
     }
 
-    /** What ranks tell each other of a quadrature point: its part, λ, μ, and A
-     *  and W of both states. */
+    /** What ranks tell each other of a quadrature point: its part, its phase, λ,
+     *  μ, A and W of both states, c, and V⁰ det F_g of both. */
     template <int dim>
     using Message = std::tuple<unsigned int,
+                               unsigned int,
                                double,
                                double,
                                Tensor<2, dim>,
                                double,
                                Tensor<2, dim>,
+                               double,
+                               double,
+                               double,
                                double>;
 
     /** Where points stand, by grid cell and part, and their order: by place,
@@ -137,7 +168,8 @@ namespace Morula
     subdivided_points(const Tissue<dim>            &tissue,
                       const SplineSpace<dim>       &space,
                       const DevelopmentOfStep<dim> &growth,
-                      const TissueMaterial         &material)
+                      const TissueMaterial         &material,
+                      std::vector<unsigned int>    &phases)
     {
       // There are three passes. Each rank cuts its cells into points by
       // doc/theory.md (2.2), (2.2b), each with its part of W, and sends them to
@@ -166,12 +198,16 @@ namespace Morula
                   share,
                   Message<dim>(
                     space.part_of_cell(id, body, box.number(box.locate(share))),
+                    phases.empty() ? 0 : phases[i],
                     lame.lambda,
                     lame.mu,
                     data.current.A,
                     of_cell * data.current.W,
                     data.previous.A,
-                    of_cell * data.previous.W));
+                    of_cell * data.previous.W,
+                    of_cell * data.carried,
+                    of_cell * data.grown.before,
+                    of_cell * data.grown.after));
               });
           });
         }
@@ -183,7 +219,8 @@ namespace Morula
       points.h          = box.spacing();
       points.subdivided = true;
       points.offsets.push_back(0);
-      std::size_t k = 0;
+      std::vector<unsigned int> of_points;
+      std::size_t               k = 0;
       for (const auto &cell : space.grid_cells())
         {
           const GridIndex<dim> index = box.index(cell.number);
@@ -194,21 +231,79 @@ namespace Morula
             {
               points.xi.push_back(
                 box.unit_position(list.positions[order[k]], index));
-              const auto [part, lambda, mu, A, W, A_before, W_before] =
-                list.template value<Message<dim>>(order[k]);
-              append<dim>({{lambda, mu}, {A, W}, {A_before, W_before}},
+              const auto [part,
+                          phase,
+                          lambda,
+                          mu,
+                          A,
+                          W,
+                          A_before,
+                          W_before,
+                          carried,
+                          grown_before,
+                          grown] = list.template value<Message<dim>>(order[k]);
+              append<dim>({{lambda, mu},
+                           {A, W},
+                           {A_before, W_before},
+                           carried,
+                           {grown_before, grown}},
                           growth.present,
-                          material.is_uniform(),
+                          material,
                           points);
+              of_points.push_back(phase);
             }
           points.offsets.push_back(points.xi.size());
         }
       // A point outside all active grid cells would carry energy that no spline
       // sees.
       AssertThrow(k == order.size(), ExcInternalError());
+      if (!phases.empty())
+        phases = of_points;
       return points;
     }
   } // namespace
+
+  template <int dim>
+  std::vector<unsigned int>
+  phases_of_cells(const Tissue<dim>            &tissue,
+         const DevelopmentOfStep<dim> &growth,
+         const TissueMaterial         &material)
+  {
+    // The classes are those of μ, k and 1/τ. They begin with the largest
+    // values of the tissue, so that they do not depend on the unit, and small
+    // differences of equal cells do not part them. What does not relax has a
+    // class of its own.
+    if (material.is_uniform() && growth.relaxation.empty())
+      return {};
+    const std::size_t                  n = tissue.cells().size();
+    std::vector<std::array<double, 3>> values(n);
+    double                             largest[3] = {0., 0., 0.};
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const Lame lame = lame_of(tissue, i, growth, material);
+        values[i] = {{lame.mu,
+                     material.material().bulk_modulus(lame.lambda, lame.mu),
+                     growth.relaxation.empty() ?
+                       0. :
+                       growth.relaxation[i].exponent}};
+        for (unsigned int k = 0; k < 3; ++k)
+          largest[k] = std::max(largest[k], values[i][k]);
+      }
+    Utilities::MPI::max(largest, tissue.communicator(), largest);
+    std::vector<unsigned int> result(n, 0);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < 3; ++k)
+        result[i] = 1000 * result[i] +
+                    (largest[k] > 0. ? class_of(values[i][k], largest[k]) : 0);
+    const bool differ =
+      std::any_of(result.begin(), result.end(), [](const unsigned int phase) {
+        return phase != 0;
+      });
+    return Utilities::MPI::logical_or(differ, tissue.communicator()) ?
+             result :
+             std::vector<unsigned int>();
+  }
+
 
   template <int dim>
   GroupedPoints<dim>
@@ -232,157 +327,39 @@ namespace Morula
     // Otherwise each cell is one point of the rank that owns it, in the order
     // of the cells, which is that of their grid cells already. λ and μ stand
     // there once if they are uniform.
+    const bool pooled = material.volumetric_form() == VolumetricStrain::pooled;
+    std::vector<unsigned int> phases;
+    if (pooled)
+      phases = phases_of_cells(tissue, growth, material);
     bool subdivides = false;
     for (unsigned int b = 0; b < space.n_bodies(); ++b)
       subdivides = subdivides || space.occupancy(b).subdivides();
-    if (Utilities::MPI::logical_or(subdivides, tissue.communicator()))
-      return subdivided_points(tissue, space, growth, material);
-
     MaterialPoints<dim> points;
-    points.material                           = &material.material();
-    static_cast<GroupedPoints<dim> &>(points) = cell_positions(tissue, space);
-    points.current.reserve(points.xi.size());
-    if (growth.present)
-      points.previous.reserve(points.xi.size());
-    for (unsigned int i = 0; i < tissue.cells().size(); ++i)
+    if (Utilities::MPI::logical_or(subdivides, tissue.communicator()))
+      points = subdivided_points(tissue, space, growth, material, phases);
+    else
       {
-        PointData<dim> data = data_of(tissue, i, growth, material);
-        if (!material.is_uniform() || i == 0)
-          data.lame = lame_of(tissue, i, growth, material);
-        append(data, growth.present, material.is_uniform(), points);
+        points.material = &material.material();
+        static_cast<GroupedPoints<dim> &>(points) =
+          cell_positions(tissue, space);
+        points.current.reserve(points.xi.size());
+        if (growth.present)
+          points.previous.reserve(points.xi.size());
+        for (unsigned int i = 0; i < tissue.cells().size(); ++i)
+          {
+            PointData<dim> data = data_of(tissue, i, growth, material);
+            if (!material.is_uniform() || i == 0)
+              data.lame = lame_of(tissue, i, growth, material);
+            append(data, growth.present, material, points);
+          }
       }
+    if (pooled)
+      make_pools(space, phases, points);
     return points;
   }
 
+  MORULA_INSTANTIATE(phases_of_cells);
   MORULA_INSTANTIATE(material_points);
   MORULA_INSTANTIATE(cell_positions);
 
-
-  namespace
-  {
-    /** ϑ of a part of a grid cell, by its number in the grid's box. */
-    struct Value
-    {
-      unsigned int number, part;
-      double       theta;
-    };
-
-    /** ϑ of the nodes of a body in this rank's window; 0
-     *  where there is no point. Grid cells of other ranks are among them, since
-     *  a cell may have part in those. Collective. */
-    template <int dim>
-    std::vector<double>
-    log_volume_ratios(const InternalForce<dim>     &force,
-                      const SplineSpace<dim>       &space,
-                      const unsigned int            body,
-                      const DisplacementField<dim> &displacement)
-    {
-      // Each rank evaluates the grid cells that it owns, and tells the ranks in
-      // whose windows they lie. The grid cells are numbered in the grid's box
-      // there, which is the same on all ranks, and in this rank's window in the
-      // result.
-      const GridNodes<dim> &nodes     = space.occupancy(body).nodes();
-      const bool            of_bodies = space.n_bodies() > 1;
-      std::vector<Value>    values;
-      for (unsigned int c = 0; c < space.grid_cells().size(); ++c)
-        if (!of_bodies || space.grid_cells()[c].part == body)
-          values.push_back(
-            {space.grid_cells()[c].number,
-             of_bodies ? 0 : space.grid_cells()[c].part,
-             force.log_volume_ratio_after(c, displacement.on_grid_cell(c))});
-      const auto of_others = space.occupancy(body).window().to_windows(values);
-      values.insert(values.end(), of_others.begin(), of_others.end());
-      std::vector<double> theta(nodes.size(), 0.);
-      for (const Value &value : values)
-        theta[nodes.node(space.box().index(value.number), value.part)] =
-          value.theta;
-      return theta;
-    }
-
-    /** Mean over the grid cells that share a point of the cell with this id.
-     *  @param values by node */
-    template <int dim>
-    double
-    mean_of_shares(const Point<dim>           &x,
-                   const types::particle_index id,
-                   const Occupancy<dim>       &occupancy,
-                   const std::vector<double>  &values)
-    {
-      double mean = 0.;
-      occupancy.for_each_share(
-        x, [&](const Point<dim> &share, const unsigned int n) {
-          mean += values[occupancy.nodes().node_of_cell(
-                    occupancy.window().whole().locate(share), id)] /
-                  n;
-        });
-      return mean;
-    }
-
-    /** Mean over the quadrature points of the cell with this id. @param values
-     *  by node */
-    template <int dim>
-    double
-    mean_of_points(const ParticleDomain<dim>  &domain,
-                   const types::particle_index id,
-                   const Occupancy<dim>       &occupancy,
-                   const std::vector<double>  &values)
-    {
-      double       sum = 0.;
-      unsigned int n   = 0;
-      domain.for_quadrature_points(occupancy.n_points_per_edge(domain, id),
-                                   [&](const Point<dim> &x) {
-                                     sum +=
-                                       mean_of_shares(x, id, occupancy, values);
-                                     ++n;
-                                   });
-      return sum / n;
-    }
-  } // namespace
-
-  template <int dim>
-  std::vector<double>
-  elastic_volumes(const Tissue<dim>            &tissue,
-                  const SplineSpace<dim>       &space,
-                  const DevelopmentOfStep<dim> &growth,
-                  const TissueMaterial         &material,
-                  const std::string            &kernel,
-                  const DisplacementField<dim> &displacement)
-  {
-    // The means ϑ of doc/theory.md (2.6), (2.8) belong to grid cells. They are
-    // found first, for the window of this rank. Each cell then takes the mean
-    // over its quadrature points if the strain is pooled, else what stands at
-    // its position.
-    std::vector<double>    ratios;
-    const VolumetricStrain form = material.volumetric_form();
-    if (form == VolumetricStrain::pointwise)
-      return ratios;
-    const MaterialPoints<dim> points =
-      material_points(tissue, space, growth, material);
-    const auto force = internal_force(points, form, kernel);
-    std::vector<std::vector<double>> values; // by body
-    for (unsigned int b = 0; b < space.n_bodies(); ++b)
-      values.push_back(log_volume_ratios(*force, space, b, displacement));
-    // The pooled form averages volumes, the projected one their logarithms.
-    if (form == VolumetricStrain::pooled)
-      for (std::vector<double> &of_body : values)
-        for (double &value : of_body)
-          value = std::exp(value);
-    ratios.reserve(tissue.cells().size());
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      {
-        // Where bodies are parted cell by cell, one space has all of them.
-        const unsigned int body =
-          space.n_bodies() > 1 ? tissue.cells().body(p) : 0;
-        const auto            id        = tissue.cells().id(p);
-        const Occupancy<dim> &occupancy = space.occupancy(body);
-        ratios.push_back(
-          form == VolumetricStrain::pooled ?
-            mean_of_points(tissue.domain(p), id, occupancy, values[body]) :
-            std::exp(mean_of_shares(
-              tissue.cells().position(p), id, occupancy, values[body])));
-      }
-    return ratios;
-  }
-
-  MORULA_INSTANTIATE(elastic_volumes);
 } // namespace Morula

@@ -4,6 +4,8 @@
 #include <morula/base/instantiate.h>
 #include <morula/mechanics/elastic_point.h>
 
+#include <cmath>
+
 namespace Morula
 {
   namespace
@@ -33,10 +35,12 @@ namespace Morula
             const Lame                        &lame)
         : F(cell.F())
         , F_g(cell.growth())
+        , smoothing(cell.smoothing())
         , point(F * invert(F_g), lame, material)
       {}
 
       const Tensor<2, dim>    F, F_g;
+      const double            smoothing;
       const ElasticPoint<dim> point;
 
       CellScalars
@@ -46,7 +50,7 @@ namespace Morula
         q.initial_volume       = initial_volume;
         q.volume               = initial_volume * determinant(F);
         q.growth_volume_ratio  = determinant(F_g);
-        q.elastic_volume_ratio = point.strain().J;
+        q.elastic_volume_ratio = point.strain().J * smoothing;
         q.energy_density       = point.energy();
         return q;
       }
@@ -73,10 +77,18 @@ namespace Morula
     CellQuantities   q;
     static_cast<CellScalars &>(q) = state.scalars(cell.initial_volume());
     // σ = W τ / V with V = V⁰ det F: V⁰ cancels, so that W/V is 1/det F or det
-    // F_g/det F (doc/theory.md, section 1.5).
+    // F_g/det F (doc/theory.md, section 1.5). Where volumes are pooled it is that
+    // of the smoothed F_e, doc/theory.md (2.10).
+    const double stretch = std::pow(state.smoothing, 1. / dim);
     q.stress =
-      kirchhoff_stress(state.point) *
-      ((per_grown_volume ? q.growth_volume_ratio : 1.) / determinant(state.F));
+      kirchhoff_stress(
+        stretch == 1. ?
+          state.point :
+          ElasticPoint<dim>(stretch * (state.F * invert(state.F_g)),
+                            lame,
+                            material)) *
+      ((per_grown_volume ? q.growth_volume_ratio : 1.) /
+       (determinant(state.F) * state.smoothing));
     return q;
   }
 

@@ -34,34 +34,6 @@ namespace Morula
       }
     };
 
-    /** Adds a point. */
-    template <int dim>
-    void
-    add_to_mean(const SpatialGradients<dim> &gradients,
-                const ElasticPoint<dim>     &state,
-                const double                 W,
-                const double                 det_f,
-                VolumeMean<dim>             &mean)
-    {
-      // Projected, the mean weighs ln J_e by W k, doc/theory.md (2.6); pooled,
-      // sums of present and of grown volumes are compared, W J_e and W,
-      // doc/theory.md (2.8), or, pressed, ln det f is weighed by the volumes at
-      // the beginning of the step, (2.9b).
-      const double modulus = W * state.response().volumetric.modulus;
-      const bool   pooled  = mean.form == VolumetricStrain::pooled;
-      const double weight  = !pooled      ? modulus :
-                             mean.pressed ? W * state.strain().J / det_f :
-                                            W * state.strain().J;
-      mean.modulus += modulus;
-      mean.weight += weight;
-      mean.sum += !pooled      ? weight * state.strain().log_J :
-                  mean.pressed ? weight * std::log(det_f) :
-                                 W;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          mean.gradients[i][a] += weight * gradients.g[i][a];
-    }
-
     /** @param tau W τ */
     template <int dim>
     void
@@ -86,31 +58,6 @@ namespace Morula
             for (unsigned int j = 0; j < dim; ++j)
               system.magnitude[i * n + a] +=
                 std::abs(tau[i][j] * gradients.g[j][a]);
-    }
-
-    /** A and γ with what the volumetric part adds to them at a point. */
-    template <int dim>
-    std::pair<double, double>
-    volumetric_part(const ElasticPoint<dim> &state,
-                    const double             det_f,
-                    const StrainOfGridCell  *strain)
-    {
-      const auto &r = state.response();
-      // Pointwise strain: the law's own A and γ, with their volumetric parts.
-      if (strain == nullptr)
-        return {r.total_A(), r.total_gamma()};
-      // Projected: the volumetric part of A is the product of the means, which
-      // VolumeMean adds. Its share of γ stays at the point: doc/theory.md
-      // (2.7).
-      if (strain->form != VolumetricStrain::pooled)
-        return {r.A, r.total_gamma()};
-      // Pooled: doc/theory.md (2.9) has one pressure for the grid cell in both
-      // places, times the point's volume J_e; (2.9b) has it in one, times the
-      // volume at the beginning of the step.
-      const double pull = strain->mean_stress * state.strain().J;
-      if (strain->pressed)
-        return {r.A, r.gamma + pull / det_f};
-      return {r.A + pull, r.gamma + pull};
     }
 
     /** The coefficients of (2.5), times W. */
@@ -208,17 +155,14 @@ namespace Morula
   template <int dim>
   template <typename Visit>
   bool
-  InternalForce<dim>::for_each_point(const unsigned int     grid_cell,
+  InternalForce<dim>::for_each_point(const Range           &range,
                                      const LocalField<dim> &field,
                                      const GrowthAt         growth,
-                                     const double          *theta,
                                      LocalSystem<dim>      &system,
                                      const Visit           &visit) const
   {
     const auto &states = points.states(growth);
-    for (unsigned int p = points.offsets[grid_cell];
-         p < points.offsets[grid_cell + 1];
-         ++p)
+    for (unsigned int p = range.first; p < range.last; ++p)
       {
         // f is the step's deformation, the reference being the configuration at
         // t; with A = F_t F_g⁻¹ it gives F_e: doc/theory.md (1.3).
@@ -228,80 +172,87 @@ namespace Morula
         const double            det_f = determinant(f);
         if (!system.admits(det_f, determinant(F_e), points.xi[p]))
           return false;
-        visit(
-          SpatialGradients<dim>(splines, invert(f)),
-          ElasticPoint<dim>(F_e, points.lame_of(p), *points.material, theta),
-          states[p].W,
-          det_f);
+        visit(SpatialGradients<dim>(splines, invert(f)),
+              ElasticPoint<dim>(F_e, points.lame_of(p), *points.material),
+              states[p].W,
+              points.carried.empty() ? 0. : points.carried[p] * det_f);
       }
     return true;
   }
 
   template <int dim>
   bool
-  InternalForce<dim>::add_forces(const unsigned int     grid_cell,
+  InternalForce<dim>::add_forces(const Range           &range,
                                  const LocalField<dim> &field,
                                  const GrowthAt         growth,
-                                 VolumeMean<dim>       *mean,
+                                 PoolVolume<dim>       *volume,
                                  LocalSystem<dim>      &system) const
   {
     return for_each_point(
-      grid_cell,
+      range,
       field,
       growth,
-      nullptr,
       system,
       [&](const SpatialGradients<dim> &gradients,
           const ElasticPoint<dim>     &state,
           const double                 W,
-          const double                 det_f) {
+          const double                 V) {
         const auto &response = state.response();
-        // Without a mean the law acts as a whole.
-        if (mean == nullptr)
+        // Without a pool the law acts as a whole.
+        if (volume == nullptr)
           {
             add_stress(gradients, W * state.kirchhoff_stress(), system);
             system.add_energy(W * state.energy(), W * state.energy_magnitude());
             return;
           }
         // With one, only the distortional part does; add() adds the volumetric
-        // part once the mean over the grid cell is known.
+        // part once the pool's volume is known.
         add_stress(gradients, W * state.distortional_stress(), system);
         system.add_energy(W * response.energy, W * response.magnitude);
-        add_to_mean(gradients, state, W, det_f, *mean);
+        volume->v += V;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+            volume->gradients[i][a] += V * gradients.g[i][a];
       });
   }
 
   template <int dim>
   bool
-  InternalForce<dim>::add_tangent(const unsigned int      grid_cell,
-                                  const LocalField<dim>  &field,
-                                  const GrowthAt          growth,
-                                  const StrainOfGridCell *strain,
-                                  LocalSystem<dim>       &system) const
+  InternalForce<dim>::add_tangent(const Range           &range,
+                                  const LocalField<dim> &field,
+                                  const GrowthAt         growth,
+                                  const double          *mean_stress,
+                                  LocalSystem<dim>      &system) const
   {
     // The upper blocks are summed in an array of their own, since the matrix
     // may already hold terms that are not symmetric. A point that is inverted
-    // leaves the matrix as it was.
+    // leaves the matrix as it was. The pressure of a pool acts on the volume
+    // that a point carries, in A and in γ: doc/theory.md (2.8).
     std::vector<double> upper(system.matrix.size(), 0.);
     const bool          coupled = points.material->coupled();
     const bool          valid   = for_each_point(
-      grid_cell,
+      range,
       field,
       growth,
-      strain != nullptr ? &strain->theta : nullptr,
       system,
       [&](const SpatialGradients<dim> &gradients,
           const ElasticPoint<dim>     &state,
           const double                 W,
-          const double                 det_f) {
-        const auto [A, gamma] = volumetric_part(state, det_f, strain);
-        const auto &r         = state.response();
-        add_blocks(
-          gradients,
-          state.b(),
-          {W * A, W * (r.alpha - gamma), W * r.alpha, W * r.B, W * r.C},
-          coupled,
-          upper.data());
+          const double                 V) {
+        const auto  &r      = state.response();
+        const bool   pooled = mean_stress != nullptr;
+        const double A      = pooled ? r.A : r.total_A(),
+                     gamma  = pooled ? r.gamma : r.total_gamma(),
+                     pull   = pooled ? *mean_stress * V : 0.;
+        add_blocks(gradients,
+                   state.b(),
+                   {W * A + pull,
+                    W * (r.alpha - gamma) - pull,
+                    W * r.alpha,
+                    W * r.B,
+                    W * r.C},
+                   coupled,
+                   upper.data());
       });
     if (valid)
       add_lower_blocks<dim>(upper, system.matrix);
@@ -309,52 +260,38 @@ namespace Morula
   }
 
   template <int dim>
-  VolumeMean<dim>
-  InternalForce<dim>::mean_without_points(const unsigned int grid_cell,
-                                          const GrowthAt     growth) const
-  {
-    if (form != VolumetricStrain::pooled)
-      return {form};
-    double      volume = 0., grown = 0.;
-    const auto &states = points.states(growth);
-    for (unsigned int p = points.offsets[grid_cell];
-         p < points.offsets[grid_cell + 1];
-         ++p)
-      {
-        volume += states[p].W * determinant(states[p].A);
-        grown += states[p].W;
-      }
-    if (!(volume < grown))
-      return {form};
-    return {form, true, std::log(volume / grown)};
-  }
-
-  template <int dim>
   void
-  InternalForce<dim>::add_tangent_of_grid_cell(const unsigned int     grid_cell,
-                                               const LocalField<dim> &field,
-                                               const GrowthAt         growth,
-                                               LocalSystem<dim> &system) const
+  InternalForce<dim>::add_tangent_of_pool(const Pool            &pool,
+                                          const LocalField<dim> &field,
+                                          const GrowthAt         growth,
+                                          LocalSystem<dim>      &system) const
   {
-    // The mean over the grid cell comes first, since the tangent at the points
-    // needs it. ϑ is what the last tangent foresaw, if there was one; see the
-    // class. After the points' part the product of the means completes
-    // doc/theory.md (2.7), (2.9).
-    const VolumeMean<dim> mean = mean_of(grid_cell, field, growth);
-    const double          theta =
-      system.last != nullptr ? system.last->at(field) : mean.theta();
-    const Volumetric<double> U      = points.material->volumetric(theta);
-    const StrainOfGridCell   strain = mean.at_points(U, theta);
-    if (!add_tangent(grid_cell, field, growth, &strain, system))
+    // The volume comes first, since the tangent at the points needs the
+    // pressure. ϑ is what the last tangent foresaw, if there was one; see the
+    // class. After the points' part the product V_a V_b completes doc/theory.md
+    // (2.8).
+    const PoolVolume<dim> volume =
+      volume_of(pool, field, growth);
+    const std::size_t ordinal = system.linearisations.size();
+    const double      theta   = system.last != nullptr ?
+                                  (*system.last)[ordinal].at(field) :
+                                  volume.theta();
+    const Volumetric<double> U =
+      pool_energy(points.pools, pool, growth, theta, *points.material).U;
+    const double mean_stress = volume.mean_stress(U);
+    if (!add_tangent({pool.first, pool.last},
+                     field,
+                     growth,
+                     &mean_stress,
+                     system))
       return;
-    mean.add_tangent(U, system);
+    volume.add_tangent(U, system);
     // The next residual has the growth at t + dt, so the linearisation starts
     // from ϑ with that growth, also where this tangent has the growth at t.
-    system.linearisation = {field,
-                            mean.derivative(),
-                            growth == GrowthAt::current ?
-                              mean.theta() :
-                              log_volume_ratio(grid_cell, field)};
+    system.linearisations.push_back(
+      {field,
+       volume.derivative(),
+       std::log(volume.v / grown(pool, GrowthAt::current))});
   }
 
   template <int dim>
@@ -367,21 +304,39 @@ namespace Morula
     const bool wants_tangent = system.wanted == LocalSystem<dim>::tangent;
     if (form == VolumetricStrain::pointwise)
       {
-        // No grid cell's mean is asked for: one pass over the points does all.
+        // No pool is asked for: one pass over the points does all.
+        const Range all{points.offsets[grid_cell],
+                        points.offsets[grid_cell + 1]};
         if (wants_tangent)
-          add_tangent(grid_cell, field, growth, nullptr, system);
+          add_tangent(all, field, growth, nullptr, system);
         else
-          add_forces(grid_cell, field, growth, nullptr, system);
+          add_forces(all, field, growth, nullptr, system);
+        return;
       }
-    else if (wants_tangent)
-      add_tangent_of_grid_cell(grid_cell, field, growth, system);
-    else
+    const Pools &pools = points.pools;
+    for (unsigned int k = pools.offsets[grid_cell];
+         k < pools.offsets[grid_cell + 1];
+         ++k)
       {
+        const Pool &pool = pools.list[k];
+        if (wants_tangent)
+          {
+            add_tangent_of_pool(pool, field, growth, system);
+            continue;
+          }
         // The points' pass leaves the sums; then the volumetric part is one
-        // force for the whole grid cell.
-        VolumeMean<dim> mean = mean_without_points(grid_cell, growth);
-        if (add_forces(grid_cell, field, growth, &mean, system))
-          mean.add_forces(points.material->volumetric(mean.theta()), system);
+        // force for the whole pool.
+        PoolVolume<dim> volume{grown(pool, growth)};
+        if (add_forces({pool.first, pool.last},
+                       field,
+                       growth,
+                       &volume,
+                       system))
+          volume.add_forces(
+            pool_energy(
+              pools, pool, growth, volume.theta(), *points.material)
+              .U,
+            system);
       }
   }
 

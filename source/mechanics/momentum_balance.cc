@@ -177,8 +177,8 @@ namespace Morula
     const auto       add = [&](const unsigned int     c,
                          const LocalField<dim> &field,
                          LocalSystem<dim>      &local) {
-      local.last = !linearisations.empty() && linearisations[c] ?
-                           &*linearisations[c] :
+      local.last = !linearisations.empty() && !linearisations[c].empty() ?
+                           &linearisations[c] :
                            nullptr;
       // Single precision is enough where the matrix is far from singular.
       // Hardly anything resists extended splines, and some motions of thin
@@ -199,10 +199,10 @@ namespace Morula
         }
       // Only terms with a mean volumetric strain leave one; others take no
       // memory for it.
-      if (local.linearisation)
+      if (!local.linearisations.empty())
         {
           linearisations.resize(space.grid_cells().size());
-          linearisations[c] = local.linearisation;
+          linearisations[c] = local.linearisations;
         }
     };
     LocalSystem<dim> system(LocalSystem<dim>::tangent);

@@ -37,92 +37,85 @@ namespace Morula
       }
 
     private:
+      using Range = typename InternalForce<dim>::Range;
+
       bool
-      add_forces(const unsigned int     grid_cell,
+      add_forces(const Range           &range,
                  const LocalField<dim> &field,
                  const GrowthAt         growth,
-                 VolumeMean<dim>       *mean,
+                 PoolVolume<dim>       *volume,
                  LocalSystem<dim>      &system) const override
       {
         // input() needs at least one point.
-        if (!this->points.any(grid_cell))
+        if (range.first == range.last)
           return true;
-        KernelVolume volume{this->form};
-        // The kernel adds the gradients to the mean's own array; the scalars of
-        // the volume come back and are added below.
-        if (mean != nullptr)
-          {
-            volume.pressed   = mean->pressed;
-            volume.gradients = &mean->gradients[0][0];
-          }
+        // The kernel adds the gradients to the volume's own array.
+        KernelVolume sums;
+        if (volume != nullptr)
+          sums.gradients = &volume->gradients[0][0];
         const KernelResult found =
-          kernels.residual(input(grid_cell, field, growth),
+          kernels.residual(input(range, field, growth),
                            system.residual.data(),
                            system.wanted == LocalSystem<dim>::rounding ?
                              system.magnitude.data() :
                              nullptr,
-                           mean == nullptr ? nullptr : &volume);
-        if (mean != nullptr)
-          {
-            mean->modulus += volume.modulus;
-            mean->weight += volume.weight;
-            mean->sum += volume.sum;
-          }
+                           volume == nullptr ? nullptr : &sums);
+        if (volume != nullptr)
+          volume->v += sums.v;
         system.add_energy(found.energy, found.energy_magnitude);
-        return admit(found, grid_cell, system);
+        return admit(found, range, system);
       }
 
       bool
-      add_tangent(const unsigned int      grid_cell,
-                  const LocalField<dim>  &field,
-                  const GrowthAt          growth,
-                  const StrainOfGridCell *strain,
-                  LocalSystem<dim>       &system) const override
+      add_tangent(const Range           &range,
+                  const LocalField<dim> &field,
+                  const GrowthAt         growth,
+                  const double          *mean_stress,
+                  LocalSystem<dim>      &system) const override
       {
         // The caller says whether rounding to seven digits does here.
         const auto tangent =
           system.in_single ? kernels.tangent_in_single : kernels.tangent;
-        return !this->points.any(grid_cell) ||
-               admit(tangent(input(grid_cell, field, growth),
-                             strain,
+        return range.first == range.last ||
+               admit(tangent(input(range, field, growth),
+                             mean_stress,
                              system.matrix.data()),
-                     grid_cell,
+                     range,
                      system);
       }
 
-      /** The points of a grid cell, of which there must be some. */
+      /** Points, of which there must be some. */
       KernelInput
-      input(const unsigned int     grid_cell,
+      input(const Range           &range,
             const LocalField<dim> &field,
             const GrowthAt         growth) const
       {
         // A uniform material has one pair of constants, which the kernels read
         // again for each point with stride 0.
         const auto        &points = this->points;
-        const unsigned int first  = points.offsets[grid_cell],
-                           stride = points.lame.size() == 1 ? 0 : 2;
-        return {points.offsets[grid_cell + 1] - first,
-                &points.xi[first][0],
-                &points.states(growth)[first].A[0][0],
-                &points.lame[stride == 0 ? 0 : first].lambda,
+        const unsigned int stride = points.lame.size() == 1 ? 0 : 2;
+        return {range.last - range.first,
+                &points.xi[range.first][0],
+                &points.states(growth)[range.first].A[0][0],
+                &points.lame[stride == 0 ? 0 : range.first].lambda,
                 stride,
                 points.h,
                 &field.coefficient[0][0],
-                points.material->law()};
+                points.material->law(),
+                points.carried.empty() ? nullptr : &points.carried[range.first]};
       }
 
       /** Tells @p system what a kernel found; false if a point is inverted. */
       bool
       admit(const KernelResult &found,
-            const unsigned int  grid_cell,
+            const Range        &range,
             LocalSystem<dim>   &system) const
       {
-        const auto &points = this->points;
         // Kernels fold det f into their smallest J: it is det f where that is
         // not positive. So 1 stands for det f here.
         return system.admits(1.,
                              found.smallest_J,
-                             points.xi[points.offsets[grid_cell] + found.at]);
+                             this->points.xi[range.first + found.at]);
       }
 
       const VectorKernels<dim> kernels;

@@ -167,10 +167,6 @@ namespace Morula
         out.push_back({"surface refinement",
                        "patches longer than " +
                          as_text(0.5 * scene.grid.spacing) + " um are split"});
-      if (scene.material.volumetric_form() != VolumetricStrain::pointwise)
-        out.push_back(
-          {"volumetric strain",
-           scene.material.volumetric_strain.text() + " in a grid cell"});
       return out;
     }
 
@@ -264,6 +260,23 @@ namespace Morula
         rows.push_back({"cuts", tissue.cuts});
     }
 
+    /** Whose volumes are one sum. @param mixed the part of the tissue in pools of
+     *  unlike cells */
+    void
+    add_pools(EffectRows &rows, const double mixed)
+    {
+      constexpr double much = 0.01;
+      rows.push_back(
+        {"volumetric strain",
+         "like cells of a grid cell have one volume ratio",
+         mixed < much ?
+           "" :
+           "    " + as_text(std::round(100. * mixed)) +
+             " % of the tissue is in layers or mixtures of unlike cells that are "
+             "thinner than the grid tells: these share one pressure. Choose a "
+             "finer grid, or make them bodies with a section Contact.\n"});
+    }
+
     template <int dim>
     Explanation<dim>
     explanation_of(const Scene &scene, const MPI_Comm comm)
@@ -278,7 +291,8 @@ namespace Morula
       result.tissue                   = seed_tissue(model, comm);
       const SeededTissue<dim> &tissue = result.tissue;
       // Counted by the splines of the first step.
-      result.n_unknowns = Simulation<dim>(scene, comm, tissue).n_unknowns();
+      Simulation<dim> simulation(scene, comm, tissue);
+      result.n_unknowns = simulation.n_unknowns();
       result.n_numbers  = model.development.columns().n_numbers();
       result.memory     = physical_memory(comm);
       result.n_of_types = founders_of_types(model,
@@ -293,6 +307,8 @@ namespace Morula
                     tissue.n_proliferating,
                     has_surface(model) && model.any_surface(true));
       add_bodies(result.effects, model, tissue, comm);
+      if (scene.material.volumetric_form() == VolumetricStrain::pooled)
+        add_pools(result.effects, simulation.mixed_share());
       std::string pieces;
       for (const std::string &text : tissue.pieces)
         pieces += "    " + text + '\n';

@@ -101,16 +101,6 @@ namespace Morula
     check_material(const MaterialParameters &material, const unsigned int dim)
     {
       material.check_each(dim);
-      // The weight W of a cell in the energy is also that in the grid cell's
-      // volume, which is the sum of the grown volumes.
-      if (material.volumetric_form() == VolumetricStrain::pooled &&
-          !material.per_grown_volume())
-        material.energy_per.refuse(
-          "grown volume, as " + material.volumetric_strain.path() + " = pooled",
-          "The cells of a grid cell then share one pressure by the volumes "
-          "that they have grown to: set " +
-            material.energy_per.path() + " = grown volume, or " +
-            material.volumetric_strain.path() + " = projected.");
     }
 
     /** Checks an effect's keys and makes it, for what it refuses. */

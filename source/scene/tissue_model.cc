@@ -110,6 +110,13 @@ namespace Morula
 
       /** @param that_grow whether by them cells grow */
       void
+      make_pools()
+      {
+        if (scene.material.volumetric_form() == VolumetricStrain::pooled)
+          effects.columns.need_pools();
+      }
+
+      void
       make_fates(const bool that_grow)
       {
         for (const auto &choice : catalogue.fates)
@@ -306,6 +313,7 @@ namespace Morula
       effects.columns.need_growth();
     EffectMaker<dim> maker(scene, effects);
     maker.make_interaction();
+    maker.make_pools();
     maker.make_fates(true);
     if (scene.cell_types.is_on())
       maker.make_types();

@@ -210,10 +210,34 @@ namespace Morula
     // A step holds the least memory here, before its matrix exists.
     tissue.defragment();
     tissue.part();
-    // Where the volumetric strain is a mean over grid cells, points on grid
-    // lines belong to all grid cells around (doc/theory.md, section 2.4).
+    // Where volumes are pooled, points on grid lines belong to all grid cells around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::mixed_share()
+  {
+    // Who is alike is known of a step: it follows from stiffness and relaxation.
+    const Pools pools =
+      material_points(
+        tissue,
+        splines(),
+        model.development.of_step(tissue, 0., model.scene.time.step, PastStep()),
+        model.material)
+        .pools;
+    double sums[2] = {0., 0.}; // of mixed pools, of all
+    for (const Pool &pool : pools.list)
+      for (unsigned int g = pool.first_group; g < pool.last_group; ++g)
+        {
+          const double grown = pools.groups[g].grown.before;
+          sums[1] += grown;
+          if (pool.last_group - pool.first_group > 1)
+            sums[0] += grown;
+        }
+    Utilities::MPI::sum(sums, comm, sums);
+    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
 
   template <int dim>

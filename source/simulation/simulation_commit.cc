@@ -3,7 +3,7 @@
 
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
-#include <morula/effects/step_points.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/simulation/simulation.h>
@@ -133,17 +133,17 @@ namespace Morula
     // and sorts them, so that p means another point behind it.
     const TimerOutput::Scope     section(timer, "commit");
     const DisplacementField<dim> displacement(space, solution.u, comm);
-    const std::vector<double>    volumes =
-      elastic_volumes(tissue,
+    const FindMotions            find_motions =
+      motion_kernel<dim>(model.material.material(), model.scene.solver.kernel);
+    const Moved<dim> cells =
+      moved(tissue.cells(), displacement, find_motions, Motion(), comm);
+    const std::vector<VolumeOfStep> volumes =
+      volumes_of_step(tissue,
                       space,
                       growth_of_step,
                       model.material,
                       model.scene.solver.kernel,
                       displacement);
-    const FindMotions find_motions =
-      motion_kernel<dim>(model.material.material(), model.scene.solver.kernel);
-    const Moved<dim> cells =
-      moved(tissue.cells(), displacement, find_motions, Motion(), comm);
     // The displacement is extrapolated where the surface stands off from the
     // cells. That is no reason for it to move farther, or to deform more, than
     // the cells do: doc/theory.md, section 4.6. See also
@@ -212,7 +212,7 @@ namespace Morula
   template <int dim>
   std::vector<double>
   Simulation<dim>::deform_cells(const std::vector<PointMotion<dim>> &motions,
-                                const std::vector<double>           &volumes)
+                                const std::vector<VolumeOfStep>     &volumes)
   {
     const double        t = time_steps.time(), t_next = time_steps.next();
     const bool          dilutes = !model.densities.empty();
@@ -224,14 +224,22 @@ namespace Morula
         // F is carried on by doc/theory.md (1.1).
         Tensor<2, dim> F      = motions[p].f * cell.F();
         double         factor = 1.;
-        // The energy knows the volume of a grid cell, not that of each of its
-        // cells. Where that is so, det F_e of the cell becomes what its grid
-        // cell has, e^ϑ of doc/theory.md (2.6) or (2.8). The shape is that of f
-        // F.
+        // The energy knows the volume of a pool, not that of each of its cells.
+        // Where volumes are pooled, det F_e of the cell becomes what its pool
+        // has, and the shape is that of f F. What it carries on fades where its
+        // stress does: doc/theory.md (2.9).
         if (!volumes.empty())
-          factor =
-            std::pow(volumes[p] * determinant(cell.growth()) / determinant(F),
-                     1. / dim);
+          {
+            const double V =
+              volumes[p].J_e * determinant(cell.growth()); // over V⁰
+            const double kept = growth_of_step.relaxation.empty() ?
+                                  1. :
+                                  growth_of_step.relaxation[p].kept;
+            const double c    = volumes[p].carried / cell.initial_volume();
+            factor            = std::pow(V / determinant(F), 1. / dim);
+            cell.set(cell.columns().carried, (V + kept * (c - V)) / V);
+            cell.set(cell.columns().smoothing, volumes[p].smoothing);
+          }
         F *= factor;
         cell.set(cell.columns().deformation, F);
         const Tensor<2, dim> f = factor * motions[p].f;

@@ -3,7 +3,7 @@
 
 // The internal force on grid cells of 125 particles (2-D: 25), plain and
 // vectorised, of each material, with the volumetric strain of each point,
-// projected and pooled, next to what the core can do: a matrix product and the
+// pooled, next to what the core can do: a matrix product and the
 // triad of STREAM.
 
 #include <morula/mechanics/internal_force.h>
@@ -15,7 +15,11 @@
 
 #include <random>
 
-using namespace Morula;
+using
+
+#include "common/pools.h"
+
+namespace Morula;
 
 namespace
 {
@@ -57,6 +61,7 @@ namespace
           }
         points.offsets.push_back(points.xi.size());
       }
+    pool(points);
     return points;
   }
 
@@ -135,7 +140,6 @@ namespace
   {
     const std::pair<std::string, VolumetricStrain> forms[] = {
       {"pointwise", VolumetricStrain::pointwise},
-      {"projected", VolumetricStrain::projected},
       {"pooled", VolumetricStrain::pooled}};
     const std::pair<std::string, typename LocalSystem<dim>::Wanted> parts[] = {
       {"tangent", LocalSystem<dim>::tangent},

@@ -68,8 +68,8 @@ class Results(Run):
         return (mu * J_e ** (-2 / 3) * (b_e - b_e.mean())
                 + kappa / 2 * (J_e**2 - 1))
 
-    def is_projected(self):
-        return self.keys["Material/Volumetric strain"] == "projected"
+    def is_pooled(self):
+        return self.keys["Material/Volumetric strain"] == "pooled"
 
     def per_grown_volume(self):
         return self.keys["Material/Energy per"] == "grown volume"

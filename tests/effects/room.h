@@ -21,7 +21,7 @@
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/state_columns.h>
-#include <morula/effects/step_points.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/loads.h>

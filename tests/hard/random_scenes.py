@@ -201,17 +201,17 @@ class AlignedScene(LatticeScene):
     """Round tissue whose cells stand on grid lines, where every choice between
     two sides of a line, or among equally near cells, is a tie."""
 
-    def __init__(self, seed, dim, projected):
+    def __init__(self, seed, dim, pooled):
         super().__init__(seed, dim, False)
         self.grid_spacing = (3 if dim == 2 else 2) * self.spacing
         self.center, self.grid_offset = numpy.zeros(dim), numpy.zeros(dim)
         self.lattice_offset = numpy.full(dim, self.spacing / 2)
-        self.projected = projected
-        if projected:
+        self.pooled = pooled
+        if pooled:
             self.ratio = 0.49
 
     def common_keys(self, Q):
-        form = "projected" if self.projected else "pointwise"
+        form = "pooled" if self.pooled else "pointwise"
         return {**super().common_keys(Q), "Material/Volumetric strain": form}
 
 

@@ -19,9 +19,9 @@ LATTICES = {"boxes": (partial(LatticeScene, dim=2, gentle=True), 20),
             "boxes-3d": (partial(LatticeScene, dim=3, gentle=True), 4),
             "round": (partial(LatticeScene, dim=2, gentle=False), 20),
             "round-3d": (partial(LatticeScene, dim=3, gentle=False), 4),
-            "aligned": (partial(AlignedScene, dim=2, projected=False), 20),
-            "aligned-3d": (partial(AlignedScene, dim=3, projected=False), 4),
-            "projected": (partial(AlignedScene, dim=2, projected=True), 20)}
+            "aligned": (partial(AlignedScene, dim=2, pooled=False), 20),
+            "aligned-3d": (partial(AlignedScene, dim=3, pooled=False), 4),
+            "pooled": (partial(AlignedScene, dim=2, pooled=True), 20)}
 divisions = []  # of all scenes
 
 

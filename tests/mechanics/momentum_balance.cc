@@ -119,11 +119,11 @@ TEST_2D_3D(MomentumBalance, TangentAtTheOldGrowth)
 }
 
 
-// Tangents of projected tissue know the linearisation at the last one; the
+// Tangents of pooled tissue know the linearisation at the last one; the
 // first one of a step, at the growth at t, is exact.
 TEST_2D_3D(MomentumBalance, TheFirstTangentStartsAnew)
 {
-  Ball<dim>  ball(MPI_COMM_WORLD, false, false, VolumetricStrain::projected);
+  Ball<dim>  ball(MPI_COMM_WORLD, false, false, VolumetricStrain::pooled);
   auto      &balance = *ball.balance;
   const auto v = direction(ball, 0.1), elsewhere = direction(ball, 1.9);
   const auto product = [&](const GrowthAt             growth,

@@ -6,11 +6,11 @@
 
 #include "common/finite_differences.h"
 #include "common/materials.h"
+#include "common/pools.h"
 
 namespace Morula
 {
   const std::vector<VolumetricStrain> all_forms = {VolumetricStrain::pointwise,
-                                                   VolumetricStrain::projected,
                                                    VolumetricStrain::pooled};
 
   template <int dim>
@@ -30,11 +30,14 @@ namespace Morula
     points.current = random_states<dim>(generator, n);
     if (growing)
       points.previous = random_states<dim>(generator, n);
+    if (uniform)
+      pool(points);
+    else
+      pool_in_groups(points);
     return points;
   }
 
-  /** The points with other deformations: pooled, grid cells are under pressure
-   *  or under tension as a step begins. */
+  /** The points with other deformations and volumes. */
   template <int dim>
   MaterialPoints<dim>
   stretched_by(const double stretch, MaterialPoints<dim> points)
@@ -42,6 +45,8 @@ namespace Morula
     for (auto *states : {&points.current, &points.previous})
       for (auto &state : *states)
         state.A *= stretch;
+    for (double &c : points.carried)
+      c *= std::pow(stretch, dim);
     return points;
   }
 } // namespace Morula

@@ -16,6 +16,7 @@
 #include <random>
 #include <vector>
 
+#include "common/pools.h"
 #include "common/body_on_grid.h"
 #include "common/linear_problem.h"
 #include "common/materials.h"
@@ -140,6 +141,7 @@ namespace Morula
         states_at(body.particles, groups, 0.3, std::pow(spacing(), dim));
       points.previous =
         states_at(body.particles, groups, 0.9, std::pow(spacing(), dim));
+      pool(points);
       terms.push_back(std::make_unique<InternalForce<dim>>(points, form));
 
       const auto on_boundary = body.group(body.boundary);

@@ -226,7 +226,7 @@ TEST(SceneWarnings, OfTheMaterial)
   Scene scene                   = good_scene();
   scene.material.poissons_ratio = 0.49;
   expect_warning(scene, "Material/Poisson's ratio = '0.49'");
-  scene.material.volumetric_strain = "projected";
+  scene.material.volumetric_strain = "pooled";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 

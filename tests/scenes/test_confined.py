@@ -23,9 +23,9 @@ CONFINED = {
     "isochoric": ({"keys": {**CUBE, "Material/Law": "isochoric neo-Hookean"}},
                   1.482983),
     "grown-volume-2d": ({"file": "confined-growth-2d.prm"}, None),
-    "projected-2d": ({"file": "confined-growth-2d.prm", "keys": {
+    "pooled-2d": ({"file": "confined-growth-2d.prm", "keys": {
         "Time/Step": 0.5, "Material/Energy per": "initial volume",
-        "Material/Poisson's ratio": 0.48, "Material/Volumetric strain": "projected",
+        "Material/Poisson's ratio": 0.48, "Material/Volumetric strain": "pooled",
         "Material/Law": "isochoric neo-Hookean", STRETCH: "1 + 0.2*t"}}, None)}
 
 
@@ -33,7 +33,7 @@ CONFINED = {
 def test_confined_growth(scene, name):
     """Free on top, the last direction: F = diag(1, 1, theta Lambda),
     F_e = diag(1/theta, 1/theta, Lambda), and no stress across the top. Exact, as
-    the grid lines pass between the lattice's cells at the start. Projected, the
+    the grid lines pass between the lattice's cells at the start. Pooled, the
     walls give way by the gap at which the penalty alpha (lambda + 2 mu) / h
     balances the pressure."""
     options, published = CONFINED[name]
@@ -58,7 +58,7 @@ def test_confined_growth(scene, name):
     weight = theta**dim if results.per_grown_volume() else 1.0
     sigma = numpy.diag(weight / height * stress(Lambda))
     gap = give = 0.0
-    if results.is_projected():
+    if results.is_pooled():
         lame_lambda, mu = results.lame()
         stiffness = lame_lambda + 2 * mu
         gap = (numpy.abs(stress(Lambda)).max() * results.number("Grid/Spacing")

@@ -190,7 +190,7 @@ def test_flowing_drop(scene):
         "Dimension": 2, "Time/End time": 4, "Time/Step": 0.05,
         "Tissue/Shape": "ellipsoid", "Tissue/Size": "240, 120",
         "Tissue/Cell spacing": 5, "Tissue/Refine surface": "true", "Grid/Spacing": h,
-        "Material/Relaxation time": 0.1, "Material/Volumetric strain": "projected",
+        "Material/Relaxation time": 0.1, "Material/Volumetric strain": "pooled",
         "Boundary conditions/Surface tension": 6, "Output/Interval": 0.5,
         "Solver/Newton tolerance": 1e-6})
     rows = results.statistics()
@@ -227,7 +227,7 @@ def test_wound(scene):
         "Tissue/Refine surface": "true", "Tissue/Coarsen surface": "true",
         "Grid/Spacing": 14,
         "Material/Poisson's ratio": 0.45, "Material/Relaxation time": tau,
-        "Material/Volumetric strain": "projected",
+        "Material/Volumetric strain": "pooled",
         "Boundary conditions/Surface tension where": "X^2 + Y^2 < 100^2",
         "Boundary conditions/Surface tension": gamma, "Output/Interval": 0.1,
         "Solver/Newton tolerance": 1e-6})

@@ -42,6 +42,8 @@ namespace Morula
     /** An error of the forecast motion times this is an error of what flows; a
      *  number for each cell and flow. */
     std::vector<double> flow_shares = {};
+    /** By cell; empty if nothing flows. */
+    std::vector<Relaxed> relaxation = {};
     /** |missed| of the step before, by cell, if growth follows the state; else
      *  empty. */
     std::vector<double> missed_growth = {};
@@ -354,6 +356,7 @@ namespace Morula
       double missed_growth = 0.;
       /** An error of the motion times this is one of the flow; by flow. */
       std::vector<double> flow_shares = {};
+      Relaxed             relaxed     = {};
     };
 
     /** Sets all columns of @p after but F. @param around as in live() */
@@ -442,14 +445,15 @@ namespace Morula
 
     /** F_g after all flows, what has flowed written to @p after.
      *  @param F_g    of the other effects at t1
-     *  @param shares set to FlowOfStep::share of each flow */
+     *  @param errors gets FlowOfStep::share of each flow, and how far it relaxes
+     */
     Tensor<2, dim>
     flow(const PresentCell<dim>      &before,
          const CellView<dim, double> &after,
          Tensor<2, dim>               F_g,
          const double                 t0,
          const double                 t1,
-         std::vector<double>         &shares) const;
+         Errors                      &errors) const;
 
     /** D F_g, also written to @p after, as if D had come before all growth. */
     Tensor<2, dim>

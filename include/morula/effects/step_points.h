@@ -11,7 +11,6 @@
 #include <morula/mechanics/spline_field.h>
 #include <morula/particles/tissue.h>
 
-#include <string>
 #include <vector>
 
 namespace Morula
@@ -34,25 +33,14 @@ namespace Morula
   GroupedPoints<dim>
   cell_positions(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
-  /**
-   * J_e of this rank's cells after a step, in the order of Tissue::cells(), if
-   * the volumetric strain is averaged over grid cells: e^ϑ, doc/theory.md
-   * (2.6), (2.10). A cell that lies in several grid cells takes a mean: if the
-   * strain is pooled, that of e^ϑ over its parts, so that the tissue's volume
-   * is that of the step; else e to the mean of ϑ. The list is empty if the
-   * volumetric strain is pointwise. Collective.
-   * @param growth       of the step, not yet committed
-   * @param kernel       value of Solver/Kernel
-   * @param displacement of the step, um
-   */
+  /** Classes of this rank's cells by their stiffness and relaxation, in the
+   *  order of Tissue::cells(); cells of one class are alike. The list is empty if
+   *  all cells of all ranks are alike. Collective. */
   template <int dim>
-  std::vector<double>
-  elastic_volumes(const Tissue<dim>            &tissue,
-                  const SplineSpace<dim>       &space,
+  std::vector<unsigned int>
+  phases_of_cells(const Tissue<dim>            &tissue,
                   const DevelopmentOfStep<dim> &growth,
-                  const TissueMaterial         &material,
-                  const std::string            &kernel,
-                  const DisplacementField<dim> &displacement);
+                  const TissueMaterial         &material);
 } // namespace Morula
 
 #endif

@@ -25,7 +25,7 @@ namespace Morula
   public:
     /**
      * @param F_e   elastic part of the deformation gradient, det F_e > 0
-     * @param theta the mean of ln J_e if the volumetric strain is projected
+     * @param theta ln J_e of its pool if volumes are pooled
      */
     ElasticPoint(const Tensor<2, dim> &F_e,
                  const Lame           &lame,

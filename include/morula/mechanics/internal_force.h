@@ -15,80 +15,58 @@
 
 namespace Morula
 {
-  /** The volumetric strain of one grid cell, from sums over its points, and
-   *  what follows from it: projected, doc/theory.md (2.6), (2.7); pooled,
-   *  doc/theory.md (2.8), (2.9). */
+  /** The volume v of a pool at a displacement, and the forces of its energy
+   *  Λ U(ϑ), ϑ = ln v/G: doc/theory.md (2.6), (2.8). */
   template <int dim>
-  struct VolumeMean
+  struct PoolVolume
   {
     static constexpr unsigned int n = BSpline<dim>::n;
 
-    /** The form, which is any but pointwise: that needs no mean. */
-    const VolumetricStrain form = VolumetricStrain::projected;
-    /** Pooled: whether the grid cell is under pressure as the step begins, so
-     *  that ϑ takes the mean of ln det f, doc/theory.md (2.9b); and ϑ then. */
-    const bool   pressed = false;
-    const double start   = 0.;
-
-    /** Λ = Σ W k. */
-    double modulus = 0.;
-    /** Σ w: projected w = W k, pooled w = W J_e, the volumes, which are those
-     *  at the beginning of the step if pressed. */
-    double weight = 0.;
-    /** Projected: Σ w ln J_e; pooled: Σ W, the grown volumes; pressed: Σ w ln
-     *  det f. */
-    double sum = 0.;
-    /** Σ w g_a. */
+    /** G, µm^dim. */
+    double grown;
+    /** v = Σ c det f, µm^dim. */
+    double v = 0.;
+    /** V_a = Σ c det f g_a. */
     double gradients[dim][n] = {};
 
-    /** ϑ; 0 without points. */
+    /** ϑ. */
     double
     theta() const
     {
-      if (weight == 0.)
-        return 0.;
-      return form == VolumetricStrain::pooled && !pressed ?
-               std::log(weight / sum) :
-               start + sum / weight;
+      return std::log(v / grown);
     }
 
-    /** Energy Λ U(ϑ) and its forces. */
+    /** q = Φ'(v), kPa. */
+    double
+    mean_stress(const Volumetric<double> &U) const
+    {
+      return U.modulus * U.slope / v;
+    }
+
+    /** The energy and q V_a. */
     void
     add_forces(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
-      system.add_energy(modulus * U.energy, modulus * U.magnitude);
-      const double factor = U.slope * share();
+      system.add_energy(U.modulus * U.energy, U.modulus * U.magnitude);
+      const double q = mean_stress(U);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
-          system.add_force(i, a, factor * gradients[i][a]);
+          system.add_force(i, a, q * gradients[i][a]);
     }
 
-    /** Λ U'' ḡ_a^i ḡ_b^j; pooled and not pressed, U'' - U' in the place of
-     *  U''. */
+    /** Φ'' V_a V_b. */
     void
     add_tangent(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      if (weight == 0.)
-        return;
-      const double curvature  = form == VolumetricStrain::pooled && !pressed ?
-                                  U.curvature - U.slope :
-                                  U.curvature;
-      const double scale      = curvature * share();
+      const double scale      = U.modulus * (U.curvature - U.slope) / (v * v);
       const double *const all = &gradients[0][0];
       for (unsigned int row = 0; row < n_dofs; ++row)
         {
-          const double factor = scale * (all[row] / weight);
+          const double factor = scale * all[row];
           for (unsigned int column = 0; column < n_dofs; ++column)
             system.matrix[row * n_dofs + column] += factor * all[column];
         }
-    }
-
-    /** What the tangent at the points needs. @param U at @p theta */
-    StrainOfGridCell
-    at_points(const Volumetric<double> &U, const double theta) const
-    {
-      return {form, pressed, theta, U.slope * share()};
     }
 
     /** The derivative of ϑ, 1/µm. */
@@ -98,19 +76,8 @@ namespace Morula
       LocalField<dim> result;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
-          result.coefficient[i][a] =
-            weight == 0. ? 0. : gradients[i][a] / weight;
+          result.coefficient[i][a] = gradients[i][a] / v;
       return result;
-    }
-
-  private:
-    /** Λ / Σ w: exactly 1 if projected. */
-    double
-    share() const
-    {
-      return form == VolumetricStrain::pooled && weight != 0. ?
-               modulus / weight :
-               1.;
     }
   };
 
@@ -124,17 +91,14 @@ namespace Morula
    *                    + B ((b_e g_a)^i g_b^j + g_a^i (b_e g_b)^j)
    *                    + C (b_e g_a)^i (b_e g_b)^j]
    *
-   * with the coefficients of the material's law (Response). Projected, ln J_e
-   * in the volumetric part is its mean ϑ over the points of the grid cell: one
-   * volumetric constraint a grid cell, so that nearly incompressible tissue
-   * does not lock; doc/theory.md (2.7). Pooled, it is that of the sum of the
-   * points' volumes, (2.9), where W must be the grown volume; under pressure
-   * its change in the step is the mean of ln det f, (2.9b). Such tangents take
-   * ϑ from the linearisation at the last tangent, if the local system has one,
-   * as if the pressure were an unknown of its own: ϑ of the displacement itself
-   * is wrong by the square of the correction, which times λ would swamp μ. Both
-   * agree at the solution. Without that linearisation a tangent is the exact
-   * derivative.
+   * with the coefficients of the material's law (Response). Pooled, the
+   * volumetric part is that of the sum of the volumes that the points of a pool
+   * carry, (2.6) to (2.8): one volumetric constraint a pool, so that nearly
+   * incompressible tissue does not lock. Such tangents take ϑ from the
+   * linearisation at the last tangent, if the local system has one, as if the
+   * pressure were an unknown of its own: ϑ of the displacement itself is wrong
+   * by the square of the correction, which times λ would swamp μ. Both agree at
+   * the solution. Without that linearisation a tangent is the exact derivative.
    */
   template <int dim>
   class InternalForce : public Term<dim>
@@ -154,94 +118,87 @@ namespace Morula
         const GrowthAt         growth,
         LocalSystem<dim>      &system) const override;
 
-    /** ϑ of active grid cell @p grid_cell with the growth at t + dt; 0 without
-     *  points. Not pointwise. */
-    double
-    log_volume_ratio(const unsigned int     grid_cell,
-                     const LocalField<dim> &field) const
+    /** The energy of pool number @p pool, and its J_e, with the growth at
+     *  t + dt. Pooled only. @param field of its grid cell */
+    PoolEnergy
+    energy_of(const unsigned int     pool,
+              const LocalField<dim> &field) const
     {
-      return mean_of(grid_cell, field, GrowthAt::current).theta();
-    }
-
-    /** The same, but pooled always that of the sum of the volumes, (2.8): what
-     *  its points have after the step. */
-    double
-    log_volume_ratio_after(const unsigned int     grid_cell,
-                           const LocalField<dim> &field) const
-    {
-      return with_points({form}, grid_cell, field, GrowthAt::current).theta();
+      const Pool &of = points.pools.list[pool];
+      return pool_energy(
+        points.pools,
+        of,
+        GrowthAt::current,
+        volume_of(of, field, GrowthAt::current).theta(),
+        *points.material);
     }
 
   protected:
+    /** Points of a grid cell: [first, last). */
+    struct Range
+    {
+      unsigned int first, last;
+    };
+
     const MaterialPoints<dim> &points;
     const VolumetricStrain     form;
 
   private:
-    /** Adds energy and residual or, if there is a @p mean, those of the
-     *  distortional part, and to the mean. False if a point is inverted. */
+    /** Adds energy and residual or, if there is a @p volume, those of the
+     *  distortional part, and to the volume. False if a point is inverted. */
     virtual bool
-    add_forces(const unsigned int     grid_cell,
+    add_forces(const Range           &range,
                const LocalField<dim> &field,
                const GrowthAt         growth,
-               VolumeMean<dim>       *mean,
+               PoolVolume<dim>       *volume,
                LocalSystem<dim>      &system) const;
 
-    /** Adds to the tangent; if there is a @p strain, all but the product of the
-     *  means in (2.7). False if a point is inverted. */
+    /** Adds to the tangent; of a pool with this mean stress q (kPa), all but
+     *  Φ'' V_a V_b in (2.8). False if a point is inverted. */
     virtual bool
-    add_tangent(const unsigned int      grid_cell,
-                const LocalField<dim>  &field,
-                const GrowthAt          growth,
-                const StrainOfGridCell *strain,
-                LocalSystem<dim>       &system) const;
+    add_tangent(const Range           &range,
+                const LocalField<dim> &field,
+                const GrowthAt         growth,
+                const double          *mean_stress,
+                LocalSystem<dim>      &system) const;
 
-    /** Calls visit(gradients, state, W) for the points of a grid cell; false at
-     *  the first that @p system does not admit. */
+    /** Calls visit(gradients, state, W, volume) for these points with the volume
+     *  c det f that they carry; false at the first that @p system does not
+     *  admit. */
     template <typename Visit>
     bool
-    for_each_point(const unsigned int     grid_cell,
+    for_each_point(const Range           &range,
                    const LocalField<dim> &field,
                    const GrowthAt         growth,
-                   const double          *theta,
                    LocalSystem<dim>      &system,
                    const Visit           &visit) const;
 
-    /** The mean of a grid cell before its points are added: pooled, with ϑ at
-     *  the beginning of the step, by which it is pressed or not. */
-    VolumeMean<dim>
-    mean_without_points(const unsigned int grid_cell,
-                        const GrowthAt     growth) const;
-
-    /** @p mean, and the points of a grid cell. */
-    VolumeMean<dim>
-    with_points(VolumeMean<dim>        mean,
-                const unsigned int     grid_cell,
-                const LocalField<dim> &field,
-                const GrowthAt         growth) const
+    PoolVolume<dim>
+    volume_of(const Pool            &pool,
+              const LocalField<dim> &field,
+              const GrowthAt         growth) const
     {
-      // The mean is all that is wanted of this loop over the points.
+      // The volume is all that is wanted of this loop over the points.
       LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
-      add_forces(grid_cell, field, growth, &mean, unused);
-      return mean;
+      PoolVolume<dim>  volume{grown(pool, growth)};
+      add_forces({pool.first, pool.last}, field, growth, &volume, unused);
+      return volume;
     }
 
-    /** The mean over the points of a grid cell. */
-    VolumeMean<dim>
-    mean_of(const unsigned int     grid_cell,
-            const LocalField<dim> &field,
-            const GrowthAt         growth) const
+    double
+    grown(const Pool &pool, const GrowthAt growth) const
     {
-      return with_points(mean_without_points(grid_cell, growth),
-                         grid_cell,
-                         field,
-                         growth);
+      double sum = 0.;
+      for (unsigned int g = pool.first_group; g < pool.last_group; ++g)
+        sum += points.pools.groups[g].grown.at(growth);
+      return sum;
     }
 
     void
-    add_tangent_of_grid_cell(const unsigned int     grid_cell,
-                             const LocalField<dim> &field,
-                             const GrowthAt         growth,
-                             LocalSystem<dim>      &system) const;
+    add_tangent_of_pool(const Pool            &pool,
+                        const LocalField<dim> &field,
+                        const GrowthAt         growth,
+                        LocalSystem<dim>      &system) const;
   };
 
   /**

@@ -59,11 +59,11 @@ namespace Morula
       {this, "Material/Volumetric strain"},
       "pointwise",
       "The elastic volume change in the volumetric part of the energy (that "
-      "with lambda, or kappa): each cell's own, its mean over the cells "
-      "of a grid cell, or that of the sum of their volumes. Projected or "
-      "pooled, tissue does not lock as Poisson's ratio approaches 0.5; "
-      "choose one of them above about 0.47. Pooled, cells that grow or "
-      "shrink do not press those beside them in their grid cell.",
+      "with lambda, or kappa): each cell's own, or that of the sum of the "
+      "volumes of like cells in a grid cell. Pooled, tissue does not lock as "
+      "Poisson's ratio approaches 0.5, choose it above about 0.47; and cells "
+      "that grow or shrink do not press those beside them in their grid cell. "
+      "Projected is another word for pooled.",
       {"pointwise|projected|pooled"}};
 
     Key<std::string> law{
@@ -95,7 +95,6 @@ namespace Morula
     volumetric_form() const
     {
       return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
-             volumetric_strain == "projected" ? VolumetricStrain::projected :
                                                 VolumetricStrain::pooled;
     }
 
@@ -120,7 +119,7 @@ namespace Morula
           "with Volumetric strain = pointwise such tissue locks: in Cook's "
           "membrane the energy is 1 % low at 0.49, 2 % at 0.499, and the run "
           "fails at 0.4999 (doc/hard-cases.md, stiffness).",
-          "Set " + volumetric_strain.path() + " = projected.");
+          "Set " + volumetric_strain.path() + " = pooled.");
     }
 
     /** The material that `Law` names. @throws InputError if there is none */

@@ -5,6 +5,7 @@
 #define morula_mechanics_material_points_h
 
 #include <morula/mechanics/material.h>
+#include <morula/mechanics/pools.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/tissue.h>
 
@@ -93,6 +94,13 @@ namespace Morula
     bool subdivided = false;
     /** Growth at t; empty if nothing grows. */
     std::vector<ElasticState<dim>> previous;
+    /** c at t, µm^dim: the volumes that points bring into their pools. Empty if
+     *  volumes are pointwise, and so are the next two. */
+    std::vector<double> carried;
+    /** V⁰ det F_g, µm^dim, with the growth at t and at t + dt. */
+    std::vector<Grown> grown;
+    /** Whose volumes are one sum. Points of a pool follow each other. */
+    Pools pools;
 
     /** Lamé's constants of a point. */
     const Lame &

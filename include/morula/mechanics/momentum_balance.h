@@ -238,7 +238,7 @@ namespace Morula
 
     // Linearisations at the last tangent, by active grid cell; empty if no term
     // has any.
-    std::vector<std::optional<VolumeLinearisation<dim>>> linearisations;
+    std::vector<std::vector<VolumeLinearisation<dim>>> linearisations;
   };
 } // namespace Morula
 

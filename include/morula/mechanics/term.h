@@ -134,8 +134,8 @@ namespace Morula
     std::vector<double>        matrix;    // row by row
   };
 
-  /** The mean ϑ of ln J_e over a grid cell's points and its derivative, where
-   *  a tangent was taken: doc/theory.md (2.7). */
+  /** ϑ of a pool and its derivative, where a tangent was taken: doc/theory.md
+   *  (2.6). */
   template <int dim>
   struct VolumeLinearisation
   {
@@ -181,7 +181,7 @@ namespace Morula
       LocalEquations<dim, dim>::clear();
       smallest_J  = {std::numeric_limits<double>::infinity(), {}};
       largest_gap = {-1., {}};
-      linearisation.reset();
+      linearisations.clear();
     }
 
     /**
@@ -207,11 +207,11 @@ namespace Morula
         largest_gap = {gap, xi};
     }
 
-    /** In: the linearisation of the last tangent of the step on this grid cell,
-     *  if there was one. */
-    const VolumeLinearisation<dim> *last = nullptr;
-    /** Out: the linearisation of this tangent, if a term has one. */
-    std::optional<VolumeLinearisation<dim>> linearisation;
+    /** In: the linearisations of the last tangent of the step on this grid cell,
+     *  one for each of its pools, if there was one. */
+    const std::vector<VolumeLinearisation<dim>> *last = nullptr;
+    /** Out: those of this tangent, if a term has any. */
+    std::vector<VolumeLinearisation<dim>> linearisations;
 
     /** In: whether single precision is enough for the tangent. */
     bool in_single = false;

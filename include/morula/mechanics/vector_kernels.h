@@ -18,29 +18,12 @@ namespace Morula
   {
     /** ln J_e of the point itself. */
     pointwise,
-    /** Its mean over the points of the grid cell. */
-    projected,
-    /** The logarithm of the sum of the volumes of the grid cell's points over
-     *  the sum of their grown volumes. */
+    /** That of its pool: like points of a grid cell have one. */
     pooled
   };
 
-  /** What the tangent at points needs of the volume of their grid cell:
-   *  doc/theory.md (2.7), (2.9). */
-  struct StrainOfGridCell
-  {
-    /** The form, which is any but pointwise: that needs no mean. */
-    VolumetricStrain form;
-    /** Pooled: whether the grid cell is under pressure, VolumeMean. */
-    bool pressed;
-    /** ϑ. */
-    double theta;
-    /** Pooled: Λ U'(ϑ) over the sum of the weights w, kPa. */
-    double mean_stress;
-  };
-
   /**
-   * The particles of one grid cell, as MaterialPoints and ElasticState
+   * The particles of one grid cell or pool, as MaterialPoints and ElasticState
    * store them, and the 3^dim coefficients of each component of the
    * displacement.
    */
@@ -54,18 +37,14 @@ namespace Morula
     double        h;           // µm
     const double *coefficients;
     const void   *law; // of the material that the kernels were made for
+    const double *carried; // c by point, µm^dim; read if pooled
   };
 
-  /** The sums over a grid cell's points that its volumetric strain needs: see
-   *  VolumeMean. */
+  /** The volume of a pool and its derivative: doc/theory.md (2.6). */
   struct KernelVolume
   {
-    VolumetricStrain form; // not pointwise
-    bool             pressed   = false;
-    double           modulus   = 0.;
-    double           weight    = 0.;
-    double           sum       = 0.;
-    double          *gradients = nullptr; // dim 3^dim values by component
+    double  v         = 0.;      // Σ c det f
+    double *gradients = nullptr; // Σ c det f g, dim 3^dim values by component
   };
 
   /** The result of a kernel. */
@@ -115,25 +94,25 @@ namespace Morula
 
     /** Adds to the residual, dim 3^dim values by component, and, if not null,
      *  to the sums of the magnitudes of its contributions. If @p volume is not
-     *  null, adds to that what the volumetric strain of the grid cell needs,
-     *  and leaves the volumetric part of the law out of all else. */
+     *  null, adds the pool's volume to that, and leaves the volumetric part of
+     *  the law out of all else. */
     KernelResult (*residual)(const KernelInput &input,
                              double            *residual,
                              double            *magnitudes,
                              KernelVolume      *volume);
 
-    /** Adds to the tangent row by row. If @p strain is not null, that is the
-     *  volumetric strain, and the product of the means in doc/theory.md (2.7),
-     *  (2.9) is left out. */
-    KernelResult (*tangent)(const KernelInput      &input,
-                            const StrainOfGridCell *strain,
-                            double                 *matrix);
+    /** Adds to the tangent row by row. If @p mean_stress is not null, that is
+     *  q of the pool, kPa, and the product V_a V_b in doc/theory.md (2.8) is
+     *  left out. */
+    KernelResult (*tangent)(const KernelInput &input,
+                            const double      *mean_stress,
+                            double            *matrix);
 
     /** As tangent(), with products and their sums in single precision: to 10⁻⁶
      *  of the largest entry, in less time. */
-    KernelResult (*tangent_in_single)(const KernelInput      &input,
-                                      const StrainOfGridCell *strain,
-                                      double                 *matrix);
+    KernelResult (*tangent_in_single)(const KernelInput &input,
+                                      const double      *mean_stress,
+                                      double            *matrix);
 
     /** Adds products of splines, for other terms' tangents. */
     AddProducts<dim> add_products;

@@ -108,6 +108,25 @@ namespace Morula
            Tensor<2, dim>(unit_symmetric_tensor<dim>())});
     }
 
+    /** Declares what cells whose volumes are pooled carry, if not yet declared.
+     */
+    void
+    need_pools()
+    {
+      if (carried.exists())
+        return;
+      carried   = add<double>({"carried_volume",
+                               "",
+                               "volume that it brings into its pool, over V",
+                               1.,
+                               AtDivision::copied});
+      smoothing = add<double>({"smoothing",
+                               "",
+                               "J_e as laws and files read it, over J_e",
+                               1.,
+                               AtDivision::copied});
+    }
+
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
     founder(const Point<dim> &X, const double volume) const
@@ -124,6 +143,9 @@ namespace Morula
     Column<double> initial_volume;
     /** F. */
     Column<Tensor<2, dim>> deformation;
+    /** c / V, and what smooths J_e: only where volumes are pooled,
+     *  doc/theory.md (2.9), (2.10). */
+    Column<double> carried, smoothing;
     /** F_g at the time of the state. */
     Column<Tensor<2, dim>> growth;
     /** Id of the mother, -1 for founders. */
@@ -231,6 +253,14 @@ namespace Morula
       return initial_volume() * determinant(F());
     }
 
+    /** c, µm^dim, the volume that it brings into its pool. */
+    double
+    carried_volume() const
+    {
+      return volume() *
+             (columns_.carried.exists() ? get(columns_.carried) : 1.);
+    }
+
     /** F_e = F F_g⁻¹, equation (1.3). */
     Tensor<2, dim>
     elastic_deformation() const
@@ -254,11 +284,20 @@ namespace Morula
       return unrelaxed_deformation() * get(columns_.shape);
     }
 
-    /** J_e = det F / det F_g. */
+    /** What makes J_e of this cell that of its surroundings: 1 if volumes are
+     *  pointwise, doc/theory.md (2.10). */
+    double
+    smoothing() const
+    {
+      return columns_.smoothing.exists() ? get(columns_.smoothing) : 1.;
+    }
+
+    /** J_e as laws and files read it: det F / det F_g, smoothed where volumes
+     *  are pooled. */
     double
     elastic_volume_ratio() const
     {
-      return determinant(F()) / determinant(growth());
+      return determinant(F()) / determinant(growth()) * smoothing();
     }
 
     /** The whole row. */

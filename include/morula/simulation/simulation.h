@@ -6,6 +6,7 @@
 
 #include <morula/effects/equation.h>
 #include <morula/effects/state/present_cell.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/scene/tissue_model.h>
@@ -92,6 +93,11 @@ namespace Morula
     {
       return dim * splines().n_unknowns();
     }
+
+    /** The part of the grown volume that shares a pool with unlike cells at
+     *  t = 0, for --explain: doc/theory.md, section 2.4. Collective. */
+    double
+    mixed_share();
 
   private:
     Simulation(const Scene &scene, const MPI_Comm comm);
@@ -222,7 +228,7 @@ namespace Morula
      *  @return what the forecast of flow has missed, by cell */
     std::vector<double>
     deform_cells(const std::vector<PointMotion<dim>> &motions,
-                 const std::vector<double>           &volumes);
+                 const std::vector<VolumeOfStep>     &volumes);
     void
     divide();
     void

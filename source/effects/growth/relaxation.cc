@@ -129,7 +129,9 @@ namespace Morula
         // be changed.
         const bool flows = D != Tensor<2, dim>(unit_symmetric_tensor<dim>());
         return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
-                w * -std::expm1(-gamma)};
+                w * -std::expm1(-gamma),
+                false,
+                gamma};
       }
 
       void

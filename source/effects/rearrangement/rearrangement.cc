@@ -236,6 +236,7 @@ namespace Morula
             append_flat(list, comes.number);
             append_flat(list, tissue.cells().position(p));
             append_flat(list, place.volume());
+            append_flat(list, place.carried_volume());
             append_flat(list, F_e);
             for (const Column<double> &field : columns.fields)
               append_flat(list, place.get(field));
@@ -282,7 +283,7 @@ namespace Morula
       {
         std::vector<Point<dim>> positions = tissue.cells().positions();
         const std::size_t       width =
-          1 + dim + 1 + dim * dim + columns.fields.size();
+          1 + dim + 2 + dim * dim + columns.fields.size();
         for (const auto &[rank, list] :
              send_records(kept, tissue.communicator()))
           for (std::size_t i = 0; i < list.size(); i += width)
@@ -292,17 +293,19 @@ namespace Morula
               positions[p]            = Flat<Point<dim>>::read(next + 1);
               const double         V  = next[1 + dim];
               const Tensor<2, dim> F_e =
-                Flat<Tensor<2, dim>>::read(next + 2 + dim);
+                Flat<Tensor<2, dim>>::read(next + 3 + dim);
               const CellView<dim, double> cell   = tissue.cell(p);
               const double                before = cell.volume();
               cell.set(
                 tissue.cells().columns().deformation,
                 deformation_at(F_e, V, cell.growth(), cell.initial_volume()));
+              if (const auto c = tissue.cells().columns().carried; c.exists())
+                cell.set(c, next[2 + dim] / V);
               for (std::size_t k = 0; k < columns.fields.size(); ++k)
                 cell.set(columns.fields[k],
                          columns.carried[k] ?
                            cell.get(columns.fields[k]) * before / V :
-                           next[2 + dim + dim * dim + k]);
+                           next[3 + dim + dim * dim + k]);
             }
         tissue.move(positions, tissue.boundary_points().positions());
       }

@@ -62,7 +62,7 @@ namespace Morula
                           const double           h) const
   {
     // This is doc/theory.md (4.6), and section 2.4 where the pressure is the
-    // grid cell's.
+    // pool's.
     const double at_rest = lame.lambda + 2. * lame.mu;
     if (kind() != NitscheForm::bounded &&
         volumetric_form != VolumetricStrain::pointwise)

@@ -268,14 +268,14 @@ namespace Morula
         const DisplacementField<dim> displacement(attempt.space,
                                                   u,
                                                   tissue.communicator());
-        // Where the volumetric strain is a mean over grid cells, it makes the
-        // pressure. The vector is empty otherwise.
-        const std::vector<double>           volumes = elastic_volumes(tissue,
-                                                            attempt.space,
-                                                            attempt.growth,
-                                                            attempt.material,
-                                                            kernel,
-                                                            displacement);
+        // Where volumes are pooled, they make the pressure. The vector is empty
+        // otherwise.
+        const auto volumes = volumes_of_step(tissue,
+                                             attempt.space,
+                                             attempt.growth,
+                                             attempt.material,
+                                             kernel,
+                                             displacement);
         const std::vector<PointMotion<dim>> motions =
           point_motions(tissue.cells(),
                         displacement,
@@ -290,7 +290,7 @@ namespace Morula
           const Tensor<2, dim> &f   = motions[p].f;
           const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
           const double          theta =
-            std::log(volumes.empty() ? determinant(F_e) : volumes[p]);
+            std::log(volumes.empty() ? determinant(F_e) : volumes[p].J_e);
           const ElasticPoint<dim> point(F_e,
                                         lame_of(attempt, cell, p),
                                         attempt.material.material(),

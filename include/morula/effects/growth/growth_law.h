@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <cmath>
 #include <optional>
 
 namespace Morula
@@ -151,6 +152,28 @@ namespace Morula
     double share = 0.;
     /** Whether the cell begins the step without stress, for the next flows. */
     bool begins_anew = false;
+    /** Δt/τ; 0 if stress does not fade with time. */
+    double exponent = 0.;
+  };
+
+  /** How far a cell relaxes in a step. */
+  struct Relaxed
+  {
+    /** Δt/τ. */
+    double exponent = 0.;
+    /** What is left of a stress that fades: e^(-Δt/τ), or 1 below a yield
+     *  stress. */
+    double kept = 1.;
+
+    /** Takes a flow into account. */
+    template <int dim>
+    void
+    add(const FlowOfStep<dim> &flow)
+    {
+      exponent += flow.exponent;
+      if (flow.D)
+        kept *= std::exp(-flow.exponent);
+    }
   };
 
   /**

@@ -143,7 +143,7 @@ namespace Morula
     struct Points
     {
       Lanes N[dim][3], dN[dim][3]; // one-dimensional splines, by direction
-      Lanes A[dim][dim], W, lambda, mu;
+      Lanes A[dim][dim], W, lambda, mu, carried;
       Lanes F_e[dim][dim], f_inverse[dim][dim], det_f, J, log_J;
     };
 
@@ -164,7 +164,7 @@ namespace Morula
         }
     }
 
-    /** The lanes behind the last point repeat it with W = 0. */
+    /** The lanes behind the last point repeat it with W = 0, c = 0. */
     template <int dim>
     MORULA_INLINE void
     load(const KernelInput &input,
@@ -172,7 +172,7 @@ namespace Morula
          Points<dim>       &points)
     {
       constexpr unsigned int n_state = dim * dim + 1;
-      Numbers                xi[dim], A[dim][dim], W, lambda, mu;
+      Numbers                xi[dim], A[dim][dim], W, lambda, mu, carried;
       for (unsigned int l = 0; l < lanes; ++l)
         {
           const bool          exists = first + l < input.n;
@@ -184,13 +184,15 @@ namespace Morula
               for (unsigned int e = 0; e < dim; ++e)
                 A[d][e][l] = state[dim * d + e];
             }
-          W[l]      = exists ? state[dim * dim] : 0.;
+          W[l]       = exists ? state[dim * dim] : 0.;
+          carried[l] = exists && input.carried != nullptr ? input.carried[p] : 0.;
           lambda[l] = input.lame[input.lame_stride * p];
           mu[l]     = input.lame[input.lame_stride * p + 1];
         }
-      points.W      = W;
-      points.lambda = lambda;
-      points.mu     = mu;
+      points.W       = W;
+      points.lambda  = lambda;
+      points.mu      = mu;
+      points.carried = carried;
       for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int e = 0; e < dim; ++e)
           points.A[d][e] = A[d][e];

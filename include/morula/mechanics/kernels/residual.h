@@ -7,11 +7,10 @@ namespace Morula
 {
   namespace MORULA_KERNELS
   {
-    /** What a law sees of the points. @param theta ϑ, if the grid cell has one
-     */
+    /** What a law sees of the points. */
     template <int dim>
     MORULA_INLINE Strain<Lanes>
-    strain(const Points<dim> &points, const double *theta = nullptr)
+    strain(const Points<dim> &points)
     {
       Lanes trace = {};
       for (unsigned int i = 0; i < dim; ++i)
@@ -25,7 +24,7 @@ namespace Morula
               trace + 1. * dim,
               points.J,
               points.log_J,
-              theta != nullptr ? all(*theta) : points.log_J,
+              points.log_J,
               points.lambda,
               points.mu};
     }
@@ -114,52 +113,37 @@ namespace Morula
             target[3 * (n_yz<dim> * i + yz) + x] += sum(sums[i][yz][x]);
     }
 
-    /** What (2.6) sums over points, W k, W k ln J_e and W k g, or (2.8): W k,
-     *  W, V = W J_e and V g, or (2.9b): W k, V_t ln det f, V_t and V_t g. */
-    template <int dim, VolumetricStrain form>
+    /** The volume of a pool's points, doc/theory.md (2.6). */
+    template <int dim>
     struct VolumeSums
     {
-      Lanes     modulus = {}, weights = {}, total = {};
+      Lanes     v         = {};
       Sums<dim> gradients = {};
 
-      /** Adds points with the moduli @p k. */
+      /** Adds points. */
       MORULA_INLINE void
-      add(const Points<dim> &points, const Lanes &k, const bool pressed)
+      add(const Points<dim> &points)
       {
-        constexpr bool pooled = form == VolumetricStrain::pooled;
-        Lanes          weight = points.W * (pooled ? points.J : k);
-        if (pooled && pressed)
-          weight = weight / points.det_f;
-        Lanes M[dim][dim];
+        const Lanes volume = points.carried * points.det_f;
+        Lanes       M[dim][dim];
         for (unsigned int i = 0; i < dim; ++i)
-          column(points.f_inverse, i, weight, M[i]);
-        weights += weight;
-        if constexpr (pooled)
-          {
-            modulus += points.W * k;
-            total += pressed ? weight * logarithm(points.det_f) : points.W;
-          }
-        else
-          total += weight * points.log_J;
+          column(points.f_inverse, i, volume, M[i]);
+        v += volume;
         add_gradients(points, M, gradients);
       }
 
-      /** Adds the sums over the lanes to a grid cell's. */
+      /** Adds the sums over the lanes to a pool's. */
       MORULA_INLINE void
       add_to(KernelVolume &volume) const
       {
-        const double weight = sum(weights);
-        volume.weight += weight;
-        volume.modulus +=
-          form == VolumetricStrain::pooled ? sum(modulus) : weight;
-        volume.sum += sum(total);
+        volume.v += sum(v);
         add_sums<dim>(gradients, volume.gradients);
       }
     };
 
     /** Energy and residual of a grid cell, doc/theory.md (2.4), or of the
-     *  distortional part alone, and its VolumeSums. */
-    template <int dim, typename Law, VolumetricStrain form>
+     *  distortional part alone of a pool, and its volume. */
+    template <int dim, typename Law, bool pooled>
     MORULA_INLINE KernelResult
     residual(const KernelInput &input,
              double            *target,
@@ -167,12 +151,11 @@ namespace Morula
              KernelVolume      *volume)
     {
       KernelResult result;
-      result.smallest_J          = __builtin_inf();
-      Sums<dim>             sums = {}, sizes = {};
-      Lanes                 energies[2] = {};
-      VolumeSums<dim, form> volumes;
-      constexpr bool        of_grid_cell = form != VolumetricStrain::pointwise;
-      const Law            &law          = *static_cast<const Law *>(input.law);
+      result.smallest_J        = __builtin_inf();
+      Sums<dim>       sums     = {}, sizes = {};
+      Lanes           energies[2] = {};
+      VolumeSums<dim> volumes;
+      const Law      &law = *static_cast<const Law *>(input.law);
       for (unsigned int p = 0; p < input.n; p += lanes)
         {
           Points<dim> points;
@@ -184,15 +167,14 @@ namespace Morula
           const auto &k = r.volumetric.modulus;
           Lanes       tau[dim][dim], P[dim][dim];
           Lanes       energy = r.energy, size = r.magnitude;
-          if constexpr (of_grid_cell)
-            volumes.add(points, k, volume->pressed);
+          if constexpr (pooled)
+            volumes.add(points);
           else
             {
               energy += k * r.volumetric.energy;
               size += k * r.volumetric.magnitude;
             }
-          stress(
-            points, r.alpha, of_grid_cell ? r.gamma : r.total_gamma(), tau, P);
+          stress(points, r.alpha, pooled ? r.gamma : r.total_gamma(), tau, P);
           energies[0] += points.W * energy;
           energies[1] += points.W * size;
           if (magnitudes != nullptr)
@@ -202,7 +184,7 @@ namespace Morula
       add_sums<dim>(sums, target);
       if (magnitudes != nullptr)
         add_sums<dim>(sizes, magnitudes);
-      if constexpr (of_grid_cell)
+      if constexpr (pooled)
         volumes.add_to(*volume);
       result.energy           = sum(energies[0]);
       result.energy_magnitude = sum(energies[1]);
@@ -217,14 +199,9 @@ namespace Morula
                 double            *magnitudes,
                 KernelVolume      *volume)
     {
-      constexpr auto pointwise = VolumetricStrain::pointwise,
-                     projected = VolumetricStrain::projected,
-                     pooled    = VolumetricStrain::pooled;
-      if (volume == nullptr)
-        return residual<dim, Law, pointwise>(input, target, magnitudes, volume);
-      return volume->form == pooled ?
-               residual<dim, Law, pooled>(input, target, magnitudes, volume) :
-               residual<dim, Law, projected>(input, target, magnitudes, volume);
+      return volume == nullptr ?
+               residual<dim, Law, false>(input, target, magnitudes, volume) :
+               residual<dim, Law, true>(input, target, magnitudes, volume);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

@@ -71,13 +71,15 @@ namespace Morula
         }
     }
 
-    /** The rows of the rank updates of these points. */
+    /** The rows of the rank updates of these points. @param pull is added to W A
+     *  and W γ */
     template <int dim, typename Real>
     MORULA_INLINE void
     make_rows(const Points<dim>     &points,
               const Response<Lanes> &r,
               const Lanes           &A,
               const Lanes           &gamma,
+              const Lanes           &pull,
               const unsigned int     n,
               PointRows<dim, Real>  *rows)
     {
@@ -90,7 +92,8 @@ namespace Morula
             all_rows.write(i, l, rows[l].g[i]);
             all_rows.write(dim + i, l, rows[l].m[i]);
           }
-      const Numbers W_A = points.W * A, W_c = points.W * (r.alpha - gamma);
+      const Numbers W_A = points.W * A + pull,
+                    W_c = points.W * (r.alpha - gamma) - pull;
       for (unsigned int l = 0; l < n; ++l)
         rows[l].scale(W_A[l], W_c[l]);
     }
@@ -103,6 +106,7 @@ namespace Morula
               const CoupledResponse<Lanes> &r,
               const Lanes                  &A,
               const Lanes                  &gamma,
+              const Lanes                  &pull,
               const unsigned int            n,
               CoupledPointRows<dim, Real>  *rows)
     {
@@ -123,7 +127,8 @@ namespace Morula
             all_rows.write(dim + i, l, rows[l].m[i]);
             all_rows.write(2 * dim + i, l, rows[l].b_g[i]);
           }
-      const Numbers W_A = points.W * A, W_c = points.W * (r.alpha - gamma),
+      const Numbers W_A = points.W * A + pull,
+                    W_c = points.W * (r.alpha - gamma) - pull,
                     W_B = points.W * r.B, W_C = points.W * r.C;
       for (unsigned int l = 0; l < n; ++l)
         rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
@@ -142,17 +147,13 @@ namespace Morula
       using Type = CoupledPointRows<dim, Real>;
     };
 
-    /** Tangent of a grid cell: doc/theory.md (2.5); without the first term of
-     *  (2.7) if projected, of (2.9) if pooled. Deformations and the law are in
-     *  double precision, the sums of products of type Real. */
+    /** Tangent of a grid cell: doc/theory.md (2.5); of a pool without the first
+     *  term of (2.8). Deformations and the law are in double precision, the sums
+     *  of products of type Real. */
     template <int dim, typename Law, bool pooled, typename Real>
     MORULA_INLINE KernelResult
-    tangent(const KernelInput      &input,
-            const StrainOfGridCell *of_grid_cell,
-            double                 *matrix)
+    tangent(const KernelInput &input, const double *mean_stress, double *matrix)
     {
-      const double *const theta =
-        of_grid_cell != nullptr ? &of_grid_cell->theta : nullptr;
       KernelResult result;
       result.smallest_J = __builtin_inf();
       Blocks<dim, Real> blocks;
@@ -166,24 +167,19 @@ namespace Morula
           deform(input.coefficients, points);
           if (!admit(points, p, result))
             return result;
-          const auto         r = law.response(strain(points, theta));
+          const auto         r = law.response(strain(points));
           const unsigned int n = input.n - p < lanes ? input.n - p : lanes;
           if constexpr (pooled)
-            {
-              const Lanes pull = of_grid_cell->mean_stress * points.J;
-              if (of_grid_cell->pressed)
-                make_rows(
-                  points, r, r.A, r.gamma + pull / points.det_f, n, rows);
-              else
-                make_rows(points, r, r.A + pull, r.gamma + pull, n, rows);
-            }
-          else
             make_rows(points,
                       r,
-                      theta != nullptr ? r.A : r.total_A(),
-                      r.total_gamma(),
+                      r.A,
+                      r.gamma,
+                      *mean_stress * points.carried * points.det_f,
                       n,
                       rows);
+          else
+            make_rows(
+              points, r, r.total_A(), r.total_gamma(), Lanes{}, n, rows);
           blocks.update(rows, n);
         }
       blocks.add_to(matrix);
@@ -193,13 +189,13 @@ namespace Morula
     /** See VectorKernels. */
     template <int dim, typename Law, typename Real>
     inline KernelResult
-    tangent_of(const KernelInput      &input,
-               const StrainOfGridCell *strain,
-               double                 *matrix)
+    tangent_of(const KernelInput &input,
+               const double      *mean_stress,
+               double            *matrix)
     {
-      return strain != nullptr && strain->form == VolumetricStrain::pooled ?
-               tangent<dim, Law, true, Real>(input, strain, matrix) :
-               tangent<dim, Law, false, Real>(input, strain, matrix);
+      return mean_stress != nullptr ?
+               tangent<dim, Law, true, Real>(input, mean_stress, matrix) :
+               tangent<dim, Law, false, Real>(input, mean_stress, matrix);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

@@ -58,6 +58,13 @@ namespace Morula
     virtual const void *
     law() const = 0;
 
+    /** k of the volumetric part, kPa, with Lamé's constants (kPa). */
+    double
+    bulk_modulus(const double lambda, const double mu) const
+    {
+      return response({0., 0., 1., 0., 0., lambda, mu}).volumetric.modulus;
+    }
+
     /** U of the volumetric part, and its derivatives, at ϑ. */
     Volumetric<double>
     volumetric(const double theta) const

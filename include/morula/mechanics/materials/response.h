@@ -164,8 +164,8 @@ namespace Morula
     Number J;
     /** ln J_e. */
     Number log_J;
-    /** ϑ, the volumetric part's ln J_e: the point's own or, projected, its
-     *  mean over the grid cell. */
+    /** ϑ, the volumetric part's ln J_e: the point's own or, pooled, that of its
+     *  pool. */
     Number theta;
     /** Lamé's first constant, kPa. */
     Number lambda;
@@ -175,8 +175,8 @@ namespace Morula
 
   /**
    * The volumetric part of an energy, k U(ϑ) with U(0) = U'(0) = 0 and U''(0) =
-   * 1. U must depend on ϑ alone, and k on λ and μ: the mean over a grid cell
-   * takes the place of ϑ where the volumetric strain is projected.
+   * 1. U must depend on ϑ alone, and k on λ and μ: ln J_e of a pool takes the
+   * place of ϑ where volumes are pooled.
    */
   template <typename Number>
   struct Volumetric

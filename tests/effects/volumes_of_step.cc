@@ -54,8 +54,14 @@ namespace
       : tissue(GridParameters(), growing_columns(), MPI_COMM_WORLD)
       , material(pooled_material())
     {
-      const CellDevelopment<dim> development(isotropic_growth<dim>("1 + t"),
-                                             {});
+      DevelopmentEffects<dim> effects;
+      effects.law = isotropic_growth<dim>("1 + t");
+      const CellDevelopment<dim> development(
+        std::move(effects),
+        growing_columns(),
+        StateColumns<dim>(),
+        material,
+        0);
       const auto places = ball_points(Point<dim>(), 130., spacing);
       tissue.place(only_first_rank(founders<dim>(places,
                                                  std::pow(spacing, dim),
@@ -66,8 +72,8 @@ namespace
       growth = uneven_growth(tissue);
       space.emplace(tissue.splines(true));
       field.emplace(*space, some_displacement(*space), MPI_COMM_WORLD);
-      ratios =
-        elastic_volumes(tissue, *space, growth, material, "automatic", *field);
+      volumes =
+        volumes_of_step(tissue, *space, growth, material, "automatic", *field);
     }
 
     static CellColumns<dim>
@@ -75,6 +81,7 @@ namespace
     {
       CellColumns<dim> columns;
       columns.need_growth();
+      columns.need_pools();
       return columns;
     }
 
@@ -83,7 +90,7 @@ namespace
     volume(const unsigned int p) const
     {
       return tissue.cells().initial_volume(p) * determinant(growth.current[p]) *
-             ratios[p];
+             volumes[p].J_e;
     }
 
     Tissue<dim>                           tissue;
@@ -91,7 +98,7 @@ namespace
     DevelopmentOfStep<dim>                growth;
     std::optional<SplineSpace<dim>>       space;
     std::optional<DisplacementField<dim>> field;
-    std::vector<double>                   ratios;
+    std::vector<VolumeOfStep>             volumes;
   };
 
   /** Cells of several points, some on grid lines, in grid cells of several
@@ -104,28 +111,32 @@ namespace
     const MaterialPoints<dim> points =
       material_points(step.tissue, *step.space, step.growth, step.material);
     ASSERT_TRUE(points.subdivided);
-    double moved = 0., kept = 0.;
+    double moved = 0., kept = 0., carried = 0.;
     for (unsigned int c = 0; c < step.space->grid_cells().size(); ++c)
       {
         const LocalField<dim> field = step.field->on_grid_cell(c);
         for (unsigned int q = points.offsets[c]; q < points.offsets[c + 1]; ++q)
-          moved += points.current[q].W *
+          moved += points.carried[q] *
                    determinant(field.step_deformation(
-                                 SplineValues<dim>(points.xi[q], points.h)) *
-                               points.current[q].A);
+                     SplineValues<dim>(points.xi[q], points.h)));
       }
     for (unsigned int p = 0; p < step.tissue.cells().size(); ++p)
-      kept += step.volume(p);
+      {
+        kept += step.volume(p);
+        carried += step.volumes[p].carried;
+      }
     moved = Utilities::MPI::sum(moved, MPI_COMM_WORLD);
-    kept  = Utilities::MPI::sum(kept, MPI_COMM_WORLD);
+    kept    = Utilities::MPI::sum(kept, MPI_COMM_WORLD);
+    carried = Utilities::MPI::sum(carried, MPI_COMM_WORLD);
     EXPECT_NEAR(kept, moved, 1e-12 * moved);
+    EXPECT_NEAR(carried, moved, 1e-12 * moved);
   }
 } // namespace
 
 
 /** In each grid cell the volumes are those that the displacement has made,
  *  and each cell has as much of them as it has grown. */
-TEST_2D_3D(ElasticVolumes, AreThoseOfTheStepInEachGridCell)
+TEST_2D_3D(VolumesOfStep, AreThoseOfTheStepInEachGridCell)
 {
   const Step<dim> step(14.);
   // No cell is on a grid line, none is several points.
@@ -148,8 +159,8 @@ TEST_2D_3D(ElasticVolumes, AreThoseOfTheStepInEachGridCell)
       sums.moved += cells.initial_volume(p) *
                     determinant(field.step_deformation(splines) * cells[p].F());
       sums.kept += step.volume(p);
-      sums.smallest = std::min(sums.smallest, step.ratios[p]);
-      sums.largest  = std::max(sums.largest, step.ratios[p]);
+      sums.smallest = std::min(sums.smallest, step.volumes[p].J_e);
+      sums.largest  = std::max(sums.largest, step.volumes[p].J_e);
     });
   EXPECT_GT(by_grid_cell.size(), 4u);
   for (const auto &[number, sums] : by_grid_cell)
@@ -160,7 +171,7 @@ TEST_2D_3D(ElasticVolumes, AreThoseOfTheStepInEachGridCell)
 }
 
 
-TEST_2D_3D(ElasticVolumes, ConserveTheTissuesVolume)
+TEST_2D_3D(VolumesOfStep, ConserveTheTissuesVolume)
 {
   check_total<dim>(31.); // some points a cell
   check_total<dim>(20.); // lattice of which points lie on grid lines

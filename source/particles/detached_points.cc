@@ -93,13 +93,15 @@ namespace Morula
     };
 
     /** The points that have no cell of this rank within @p near (µm), at most a
-     *  grid spacing, with their nearest cells of all ranks. Collective. */
+     *  grid spacing, with their nearest cells of all ranks. Collective.
+     *  @param squares of distances to a cell that are known already, or none */
     template <int dim>
     std::vector<FarPoint<dim>>
     far_points(const std::vector<Point<dim>> &points,
                const std::vector<Side<dim>>  &sides,
                const Tissue<dim>             &tissue,
-               const double                   near)
+               const double                   near,
+               const std::vector<double>     &squares = {})
     {
       // Points with a cell of this rank nearby are settled without any message,
       // which is far cheaper than to find the nearest cells. Only for the
@@ -109,7 +111,8 @@ namespace Morula
       std::vector<Point<dim>>    queries;
       std::vector<Side<dim>>     of_queries;
       for (unsigned int p = 0; p < points.size(); ++p)
-        if (distance_square_here(points[p],
+        if ((squares.empty() || squares[p] > near * near) &&
+            distance_square_here(points[p],
                                  sides.empty() ? nullptr : &sides[p],
                                  tissue,
                                  near * near) > near * near)
@@ -156,13 +159,16 @@ namespace Morula
       const std::vector<Side<dim>> sides  = tissue.boundary_points().sides();
       const MPI_Comm               comm   = tissue.communicator();
       double                       square = 0.;
+      std::vector<double>          squares;
       for (unsigned int p = 0; p < points.size(); ++p)
-        square =
-          std::max(square,
-                   distance_square_here(points[p],
-                                        sides.empty() ? nullptr : &sides[p],
-                                        tissue,
-                                        square));
+        {
+          squares.push_back(
+            distance_square_here(points[p],
+                                 sides.empty() ? nullptr : &sides[p],
+                                 tissue,
+                                 square));
+          square = std::max(square, squares.back());
+        }
       // Several cells may be equally near but for rounding, and the lowest id
       // counts then: points that are farthest but for rounding are asked as
       // well.
@@ -173,7 +179,7 @@ namespace Morula
           // far_points() looks no farther than a grid spacing.
           near    = std::min(equal * largest, tissue.grid().box().spacing());
           largest = 0.;
-          for (const auto &point : far_points(points, sides, tissue, near))
+          for (const auto &point : far_points(points, sides, tissue, near, squares))
             largest = std::max(largest, point.way.norm());
           largest = Utilities::MPI::max(largest, comm);
       } while (largest < near);

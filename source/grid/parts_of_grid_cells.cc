@@ -16,35 +16,7 @@ namespace Morula
 {
   namespace
   {
-    class DisjointSets
-    {
-    public:
-      explicit DisjointSets(const std::size_t n)
-        : rank(n, 0)
-        , parent(n)
-        , sets(rank.data(), parent.data())
-      {
-        std::iota(parent.begin(), parent.end(), 0u);
-      }
-
-      DisjointSets(const DisjointSets &) = delete;
-
-      void
-      unite(const unsigned int a, const unsigned int b)
-      {
-        sets.union_set(a, b);
-      }
-
-      unsigned int
-      find(const unsigned int a)
-      {
-        return sets.find_set(a);
-      }
-
-    private:
-      std::vector<unsigned int>                            rank, parent;
-      boost::disjoint_sets<unsigned int *, unsigned int *> sets;
-    };
+    using DisjointSets = boost::disjoint_sets_with_storage<>;
 
     template <int dim>
     bool
@@ -110,7 +82,7 @@ namespace Morula
         for (unsigned int i = begin[p], j = begin[q];
              i < begin[p + 1] && j < begin[q + 1];)
           if (number[i] == number[j])
-            sets.unite(i++, j++);
+            sets.union_set(i++, j++);
           else
             ++(number[i] < number[j] ? i : j);
       }
@@ -178,8 +150,7 @@ namespace Morula
                               });
           });
       }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    make_unique(found);
     return found;
   }
 
@@ -215,7 +186,8 @@ namespace Morula
         const unsigned int number = tokens.number[token];
         if (parts.empty() || parts.back().first != number)
           of_root.clear();
-        const unsigned int root = is_contested(number) ? sets.find(token) : 0;
+        const unsigned int root =
+          is_contested(number) ? sets.find_set(token) : 0;
         const auto [place, is_new] = of_root.emplace(root, parts.size());
         parts_of_cells[token]      = place->second;
         if (!is_new)

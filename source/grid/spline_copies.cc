@@ -15,7 +15,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
 namespace Morula
@@ -164,11 +163,7 @@ namespace Morula
           lowest_of.insert(lowest_of.end(), list.begin(), list.end());
         }
 
-      std::vector<unsigned int> depth(lowest_of.size(), 0),
-        parent(lowest_of.size());
-      std::iota(parent.begin(), parent.end(), 0u);
-      boost::disjoint_sets<unsigned int *, unsigned int *> sets(depth.data(),
-                                                                parent.data());
+      boost::disjoint_sets_with_storage<> sets(lowest_of.size());
       // Part numbers become numbers over all ranks by first[rank].
       for (std::size_t rank = 0; rank < all_pairs.size(); ++rank)
         for (const auto &[other, their_part, part] : all_pairs[rank])
@@ -378,11 +373,8 @@ namespace Morula
     // does not use are left out, since their grid cells may lie beyond what it
     // knows. The parts get numbers in the order of their first grid cells in
     // the window.
-    std::vector<unsigned int> rank(nodes.size(), 0), parent(nodes.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
-                                                              parent.data());
-    std::vector<char>                                    used(nodes.size(), 0);
+    boost::disjoint_sets_with_storage<> sets(nodes.size());
+    std::vector<char>                   used(nodes.size(), 0);
     for (const SplineCopy &copy : copies)
       {
         if (!is_used(copy))

@@ -47,22 +47,16 @@ namespace Morula
     std::vector<double>       lengths;
     for (const double volume : volumes)
       lengths.push_back(std::pow(volume, 1. / dim));
-    const double              longest = longest_length(founders, comm);
-    const NearTree<dim>       tree(positions);
-    std::vector<unsigned int> depth(positions.size(), 0),
-      parent(positions.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    boost::disjoint_sets<unsigned int *, unsigned int *> sets(depth.data(),
-                                                              parent.data());
+    const double        longest = longest_length(founders, comm);
+    const NearTree<dim> tree(positions);
+    boost::disjoint_sets_with_storage<> sets(positions.size());
     for (unsigned int i = 0; i < positions.size(); ++i)
-      {
-        for (const unsigned int j :
-             tree.within(positions[i],
-                         0.5 * widest_bond * (lengths[i] + longest)))
-          if (positions[i].distance(positions[j]) <=
-              0.5 * widest_bond * (lengths[i] + lengths[j]))
-            sets.union_set(i, j);
-      }
+      for (const unsigned int j :
+           tree.within(positions[i],
+                       0.5 * widest_bond * (lengths[i] + longest)))
+        if (positions[i].distance(positions[j]) <=
+            0.5 * widest_bond * (lengths[i] + lengths[j]))
+          sets.union_set(i, j);
     const unsigned int        no_body = numbers::invalid_unsigned_int;
     std::vector<unsigned int> body_of_set(positions.size(), no_body), mine;
     unsigned int              n_bodies = 0;

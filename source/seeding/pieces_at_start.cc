@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <vector>
 
@@ -90,10 +89,7 @@ namespace Morula
     const PlaceNumbers<dim> numbers =
       all_places<dim>(of_founders, of_patches, comm);
 
-    std::vector<unsigned int> rank(numbers.size(), 0), parent(numbers.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    boost::disjoint_sets<unsigned int *, unsigned int *> sets(rank.data(),
-                                                              parent.data());
+    boost::disjoint_sets_with_storage<> sets(numbers.size());
     for (const auto &[place, number] : numbers)
       for (int k = 0; k < Utilities::pow(3, dim); ++k)
         {
@@ -177,13 +173,10 @@ namespace Morula
       // pairs are looked at, as the later of two runs finds the earlier one.
       using Row = std::array<int, dim - 1>; // the other axes
       std::map<Row, std::vector<std::size_t>> rows;
-      std::vector<std::size_t>                rank(runs.size()), parent(rank);
-      boost::disjoint_sets<std::size_t *, std::size_t *> groups(rank.data(),
-                                                                parent.data());
-      std::vector<std::size_t>                           list;
+      boost::disjoint_sets_with_storage<>     groups(runs.size());
+      std::vector<std::size_t>                list;
       for (std::size_t r = 0; r < runs.size(); ++r)
         {
-          groups.make_set(r);
           list.push_back(r);
           const Run<dim> &run = runs[r];
           Row             row;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/send_records.h>
 #include <morula/grid/background_grid.h>
 
 #include <deal.II/base/mpi.h>
@@ -179,22 +180,15 @@ namespace Morula
   BackgroundGrid<dim>::sum_at_owners(const GridCellCounts &counts) const
   {
     // On one rank there is nobody to ask. Else each count goes to the owner of
-    // its grid cell, as two numbers.
+    // its grid cell.
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return merged(counts);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    GridCellCounts     own;
-    std::map<unsigned int, std::vector<unsigned int>> numbers_and_counts;
+    std::map<unsigned int, GridCellCounts> by_owner;
     for (const GridCellCount &count : counts)
-      if (const unsigned int rank_of = owner(count.number); rank_of == rank)
-        own.push_back(count);
-      else
-        for (const unsigned int value : {count.number, count.n})
-          numbers_and_counts[rank_of].push_back(value);
-    for (const auto &[sender, list] :
-         Utilities::MPI::some_to_some(comm, numbers_and_counts))
-      for (std::size_t i = 0; i < list.size(); i += 2)
-        own.push_back({list[i], list[i + 1]});
+      by_owner[owner(count.number)].push_back(count);
+    GridCellCounts own;
+    for (const auto &[sender, list] : send_records(by_owner, comm))
+      own.insert(own.end(), list.begin(), list.end());
     return merged(std::move(own));
   }
 

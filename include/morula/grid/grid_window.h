@@ -237,14 +237,11 @@ namespace Morula
     {
       if (alone)
         return records;
-      std::vector<Record>                         own;
-      std::map<unsigned int, std::vector<Record>> others;
+      std::map<unsigned int, std::vector<Record>> by_owner;
       for (const Record &record : records)
-        if (const unsigned int owner = grid.owner(record.number); owner == rank)
-          own.push_back(record);
-        else
-          others[owner].push_back(record);
-      for (const auto &[sender, list] : send_records(others, comm))
+        by_owner[grid.owner(record.number)].push_back(record);
+      std::vector<Record> own;
+      for (const auto &[sender, list] : send_records(by_owner, comm))
         own.insert(own.end(), list.begin(), list.end());
       return own;
     }

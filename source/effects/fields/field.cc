@@ -31,15 +31,15 @@ namespace Morula
   Field<dim>::Field(const FieldKeys          &keys,
                     const unsigned int        number,
                     const EffectSetting<dim> &setting)
-    : name_(keys.name)
+    : name(keys.name)
+    , kind(keys.is_steady() ? FieldKind::steady : FieldKind::transient)
+    , diffusion(setting.state.use(keys.diffusion))
+    , production(setting.state.use(keys.production))
+    , initial(keys.initial.expression(dim))
+    , value(keys.value.expression(dim))
     , number(number)
-    , kind_(keys.is_steady() ? FieldKind::steady : FieldKind::transient)
     , diluted(keys.dilution)
-    , diffusion_(setting.state.use(keys.diffusion))
-    , production_(setting.state.use(keys.production))
     , consumption(setting.state.use(keys.consumption))
-    , initial_(keys.initial.expression(dim))
-    , value_(keys.value.expression(dim))
     , fixed_where(keys.fixed_where.optional(dim))
     , transfer_(keys.transfer.optional(dim))
     , flux_(keys.flux.optional(dim))
@@ -119,7 +119,7 @@ namespace Morula
       }
     if (n_determined == 0 || grows)
       throw InputError(
-        "Fields/" + field.name() + "/Consumption",
+        "Fields/" + field.name + "/Consumption",
         "",
         "a rate > 0 1/day at some cell, or a value or a transfer > 0 at some "
         "boundary point, of each separate piece of the tissue in which "
@@ -144,8 +144,7 @@ namespace Morula
       fields.size());
     for (unsigned int k = 0; k < fields.size(); ++k)
       for (unsigned int other = 0; other < fields.size(); ++other)
-        if (fields[k].kind() == fields[other].kind() &&
-            fields[k].depends_on(other))
+        if (fields[k].kind == fields[other].kind && fields[k].depends_on(other))
           boost::add_edge(k, other, uses);
     std::vector<unsigned int>              component(fields.size());
     std::vector<std::vector<unsigned int>> groups(boost::strong_components(
@@ -196,8 +195,7 @@ namespace Morula
     // amounts can be balanced to rounding.
     const bool is_exact =
       std::none_of(group.begin(), group.end(), [&](const unsigned int k) {
-        return fields[k].kind() == FieldKind::steady ||
-               fields[k].is_nonlinear();
+        return fields[k].kind == FieldKind::steady || fields[k].is_nonlinear();
       });
     for (unsigned int turn = 0; turn < most_turns; ++turn)
       {

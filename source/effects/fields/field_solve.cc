@@ -104,8 +104,8 @@ namespace Morula
         {
           const PresentCell<dim> cell = present_cell(p);
           equation.cells[p].volume    = cell.cell().volume();
-          equation.cells[p].diffusion = field.diffusion(cell, t);
-          productions[p]              = field.production(cell, t);
+          equation.cells[p].diffusion = cell.value(field.diffusion, t);
+          productions[p]              = cell.value(field.production, t);
         }
     });
   }
@@ -188,7 +188,7 @@ namespace Morula
       {
         everywhere(tissue.communicator(), [&]() {
           for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-            of_cells.push_back(field.diffusion(present_cell(p), t));
+            of_cells.push_back(present_cell(p).value(field.diffusion, t));
         });
         diffusion = nearest_values(
           places,
@@ -209,7 +209,7 @@ namespace Morula
           FieldAtSurface<dim> here{Tensor<1, dim>(),
                                    area.norm() * field.transfer(X, t),
                                    0.,
-                                   field.value(X, t),
+                                   field.value.value(X, t),
                                    area.norm() * field.flux(X, t)};
           if (field.is_fixed(X))
             {

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 namespace Morula
@@ -129,25 +128,28 @@ namespace Morula
         for (const FieldSolution<dim> &field : found)
           {
             clipped[field.number] += field.clipped;
-            warn_if_unsettled(field, t);
-            warn_if_raised(field, t);
-            warn_of_nothing(field, t);
+            warn(field, t);
           }
         return found;
       }
-      /** @throws InputError about a field that has no steady state */
+
+      /** Tells of what is wrong with a field, each kind of it once in a run.
+       *  @throws InputError about a field that has no steady state */
       void
-      warn_if_unsettled(const FieldSolution<dim> &field, const double t)
+      warn(const FieldSolution<dim> &field, const double t)
       {
-        if (field.converged)
-          return;
-        const std::string &name = parameters.fields[field.number].name;
+        const auto        &keys = parameters.fields[field.number];
+        const std::string &name = keys.name;
+        const auto warn_once    = [&](bool &said, const std::string &what) {
+          if (!std::exchange(said, true))
+            tools.announce("Warning: at t = " + as_text(t) + " day " + what);
+        };
         // Iterations that fail to settle stay within bounds; here each makes
         // more of the field than the one before.
-        if (field.growth > most_growth)
+        if (!field.converged && field.growth > most_growth)
           throw InputError(
             "Fields/" + name + "/Production",
-            parameters.fields[field.number].production.text(),
+            keys.production.text(),
             "less than what cells use up, also where it depends on "
             "the field itself or on fields that depend on it",
             "The field grows with every iteration, by " +
@@ -155,57 +157,34 @@ namespace Morula
               " so far, and has no steady state: lower Production, "
               "raise Consumption, let Production saturate, or set "
               "Time = transient with a shorter step.");
-        if (warned)
-          return;
-        warned = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day the field '"
-          << parameters.fields[field.number].name << "' still changed by "
-          << field.change << " of its largest value after " << field.iterations
-          << " iterations, as what cells do to it depends on itself. The next "
-             "step goes on from there; expressions without jumps converge "
-             "better. Later ones are not told of.";
-        tools.announce(text.str());
-      }
-
-      void
-      warn_if_raised(const FieldSolution<dim> &field, const double t)
-      {
-        if (!(field.raised > 1.) || warned_of_surface)
-          return;
-        warned_of_surface = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day the fixed value of the field '"
-          << parameters.fields[field.number].name << "' was enforced "
-          << field.raised
-          << " times as strongly as usual: the surface is rough, or the tissue "
-             "thin, within a grid spacing, and the field is inexact there. Take "
-             "a smaller Grid/Spacing with smaller cells, or keep the surface "
-             "smooth by Boundary conditions/Surface tension. Later times are "
-             "not told of.";
-        tools.announce(text.str());
-      }
-
-      void
-      warn_of_nothing(const FieldSolution<dim> &field, const double t)
-      {
-        if (field.pieces_of_nothing == 0 || warned_of_nothing)
-          return;
-        warned_of_nothing = true;
-        std::ostringstream text;
-        text
-          << "Warning: at t = " << t << " day "
-          << (field.pieces_of_nothing == 1 ?
-                "a separate piece" :
-                std::to_string(field.pieces_of_nothing) + " separate pieces")
-          << " of the tissue has neither source nor sink of the steady field '"
-          << parameters.fields[field.number].name
-          << "': its level there is not determined, and is set to 0. Give it a "
-             "Consumption, a fixed value or a Transfer there. Later ones are "
-             "not told of.";
-        tools.announce(text.str());
+        if (!field.converged)
+          warn_once(warned,
+                    "the field '" + name + "' still changed by " +
+                      as_text(field.change) + " of its largest value after " +
+                      std::to_string(field.iterations) +
+                      " iterations, as what cells do to it depends on itself. "
+                      "The next step goes on from there; expressions without "
+                      "jumps converge better. Later ones are not told of.");
+        if (field.raised > 1.)
+          warn_once(warned_of_surface,
+                    "the fixed value of the field '" + name +
+                      "' was enforced " + as_text(field.raised) +
+                      " times as strongly as usual: the surface is rough, or "
+                      "the tissue thin, within a grid spacing, and the field "
+                      "is inexact there. Take a smaller Grid/Spacing with "
+                      "smaller cells, or keep the surface smooth by Boundary "
+                      "conditions/Surface tension. Later times are not told "
+                      "of.");
+        if (const unsigned int n = field.pieces_of_nothing; n > 0)
+          warn_once(warned_of_nothing,
+                    (n == 1 ? "a separate piece" :
+                              std::to_string(n) + " separate pieces") +
+                      " of the tissue has neither source nor sink of the "
+                      "steady field '" +
+                      name +
+                      "': its level there is not determined, and is set to 0. "
+                      "Give it a Consumption, a fixed value or a Transfer "
+                      "there. Later ones are not told of.");
       }
 
       const Fields<dim>              &fields;
@@ -290,7 +269,7 @@ namespace Morula
         const Point<dim> X = cell.founder_position();
         for (unsigned int k = 0; k < fields.size(); ++k)
           {
-            cell.set(columns[k], fields[k].initial(X));
+            cell.set(columns[k], fields[k].initial.value(X, 0.));
             if (!gradients[k].exists())
               continue;
             // Founders that divide along a gradient ask for it before any step.
@@ -302,9 +281,9 @@ namespace Morula
                 Point<dim> before(X), behind(X);
                 before[d] -= delta;
                 behind[d] += delta;
-                gradient[d] =
-                  (fields[k].initial(behind) - fields[k].initial(before)) /
-                  (2. * delta);
+                gradient[d] = (fields[k].initial.value(behind, 0.) -
+                               fields[k].initial.value(before, 0.)) /
+                              (2. * delta);
               }
             cell.set(gradients[k], gradient);
           }
@@ -320,8 +299,8 @@ namespace Morula
             // before the run begins. The uptake sets the field, so it gets a
             // cell of its own.
             PresentCell<dim> cell(founder);
-            fields[k].diffusion(cell, 0.);
-            fields[k].production(cell, 0.);
+            cell.value(fields[k].diffusion, 0.);
+            cell.value(fields[k].production, 0.);
             fields[k].uptake(cell, 0., founder.cell().get(columns[k]), 1.);
           }
       }
@@ -343,7 +322,7 @@ namespace Morula
                   {
                     n_fixed += fields[k].is_fixed(place);
                     n_of_flux += fields[k].takes_flux(place);
-                    fields[k].value(place, 0.);
+                    fields[k].value.value(place, 0.);
                     fields[k].transfer(place, 0.);
                     fields[k].flux(place, 0.);
                   }
@@ -390,7 +369,7 @@ namespace Morula
         // fields of a group are of one kind.
         FieldsOfStep<dim> found;
         for (const auto &group : groups)
-          if (fields[group.front()].kind() == kind)
+          if (fields[group.front()].kind == kind)
             for (FieldSolution<dim> &field :
                  find_group(fields, group, solver, t0, t1))
               found.push_back(std::move(field));
@@ -418,7 +397,7 @@ namespace Morula
       {
         for (const Field<dim> &field : fields)
           for (const std::string what : {"min", "mean", "max", "clipped"})
-            tables.add_number(field.name() + "_" + what);
+            tables.add_number(field.name + "_" + what);
       }
 
       /** Whether some are of this kind. */
@@ -428,7 +407,7 @@ namespace Morula
         return std::any_of(fields.begin(),
                            fields.end(),
                            [kind](const Field<dim> &field) {
-                             return field.kind() == kind;
+                             return field.kind == kind;
                            });
       }
 
@@ -459,7 +438,7 @@ namespace Morula
             amount              = Utilities::MPI::sum(amount, comm);
             volume              = Utilities::MPI::sum(volume, comm);
             // Without cells all quantities are 0.
-            const std::string &name = fields[k].name();
+            const std::string &name = fields[k].name;
             numbers[name + "_min"]  = volume > 0. ? least : 0.;
             numbers[name + "_mean"] = volume > 0. ? amount / volume : 0.;
             numbers[name + "_max"]  = volume > 0. ? most : 0.;

@@ -218,31 +218,29 @@ namespace Morula
   class Field
   {
   public:
+    /** The name, as in Fields/Names. */
+    const std::string name;
+
+    /** The kind, as in Time. */
+    const FieldKind kind;
+
+    /** D of cells, µm²/day, and s, in the field's unit per day. */
+    const Expression diffusion, production;
+
+    /** The value at founders, at t = 0, and the Value at the surface. */
+    const Expression initial, value;
+
     /** @param number of the field. @throws InputError for an expression that
      *  cannot be parsed */
     Field(const FieldKeys          &keys,
           const unsigned int        number,
           const EffectSetting<dim> &setting);
 
-    /** The name, as in Fields/Names. */
-    const std::string &
-    name() const
-    {
-      return name_;
-    }
-
-    /** The kind, as in Time. */
-    FieldKind
-    kind() const
-    {
-      return kind_;
-    }
-
     /** Whether growth of cells dilutes it: the amount stays the same. */
     bool
     is_diluted() const
     {
-      return diluted && kind_ == FieldKind::transient;
+      return diluted && kind == FieldKind::transient;
     }
 
     /** Whether something is done to it at the surface. */
@@ -266,7 +264,7 @@ namespace Morula
       // Whether the field reads itself decides how it is solved, so it is asked
       // of the expressions rather than of a key.
       const Variable own = field_variable(number);
-      return diffusion_.uses(own) || production_.uses(own);
+      return diffusion.uses(own) || production.uses(own);
     }
 
     /** Whether what cells do to it depends on another field, by its number. */
@@ -275,7 +273,7 @@ namespace Morula
     {
       const Variable variable = field_variable(other);
       return other != number &&
-             (diffusion_.uses(variable) || production_.uses(variable) ||
+             (diffusion.uses(variable) || production.uses(variable) ||
               consumption.uses(variable));
     }
 
@@ -283,29 +281,8 @@ namespace Morula
     std::optional<double>
     uniform_diffusion() const
     {
-      return diffusion_.is_constant() ? diffusion_.number() :
-                                        std::optional<double>();
-    }
-
-    /** The value at a founder at @p X, at t = 0. @throws InputError */
-    double
-    initial(const Point<dim> &X) const
-    {
-      return initial_.value(X, 0.);
-    }
-
-    /** D of a cell, µm²/day. @throws InputError */
-    double
-    diffusion(const PresentCell<dim> &cell, const double t) const
-    {
-      return cell.value(diffusion_, t);
-    }
-
-    /** s of a cell, in the field's unit per day. @throws InputError */
-    double
-    production(const PresentCell<dim> &cell, const double t) const
-    {
-      return cell.value(production_, t);
+      return diffusion.is_constant() ? diffusion.number() :
+                                       std::optional<double>();
     }
 
     /** What a cell uses up at the value @p c, k c, in the field's unit per day.
@@ -344,13 +321,6 @@ namespace Morula
       return fixed_where && fixed_where->value(X, 0.) > 0.;
     }
 
-    /** The Value there. @throws InputError */
-    double
-    value(const Point<dim> &X, const double t) const
-    {
-      return value_.value(X, t);
-    }
-
     /** The Transfer there, 0 if there is none, µm/day. @throws InputError */
     double
     transfer(const Point<dim> &X, const double t) const
@@ -375,12 +345,9 @@ namespace Morula
     }
 
   private:
-    std::string               name_;
     unsigned int              number;
-    FieldKind                 kind_;
     bool                      diluted;
-    Expression                diffusion_, production_, consumption;
-    Expression                initial_, value_;
+    Expression                consumption;
     std::optional<Expression> fixed_where, transfer_, flux_, flux_where;
   };
 } // namespace Morula

@@ -67,21 +67,6 @@ namespace Morula
                const Known       &known,
                Local             &local) const;
 
-    /** What cells and the surface of this rank take per unit of the field,
-     *  µm^dim/day: without any a steady field has no level. */
-    double
-    sink() const
-    {
-      // Without anything that takes from the field, any constant could be added
-      // to it.
-      double sum = 0.;
-      for (const FieldAtCell &cell : cells)
-        sum += cell.volume * cell.rate;
-      for (const FieldAtSurface<dim> &point : surface)
-        sum += point.weight + point.fixed;
-      return sum;
-    }
-
     /** Whether the field has a value at some boundary point of this rank. */
     bool
     has_fixed_value() const

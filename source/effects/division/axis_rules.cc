@@ -111,42 +111,67 @@ namespace Morula
                 const CellAtOnset<dim> &cell) const = 0;
     };
 
-    /** `Division axis = stretch`: along the largest elastic stretch, (6.3a). */
-    template <int dim>
-    class StretchAxis : public PresentAxis<dim>
+    /** What a rule without keys follows, each by the value of `Division axis`.
+     */
+    enum class Along
     {
-    public:
-      explicit StretchAxis(const EffectKeys &) {}
-
-    protected:
-      std::optional<Tensor<1, dim>>
-      direction(const PresentCell<dim> &,
-                const CellAtOnset<dim> &cell) const override
-      {
-        return Directions::of_largest_stretch(cell.elastic,
-                                              cell.least_anisotropy,
-                                              cell.random);
-      }
+      /** The largest elastic stretch, (6.3a). */
+      stretch,
+      /** The most tensile stress, (6.3b): that at the beginning of the step,
+       *  since the step is still to be solved. */
+      stress,
+      /** The normal n of (6.3c): what is stored is N of the point that was
+       *  nearest to the founder at t = 0; F carries it to now. */
+      surface_normal,
+      /** The surface, uniform, m of (6.3c). */
+      tangential,
+      /** The longest axis of the cell, Hertwig's rule, doc/theory.md (6.10b). A
+       *  cell's shape is the one that its founder's cube has got by the
+       *  tissue's deformation, halved at each division across the axis. */
+      cell_shape
     };
 
-    /** `Division axis = stress`: along the most tensile stress, (6.3b): that at
-     *  the beginning of the step, since the step is still to be solved. */
-    template <int dim>
-    class StressAxis : public PresentAxis<dim>
+    template <Along along>
+    struct AxisAlong
     {
-    public:
-      explicit StressAxis(const EffectKeys &) {}
-
-    protected:
-      std::optional<Tensor<1, dim>>
-      direction(const PresentCell<dim> &present,
-                const CellAtOnset<dim> &cell) const override
+      template <int dim>
+      class Rule : public PresentAxis<dim>
       {
-        return Directions::of_largest_stress(present.quantities().stress,
-                                             present.lame().mu,
-                                             cell.least_anisotropy,
-                                             cell.random);
-      }
+      public:
+        Rule(const EffectKeys &, const EffectSetting<dim> &setting)
+        {
+          // The columns for normal and shape exist only where an effect asks
+          // for them.
+          if (along == Along::surface_normal || along == Along::tangential)
+            setting.state.need_surface_normal();
+          else if (along == Along::cell_shape)
+            setting.columns.need_shape();
+        }
+
+      protected:
+        std::optional<Tensor<1, dim>>
+        direction(const PresentCell<dim> &present,
+                  const CellAtOnset<dim> &cell) const override
+        {
+          using namespace Directions;
+          const double least = cell.least_anisotropy;
+          if (along == Along::stretch)
+            return of_largest_stretch(cell.elastic, least, cell.random);
+          if (along == Along::stress)
+            return of_largest_stress(present.quantities().stress,
+                                     present.lame().mu,
+                                     least,
+                                     cell.random);
+          if (along == Along::cell_shape)
+            return of_largest_stretch(present.cell().shape(),
+                                      least,
+                                      cell.random);
+          const Tensor<1, dim> normal =
+            carried_normal(present.cell().F(), present.surface_normal());
+          return along == Along::tangential ? across(normal, cell.random) :
+                                              normal;
+        }
+      };
     };
 
     /** Key of `Division axis = radial`. */
@@ -186,74 +211,6 @@ namespace Morula
 
     private:
       const Expression center;
-    };
-
-    /** `Division axis = surface normal`: along the normal n of (6.3c). */
-    template <int dim>
-    class SurfaceNormalAxis : public PresentAxis<dim>
-    {
-    public:
-      SurfaceNormalAxis(const EffectKeys &, const EffectSetting<dim> &setting)
-      {
-        // The columns for the normal exist only where an effect asks for them.
-        setting.state.need_surface_normal();
-      }
-
-    protected:
-      std::optional<Tensor<1, dim>>
-      direction(const PresentCell<dim> &present,
-                const CellAtOnset<dim> &) const override
-      {
-        // What is stored is N of the point that was nearest to the founder at
-        // t = 0; F carries it to now.
-        return Directions::carried_normal(present.cell().F(),
-                                          present.surface_normal());
-      }
-    };
-
-    /** `Division axis = tangential`: along the surface, uniform, m of (6.3c).
-     */
-    template <int dim>
-    class TangentialAxis : public SurfaceNormalAxis<dim>
-    {
-    public:
-      using SurfaceNormalAxis<dim>::SurfaceNormalAxis;
-
-    protected:
-      std::optional<Tensor<1, dim>>
-      direction(const PresentCell<dim> &present,
-                const CellAtOnset<dim> &cell) const override
-      {
-        return Directions::across(*SurfaceNormalAxis<dim>::direction(present,
-                                                                     cell),
-                                  cell.random);
-      }
-    };
-
-    /**
-     * `Division axis = cell shape`: along the longest axis of the cell,
-     * Hertwig's rule, doc/theory.md (6.10b). A cell's shape is the one that its
-     * founder's cube has got by the tissue's deformation, halved at each
-     * division across the axis.
-     */
-    template <int dim>
-    class CellShapeAxis : public PresentAxis<dim>
-    {
-    public:
-      CellShapeAxis(const EffectKeys &, const EffectSetting<dim> &setting)
-      {
-        setting.columns.need_shape();
-      }
-
-    protected:
-      std::optional<Tensor<1, dim>>
-      direction(const PresentCell<dim> &present,
-                const CellAtOnset<dim> &cell) const override
-      {
-        return Directions::of_largest_stretch(present.cell().shape(),
-                                              cell.least_anisotropy,
-                                              cell.random);
-      }
     };
 
     /** See gradient_axis(). */
@@ -311,12 +268,13 @@ namespace Morula
        "Proliferation/Cell cycle/Duration=0.4",
        "Proliferation/Cell cycle/Division axis=fixed",
        "Proliferation/Cell cycle/Fixed axis=1; 1; 0"});
-    add_rule<StretchAxis>(catalogue, "stretch");
-    add_rule<StressAxis>(catalogue, "stress");
+    add_rule<AxisAlong<Along::stretch>::Rule>(catalogue, "stretch");
+    add_rule<AxisAlong<Along::stress>::Rule>(catalogue, "stress");
     add_rule<RadialAxis>(catalogue, "radial");
-    add_rule<SurfaceNormalAxis>(catalogue, "surface normal");
-    add_rule<TangentialAxis>(catalogue, "tangential");
-    add_rule<CellShapeAxis>(catalogue, "cell shape");
+    add_rule<AxisAlong<Along::surface_normal>::Rule>(catalogue,
+                                                     "surface normal");
+    add_rule<AxisAlong<Along::tangential>::Rule>(catalogue, "tangential");
+    add_rule<AxisAlong<Along::cell_shape>::Rule>(catalogue, "cell shape");
   }
 
 

@@ -14,37 +14,18 @@ namespace Morula
 {
   namespace
   {
-    /** How a direction is given. */
-    enum class DirectionKind
+    /** The words for the direction from Tissue/Center to the founder, for the
+     *  outward normal of the surface near the founder at t = 0, and for that in
+     *  which a field rises fastest. All other text is a vector. */
+    const std::string radial = "radial", surface_normal = "surface normal",
+                      gradient = "gradient of ";
+
+
+    bool
+    is_expression(const std::string &text)
     {
-      /** The vector of an expression. */
-      expression,
-      /** The direction from Tissue/Center to the founder. */
-      radial,
-      /** The outward normal of the surface near the founder, at t = 0. */
-      surface_normal,
-      /** The direction in which a field rises fastest. */
-      gradient
-    };
-
-
-    const std::map<std::string, DirectionKind> words{
-      {"radial", DirectionKind::radial},
-      {"surface normal", DirectionKind::surface_normal}};
-
-
-    const std::string gradient = "gradient of ";
-
-
-    DirectionKind
-    kind_of(const std::string &text)
-    {
-      // A field may have any name, so its prefix is looked for before the fixed
-      // words.
-      if (!field_of_gradient(text).empty())
-        return DirectionKind::gradient;
-      const auto word = words.find(text);
-      return word == words.end() ? DirectionKind::expression : word->second;
+      return text != radial && text != surface_normal &&
+             field_of_gradient(text).empty();
     }
 
 
@@ -54,7 +35,7 @@ namespace Morula
     std::string
     as_expression(const std::string &text)
     {
-      return kind_of(text) == DirectionKind::expression ? text : "1; 1; 1";
+      return is_expression(text) ? text : "1; 1; 1";
     }
 
 
@@ -160,7 +141,7 @@ namespace Morula
     // it declares the columns for it, and nothing is stored that no expression
     // needs.
     for (const std::string &text : key.texts())
-      if (kind_of(text) == DirectionKind::surface_normal)
+      if (text == surface_normal)
         setting.state.need_surface_normal();
       else if (const std::string field = field_of_gradient(text);
                !field.empty())
@@ -176,36 +157,33 @@ namespace Morula
     // growth and contraction take their axes. A direction that happens to be
     // undefined, at the centre or where a field is flat, becomes the x axis; a
     // vector that the user wrote as zero is a mistake and is refused.
-    Tensor<1, dim> direction;
-    switch (kind_of(key.text_of(cell.type())))
+    const std::string &text = key.text_of(cell.type());
+    Tensor<1, dim>     direction;
+    if (text == surface_normal)
       {
-        case DirectionKind::radial:
-          direction = cell.cell().founder_position() - center;
-          if (direction.norm() == 0.)
-            direction[0] = 1.;
-          break;
-        case DirectionKind::surface_normal:
-          direction = cell.surface_normal();
-          break;
-        case DirectionKind::gradient:
-          // The gradient is a covector of the present configuration. Pulled
-          // back it is Fᵀ ∇c: the field rises along it in the body of t = 0.
-          direction = cell.gradient(fields.at(key.text_of(cell.type()))) *
-                      cell.cell().F();
-          if (direction.norm() == 0.)
-            direction[0] = 1.;
-          break;
-        default:
-          direction = cell.vector(expression, t);
-          if (direction.norm() == 0.)
-            {
-              std::ostringstream place;
-              place << "It is zero at the cell from ("
-                    << cell.cell().founder_position() << ") um, t = " << t
-                    << " day. ";
-              refuse_zero(expression, place.str());
-            }
+        direction = cell.surface_normal();
+        return direction / direction.norm();
       }
+    if (is_expression(text))
+      {
+        direction = cell.vector(expression, t);
+        if (direction.norm() == 0.)
+          {
+            std::ostringstream place;
+            place << "It is zero at the cell from ("
+                  << cell.cell().founder_position() << ") um, t = " << t
+                  << " day. ";
+            refuse_zero(expression, place.str());
+          }
+      }
+    else
+      // The gradient is a covector of the present configuration. Pulled back it
+      // is Fᵀ ∇c: the field rises along it in the body of t = 0.
+      direction = text == radial ?
+                    cell.cell().founder_position() - center :
+                    cell.gradient(fields.at(text)) * cell.cell().F();
+    if (direction.norm() == 0.)
+      direction[0] = 1.;
     return direction / direction.norm();
   }
 

@@ -3,18 +3,14 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
+#include <morula/base/send_records.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/state/state_columns.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/boost_adaptors/point.h>
-
-#include <boost/geometry/index/rtree.hpp>
-
 #include <algorithm>
-#include <iterator>
 #include <limits>
-#include <utility>
+#include <type_traits>
 #include <vector>
 
 namespace Morula
@@ -29,47 +25,32 @@ namespace Morula
     // Each rank has some patches of the surface and some places, and the patch
     // nearest to a place may be on any rank. So all patches are gathered on
     // every rank, which is collective, and a tree of them answers for the
-    // places of this rank. Only the surface of t = 0 is asked, so this is no
-    // cost of a step.
-    namespace bgi = boost::geometry::index;
-    using Patches =
-      std::pair<std::vector<Point<dim>>, std::vector<Tensor<1, dim>>>;
-    using Entry = std::pair<Point<dim>, std::size_t>;
-
-    Patches all;
-    for (const Patches &part :
-         Utilities::MPI::all_gather(comm, Patches(points, normals)))
-      {
-        all.first.insert(all.first.end(), part.first.begin(), part.first.end());
-        all.second.insert(all.second.end(),
-                          part.second.begin(),
-                          part.second.end());
-      }
-    // The parts are in the order of the ranks. An entry keeps the number of its
-    // patch, by which its normal is found.
-    std::vector<Entry> entries;
-    for (std::size_t i = 0; i < all.first.size(); ++i)
-      entries.emplace_back(all.first[i], i);
-    const bgi::rtree<Entry, bgi::linear<16>> tree(entries);
-
+    // places of this rank.
+    const auto of_all_ranks = [comm](const auto &mine) {
+      std::decay_t<decltype(mine)> all;
+      for (const auto &part : gather_everywhere(mine, comm))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    };
+    const auto                    positions   = of_all_ranks(points);
+    const auto                    all_normals = of_all_ranks(normals);
+    const NearTree<dim>           tree(positions);
     std::vector<NearSurface<dim>> result(places.size());
     for (std::size_t k = 0; k < places.size(); ++k)
       {
-        std::vector<Entry> nearest;
-        tree.query(bgi::nearest(places[k], 1), std::back_inserter(nearest));
         // Without any surface all is infinitely deep, and the normal stays
-        // zero.
-        if (nearest.empty())
+        // zero. Else the depth is measured along the normal to the plane of the
+        // patch, so that it does not jump with the spacing of patches. A cell
+        // just outside that plane has depth 0.
+        if (positions.empty())
           {
             result[k].depth = std::numeric_limits<double>::infinity();
             continue;
           }
-        result[k].normal = all.second[nearest[0].second];
+        const unsigned int i = tree.nearest(places[k]);
+        result[k].normal     = all_normals[i];
         result[k].depth =
-          // The depth is measured along the normal to the plane of the patch,
-          // so that it does not jump with the spacing of patches. A cell just
-          // outside that plane has depth 0.
-          std::max(0., (nearest[0].first - places[k]) * result[k].normal);
+          std::max(0., (positions[i] - places[k]) * result[k].normal);
       }
     return result;
   }

@@ -146,38 +146,33 @@ namespace Morula
     // Times are stored instead of ages, so that a column changes only at an
     // event. Depth and normal are taken once at t = 0 and inherited by all
     // descendants.
+    const auto add = [&columns](const std::string &name,
+                                const std::string &unit,
+                                const std::string &meaning,
+                                const bool         in_output) {
+      return columns.template add<double>(
+        {name, unit, meaning, 0., AtDivision::copied, in_output});
+    };
     if (uses(Variable::type_age))
-      type_since = columns.template add<double>(
-        {"type_since", "day", "when the cell got its type", 0.});
+      type_since =
+        add("type_since", "day", "when the cell got its type", false);
     if (uses(Variable::age))
-      birth_time = columns.template add<double>(
-        {"birth_time", "day", "when the cell was born", 0.});
+      birth_time = add("birth_time", "day", "when the cell was born", false);
     if (uses(Variable::depth))
-      depth = columns.template add<double>({"depth",
-                                            "um",
-                                            "distance of the founder from the "
-                                            "surface at t = 0",
-                                            0.,
-                                            AtDivision::copied,
-                                            true});
+      depth = add("depth",
+                  "um",
+                  "distance of the founder from the surface at t = 0",
+                  true);
     for (const NeighbourVariable &told : of_neighbours)
       neighbours.push_back(
         told.kind == NeighbourVariable::slope ?
           Column<double>() :
-          columns.template add<double>({told.name,
-                                        "",
-                                        "what it says of the cell's neighbours",
-                                        0.,
-                                        AtDivision::copied,
-                                        true}));
+          add(told.name, "", "what it says of the cell's neighbours", true));
     if (uses(Variable::present_depth))
-      present_depth =
-        columns.template add<double>({"present_depth",
-                                      "um",
-                                      "distance of the cell from the surface",
-                                      0.,
-                                      AtDivision::copied,
-                                      true});
+      present_depth = add("present_depth",
+                          "um",
+                          "distance of the cell from the surface",
+                          true);
     if (needs_normal)
       surface_normal = columns.template add<Tensor<1, dim>>(
         {"surface_normal", "", "of the surface near the founder, at t = 0"});

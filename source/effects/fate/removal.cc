@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
+#include <morula/base/send_records.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/particles/detached_points.h>
 #include <morula/particles/nearest.h>
@@ -25,56 +26,31 @@ namespace Morula
 {
   namespace
   {
-    /** What a cell carries that goes without another one in its grid cell. */
-    template <int dim>
-    struct LeftAmounts
-    {
-      /** Where it is, µm. */
-      Point<dim> position;
-      /** Of the fields, times µm^dim. */
-      std::vector<double> amounts;
-    };
-
-    /** What all ranks' cells leave, one after the other: position and amounts.
-     *  Collective. */
-    template <int dim>
-    std::vector<double>
-    gather(const std::vector<LeftAmounts<dim>> &left, const MPI_Comm comm)
-    {
-      std::vector<double> mine;
-      for (const LeftAmounts<dim> &one : left)
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            mine.push_back(one.position[d]);
-          mine.insert(mine.end(), one.amounts.begin(), one.amounts.end());
-        }
-      std::vector<double> all;
-      for (const auto &list : Utilities::MPI::all_gather(comm, mine))
-        all.insert(all.end(), list.begin(), list.end());
-      return all;
-    }
-
     /**
      * Gives what these cells of this rank leave to the nearest cells that stay,
      * of whichever rank: doc/theory.md (6.9d). Collective.
      * @param gone    numbers of this rank's cells that go, sorted
      * @param carried the columns of the fields
+     * @param left    of each cell that goes without another one in its grid
+     *   cell its position, µm, and its amounts of the fields, times µm^dim
      */
     template <int dim>
     void
-    give_to_nearest(Tissue<dim>                         &tissue,
-                    const std::vector<unsigned int>     &gone,
-                    const std::vector<Column<double>>   &carried,
-                    const std::vector<LeftAmounts<dim>> &left)
+    give_to_nearest(Tissue<dim>                       &tissue,
+                    const std::vector<unsigned int>   &gone,
+                    const std::vector<Column<double>> &carried,
+                    const std::vector<double>         &left)
     {
       // All ranks get what all leave, which is rare and little. Each looks for
       // its own nearest cell that stays; the nearest of all ranks counts, and
       // of cells that are equally near that with the lowest id, so that the
       // number of ranks does not matter.
-      const MPI_Comm            comm   = tissue.communicator();
-      const std::vector<double> all    = gather(left, comm);
-      const std::size_t         length = dim + carried.size();
-      const std::size_t         n      = all.size() / length;
+      const MPI_Comm      comm = tissue.communicator();
+      std::vector<double> all;
+      for (const auto &list : gather_everywhere(left, comm))
+        all.insert(all.end(), list.begin(), list.end());
+      const std::size_t length = dim + carried.size();
+      const std::size_t n      = all.size() / length;
       if (n == 0)
         return;
 
@@ -151,8 +127,8 @@ namespace Morula
       // Cells are stored grid cell by grid cell, and `gone` is sorted, so one
       // pointer runs along. All cells of a grid cell are on one rank: nothing
       // is sent.
-      std::vector<LeftAmounts<dim>> left;
-      auto                          next = gone.begin();
+      std::vector<double> left;
+      auto                next = gone.begin();
       for (const auto &grid_cell : cells.grid_cells())
         {
           const auto          first = next;
@@ -169,12 +145,12 @@ namespace Morula
                                 }))
                   {
                     from += cells.volume(p);
-                    left.push_back({cells.position(p), {}});
+                    append_flat(left, cells.position(p));
                     for (std::size_t k = 0; k < carried.size(); ++k)
                       {
                         const double amount =
                           cells.volume(p) * cells[p].get(carried[k]);
-                        left.back().amounts.push_back(amount);
+                        left.push_back(amount);
                         amounts[k] += amount;
                       }
                   }

@@ -189,10 +189,8 @@ namespace Morula
         const std::vector<Variable> &used = density.used();
         const bool                   lags =
           std::any_of(used.begin(), used.end(), [](const auto v) {
-            return is_field(v) || v == Variable::volume ||
-                   v == Variable::growth || v == Variable::J_e ||
-                   v == Variable::pressure || v == Variable::tension ||
-                   v == Variable::shear || v == Variable::energy;
+            return is_field(v) ||
+                   (v >= Variable::volume && v <= Variable::energy);
           });
         if (lags)
           review.warn(

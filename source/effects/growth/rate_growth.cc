@@ -7,7 +7,6 @@
 #include <morula/effects/state/present_cell.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -28,15 +27,10 @@ namespace Morula
     bool
     follows_elastic_state(const Expression &expression)
     {
-      constexpr std::array<Variable, 5> of_stress = {{Variable::J_e,
-                                                      Variable::pressure,
-                                                      Variable::tension,
-                                                      Variable::shear,
-                                                      Variable::energy}};
-      return std::any_of(of_stress.begin(),
-                         of_stress.end(),
-                         [&expression](const Variable variable) {
-                           return expression.uses(variable);
+      return std::any_of(expression.used().begin(),
+                         expression.used().end(),
+                         [](const Variable v) {
+                           return v >= Variable::J_e && v <= Variable::energy;
                          });
     }
 

@@ -332,27 +332,34 @@ namespace Morula
 
 
   bool
-  Expression::follows_state() const
+  follows_state(const Variable variable)
   {
     // These change by themselves, or never, or at events only. Everything else
     // follows from the state of the cell.
+    switch (variable)
+      {
+        case Variable::X:
+        case Variable::Y:
+        case Variable::Z:
+        case Variable::t:
+        case Variable::generation:
+        case Variable::age:
+        case Variable::type_age:
+        case Variable::type:
+        case Variable::depth:
+        case Variable::noise:
+          return false;
+        default:
+          return true;
+      }
+  }
+
+
+  bool
+  Expression::follows_state() const
+  {
     return std::any_of(used_.begin(), used_.end(), [](const Variable variable) {
-      switch (variable)
-        {
-          case Variable::X:
-          case Variable::Y:
-          case Variable::Z:
-          case Variable::t:
-          case Variable::generation:
-          case Variable::age:
-          case Variable::type_age:
-          case Variable::type:
-          case Variable::depth:
-          case Variable::noise:
-            return false;
-          default:
-            return true;
-        }
+      return Morula::follows_state(variable);
     });
   }
 

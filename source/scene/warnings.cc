@@ -36,23 +36,10 @@ namespace Morula
     feels_others(const Expression                          &expression,
                  const std::function<bool(const Variable)> &seen)
     {
-      using V                         = Variable;
-      constexpr std::array<V, 10> own = {{V::X,
-                                          V::Y,
-                                          V::Z,
-                                          V::t,
-                                          V::generation,
-                                          V::age,
-                                          V::type_age,
-                                          V::type,
-                                          V::depth,
-                                          V::noise}};
       return std::any_of(expression.used().begin(),
                          expression.used().end(),
                          [&](const Variable variable) {
-                           return !seen(variable) &&
-                                  std::find(own.begin(), own.end(), variable) ==
-                                    own.end();
+                           return !seen(variable) && follows_state(variable);
                          });
     }
 
@@ -168,12 +155,10 @@ namespace Morula
     /** Places of this rank at which an expression is looked at. */
     constexpr std::size_t most_places = 4;
 
-    /** Where in time an expression leaves the range of a step's ends most. */
-    struct Excursion
-    {
-      double outside = 0.; // relative to the range in time
-      double begin = 0., end = 0., first = 0., last = 0., between = 0.;
-    };
+    /** Where in time an expression leaves the range of a step's ends most: by
+     *  how much, relative to its range in time; when the step begins and ends,
+     *  and the values then and in between. */
+    using Excursion = std::array<double, 6>;
 
     /** The values of all variables at a place: 1 for what only the run knows,
      *  so that a factor that depends on time is seen. */
@@ -219,7 +204,7 @@ namespace Morula
         }
       const auto [least, most] = std::minmax_element(all.begin(), all.end());
       const double range       = *most - *least;
-      Excursion    worst;
+      Excursion    worst{};
       if (!(range > 1e-9 * std::max(std::abs(*most), std::abs(*least))))
         return worst;
       for (std::size_t n = 0; n < n_steps; ++n)
@@ -230,13 +215,13 @@ namespace Morula
               const double outside =
                 std::max(all[i] - std::max(a, b), std::min(a, b) - all[i]) /
                 range;
-              if (outside > worst.outside)
-                worst = {outside,
-                         step * n,
-                         std::min(step * (n + 1), end_time),
-                         a,
-                         b,
-                         all[i]};
+              if (outside > worst[0])
+                worst = {{outside,
+                          step * n,
+                          std::min(step * (n + 1), end_time),
+                          a,
+                          b,
+                          all[i]}};
             }
         }
       return worst;
@@ -261,19 +246,14 @@ namespace Morula
             key->evaluated() != Evaluated::founder && key->is_changed())
           try
             {
-              const Expression  &expression = key->expression(scene.dimension);
-              const unsigned int n =
-                std::min(key->components(), scene.dimension.value());
-              list.push_back({expression, n});
+              const Expression &expression = key->expression(scene.dimension);
+              if (expression.depends_on_time())
+                list.push_back(
+                  {expression,
+                   std::min(key->components(), scene.dimension.value())});
             }
           catch (const std::exception &)
             {} // a word, such as a direction
-      list.erase(std::remove_if(list.begin(),
-                                list.end(),
-                                [](const Timed &one) {
-                                  return !one.expression.depends_on_time();
-                                }),
-                 list.end());
       return list;
     }
 
@@ -299,7 +279,7 @@ namespace Morula
           places.push_back((*points)[i]);
       for (const auto &[expression, n_components] : of_time(scene))
         {
-          Excursion worst;
+          Excursion worst{};
           for (const Point<dim> &X : places)
             for (unsigned int c = 0; c < n_components; ++c)
               try
@@ -309,23 +289,16 @@ namespace Morula
                                                    values_at(X, expression),
                                                    scene.time.step,
                                                    scene.time.end_time);
-                  if (here.outside > worst.outside)
+                  if (here[0] > worst[0])
                     worst = here;
                 }
               catch (const std::exception &)
                 {}
-          std::array<double, 6> mine = {{worst.outside,
-                                         worst.begin,
-                                         worst.end,
-                                         worst.first,
-                                         worst.last,
-                                         worst.between}};
           // Ranks have different places: that with the largest excursion
           // counts.
-          for (const auto &other : Utilities::MPI::all_gather(comm, mine))
-            if (other > mine)
-              mine = other;
-          const auto &[outside, begin, end, first, last, between] = mine;
+          for (const auto &other : Utilities::MPI::all_gather(comm, worst))
+            worst = std::max(worst, other);
+          const auto &[outside, begin, end, first, last, between] = worst;
           if (outside <= most_outside)
             continue;
           review.warn(

@@ -100,6 +100,11 @@ namespace Morula
     return static_cast<unsigned int>(variable) - n_variables;
   }
 
+  /** Whether a variable changes as the tissue does: not ages, which change with
+   *  time alone, nor what changes in events only. */
+  bool
+  follows_state(const Variable variable);
+
   /** A value for each variable. An expression reads only those that it uses. */
   using VariableValues = std::array<double, n_variables + most_fields>;
 
@@ -244,13 +249,6 @@ namespace Morula
       return std::binary_search(used_.begin(), used_.end(), variable);
     }
 
-    /** The variables that the text may use, and their names. */
-    const Vocabulary &
-    vocabulary() const
-    {
-      return *vocabulary_;
-    }
-
     /** Whether it uses other variables than X, Y, Z and t. */
     bool
     depends_on_state() const
@@ -259,8 +257,7 @@ namespace Morula
       return !used_.empty() && used_.back() > Variable::t;
     }
 
-    /** Whether it uses a variable that changes as the tissue does: not ages,
-     *  which change with time alone, nor what changes in events only. */
+    /** Whether it uses a variable that changes as the tissue does. */
     bool
     follows_state() const;
 

@@ -320,12 +320,6 @@ namespace Morula
     }
 
     ReturnType
-    computeGradient() override // of the energy: it is the residual
-    {
-      return computeF();
-    }
-
-    ReturnType
     computeNewton(Teuchos::ParameterList &parameters) override
     {
       if (has_direction)
@@ -348,38 +342,10 @@ namespace Morula
       return Ok;
     }
 
-    ReturnType
-    applyJacobian(const NOX::Abstract::Vector &input,
-                  NOX::Abstract::Vector       &result) const override
-    {
-      if (K == nullptr)
-        return BadDependency;
-      auto &values = dynamic_cast<NoxVector &>(result).values;
-      K->vmult(values, values_of(input));
-      // Where a lumen has a content, the matrix alone is not the whole tangent.
-      add_rank_one(values, problem.rank_one(), values_of(input));
-      return Ok;
-    }
-
     bool
     isF() const override
     {
       return has_residual;
-    }
-    bool
-    isJacobian() const override
-    {
-      return K != nullptr;
-    }
-    bool
-    isGradient() const override
-    {
-      return has_residual;
-    }
-    bool
-    isNewton() const override
-    {
-      return has_direction;
     }
     const NOX::Abstract::Vector &
     getX() const override

@@ -103,7 +103,7 @@ namespace Morula
     // travels from its diagonal on, as global columns and single precision
     // values, behind an entry with its length. What arrives is translated into
     // numbers of the block at once, and columns outside of the block are left
-    // out: so no rank holds other ranks' rows in full.
+    // out.
     ReceivedRows received;
     received.begins.push_back(0);
     if (!halo)

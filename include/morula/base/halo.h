@@ -4,11 +4,12 @@
 #ifndef morula_base_halo_h
 #define morula_base_halo_h
 
+#include <morula/base/send_records.h>
+
 #include <deal.II/base/array_view.h>
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/partitioner.h>
 
-#include <type_traits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -73,8 +74,7 @@ namespace Morula
     }
 
     /**
-     * Lists of any length that go with the entries. Neighbours have to do the
-     * same.
+     * Lists of any length that go with the entries. Collective.
      * @tparam T trivially copyable
      * @param append appends the list of an own entry, by its number among these
      * @param length of a list, about: for so much there is room at once
@@ -87,50 +87,18 @@ namespace Morula
                 const std::size_t length,
                 const Take       &take) const
     {
-      static_assert(std::is_trivially_copyable<T>::value,
-                    "only plain values can be sent byte by byte");
-      constexpr int               tag  = 0;
-      const MPI_Comm              comm = partitioner.get_mpi_communicator();
-      std::vector<std::vector<T>> sent;
-      std::vector<MPI_Request>    requests;
+      // A rank that needs entries of this one gets their lists in one message.
+      std::map<unsigned int, std::vector<T>> sent;
       for (const auto &[rank, entries] : needed_elsewhere())
         {
-          std::vector<T> &lists = sent.emplace_back();
+          std::vector<T> &lists = sent[rank];
           lists.reserve(entries.size() * length);
           for (const unsigned int entry : entries)
             append(entry, lists);
-          requests.emplace_back();
-          const int error = MPI_Isend(lists.data(),
-                                      lists.size() * sizeof(T),
-                                      MPI_BYTE,
-                                      rank,
-                                      tag,
-                                      comm,
-                                      &requests.back());
-          AssertThrowMPI(error);
         }
-      for (const auto &source : partitioner.ghost_targets())
-        {
-          MPI_Status status;
-          int        error = MPI_Probe(source.first, tag, comm, &status);
-          AssertThrowMPI(error);
-          int n_bytes;
-          error = MPI_Get_count(&status, MPI_BYTE, &n_bytes);
-          AssertThrowMPI(error);
-          std::vector<T> lists(n_bytes / sizeof(T));
-          error = MPI_Recv(lists.data(),
-                           n_bytes,
-                           MPI_BYTE,
-                           source.first,
-                           tag,
-                           comm,
-                           MPI_STATUS_IGNORE);
-          AssertThrowMPI(error);
-          take(lists);
-        }
-      const int error =
-        MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-      AssertThrowMPI(error);
+      for (const auto &[rank, lists] :
+           send_records(sent, partitioner.get_mpi_communicator()))
+        take(lists);
     }
 
   private:

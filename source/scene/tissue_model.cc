@@ -326,6 +326,8 @@ namespace Morula
     maker.add_fates();
     maker.make_others();
     effects.state.declare(effects.columns);
+    if (redistribution_of(scene).places)
+      effects.columns.need_step_strain();
     return effects;
   }
 
@@ -401,7 +403,8 @@ namespace Morula
   template <int dim>
   TissueModel<dim>::TissueModel(const Scene &scene, SceneEffects<dim> &&effects)
     : scene(scene)
-    , tables(effects.tables())
+    , redistribution(redistribution_of(scene))
+    , tables(effects.tables(redistribution))
     , all_effects(effects.all())
     , types(effects.development.types)
     , sees_neighbours(effects.development.neighbours.has_value())

@@ -22,6 +22,7 @@ namespace Morula
   TissueParameters::TissueParameters()
   {
     surface.with("paper", "tracked");
+    redistribution.with("paper", "false");
     // These keys name files, which are looked for beside the scene as well.
     for (Key<std::string> *key :
          {&surface_mesh, &points_file, &points_surface, &cuts})

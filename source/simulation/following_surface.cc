@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/particles/detached_points.h>
-#include <morula/particles/even_spread.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/following_surface.h>
@@ -31,11 +30,6 @@ namespace Morula
     /** How far points hand on what they are to new patches of their side, in
      *  spacings of the grid: in a step, and at t = 0, when places decide. */
     constexpr double far = 2., near = 0.5;
-
-    /** In this time, day, the volumes of cells that grow and flow are brought
-     * in line with their space: slowly beside the flow, which must carry the
-     *  pressure away, and fast beside a cell cycle. */
-    constexpr double evening_time = 0.5;
 
     /** The points of body number @p b. */
     template <int dim>
@@ -132,7 +126,6 @@ namespace Morula
     // volumes. Whether it is made anew follows from its way since the last
     // time, which is saved, and from losses of all ranks. A tracked surface is
     // made anew once where it has lost points.
-    spread_cells(tissue, space, dt);
     const auto n_points = [this](const std::uint64_t own) {
       return Utilities::MPI::sum(own, comm);
     };
@@ -162,33 +155,6 @@ namespace Morula
     if (model.interaction && model.interaction->effect->fuses())
       fuse_what_touches(tissue, t, dt);
     return has_lost;
-  }
-
-
-  template <int dim>
-  void
-  FollowingSurface<dim>::spread_cells(Tissue<dim>            &tissue,
-                                      const SplineSpace<dim> &space,
-                                      const double            dt) const
-  {
-    // Only where the shear relaxes do cells find other places. Amounts of
-    // fields in them stay.
-    if (!model.scene.flows() || !model.scene.has_active_tissue() ||
-        !state.enclosed_share)
-      return;
-    std::vector<double> before;
-    if (!model.densities.empty())
-      for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-        before.push_back(tissue.cells().volume(p));
-    for (unsigned int b = 0; b < space.n_bodies(); ++b)
-      relax_volumes_to_space(tissue,
-                             space.occupancy(b),
-                             std::min(1., dt / evening_time),
-                             b);
-    for (std::size_t p = 0; p < before.size(); ++p)
-      model.dilute(tissue.cell(p), tissue.cells().volume(p) / before[p]);
-    if (model.material.volumetric_form() == VolumetricStrain::pooled)
-      spread_uneven_growth(tissue, dt);
   }
 
 

@@ -6,6 +6,7 @@
 #include <morula/effects/volumes_of_step.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/plain_kernels.h>
+#include <morula/simulation/redistribution.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
@@ -248,6 +249,13 @@ namespace Morula
         missed_flow[p] =
           model.development.missed_flow(cell, p, f, growth_of_step, t, t_next);
         model.development.remember_motion(cell, f);
+        if (model.redistribution.places)
+          cell.set(cell.columns().step_strain,
+                   displacing_strain<dim>(cell,
+                                          p,
+                                          motions[p].f,
+                                          growth_of_step,
+                                          model.redistribution.all_flows));
         if (dilutes)
           model.dilute(cell, cell.volume() / volume);
       }
@@ -266,12 +274,24 @@ namespace Morula
     const PointList<dim> former = surface.before_losses(tissue);
     remove_the_dead();
     for_moments(&Moments<dim>::rearrange, time_steps.time(), row.dt);
+    keep_places();
     count(space);
     if (surface.follow(tissue, space, former, time_steps.time(), row.dt))
       watches.look_at_conditions(tissue, time_steps.time());
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, time_steps.time(), row.dt);
     for_moments(&Moments<dim>::after, time_steps.time(), row.dt);
+  }
+
+
+  template <int dim>
+  void
+  Simulation<dim>::keep_places()
+  {
+    if (!model.redistribution.places)
+      return;
+    const TimerOutput::Scope section(timer, "places");
+    redistribute(tissue, model, surface.exists(), of_step);
   }
 
 

@@ -5,11 +5,12 @@
 #define morula_tests_particles_room_h
 
 #include <morula/particles/detached_points.h>
-#include <morula/particles/even_spread.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/neighbours.h>
+#include <morula/particles/places.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/point_store.h>
+#include <morula/particles/space_of_cells.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/particles/tissue.h>
 #include <morula/particles/voronoi_facets.h>

@@ -49,7 +49,8 @@ def test_resuming_asks_for_the_values_not_the_word(runs, discs):
     halves = runs.run("halves", DISC, {"Method": "consistent"}, "--resume")
     assert without_wall_time(discs["spelt"].directory) == without_wall_time(halves.directory)
     # a scene of before this key goes on as the paper's
-    runs.run("older", DISC, {**PAPER, **HALF, "Tissue/Surface": "tracked"})
+    runs.run("older", DISC, {**PAPER, **HALF, "Tissue/Surface": "tracked",
+                             "Tissue/Redistribution": "false"})
     error = runs.refused(runs.work / "older.prm", {**DISC, "Method": "consistent"}, "--resume",
                          output=runs.work / "older")
     assert "Nitsche" in error

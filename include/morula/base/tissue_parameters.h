@@ -162,6 +162,17 @@ namespace Morula
       "with Method = paper.",
       {"automatic|tracked|from cells"}};
 
+    Key<std::string> redistribution{
+      {this, "Tissue/Redistribution"},
+      "automatic",
+      "Whether cells keep places and volumes that fit each other. Cells of a "
+      "body that come nearer to each other than their volumes allow move apart, "
+      "where they divide, grow by type, flow or exchange places; and volumes "
+      "follow the space that cells have, where pooled or projected tissue "
+      "flows: automatic. true: the first everywhere, the second as with "
+      "automatic. false: neither, as with Method = paper.",
+      {"automatic|true|false"}};
+
     Key<double> renew_surface{
       {this, "Tissue/Renew surface"},
       0.,

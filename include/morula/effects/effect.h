@@ -94,6 +94,20 @@ namespace Morula
       return false;
     }
 
+    /** Whether cells exchange places by the effect. */
+    virtual bool
+    exchanges_places() const
+    {
+      return false;
+    }
+
+    /** Whether all tissue flows by the effect, besides what relaxes. */
+    virtual bool
+    releases_shear() const
+    {
+      return false;
+    }
+
     /** Makes the keys in sections that others name, before any key has its
      *  value: from the value of the names_key, and from the names of the cells'
      *  types, in the order of their numbers, which equations do not know yet.

@@ -262,13 +262,18 @@ namespace Morula
                          [&](const unsigned int i, const unsigned int j) {
                            return numbers[i] < numbers[j];
                          });
-      for (unsigned int k = 0; k < indices.size(); ++k)
-        if (bins.empty() || bins.back() != numbers[indices[k]])
+      // Where there are not many more grid cells than points a table of all of
+      // them says where their points begin, without a search.
+      bins.reserve(positions.size());
+      for (const unsigned int i : indices)
+        bins.push_back(numbers[i]);
+      if (box.size() / 32 < positions.size())
+        for (unsigned int number = 0, k = 0; number <= box.size(); ++number)
           {
-            bins.push_back(numbers[indices[k]]);
+            while (k < bins.size() && bins[k] < number)
+              ++k;
             begins.push_back(k);
           }
-      begins.push_back(indices.size());
     }
 
     /** Calls @p visit(i) for the points within @p radius (µm) of @p center, in
@@ -294,31 +299,30 @@ namespace Morula
       box.for_overlap(lower,
                       upper,
                       [&](const unsigned int first, const auto &) {
-                        auto bin =
-                          std::lower_bound(bins.begin(), bins.end(), first);
-                        for (; bin != bins.end() && *bin <= first + more; ++bin)
-                          visit_bin(bin - bins.begin(), center, radius, visit);
+                        const unsigned int end = begin_of(first + more + 1);
+                        for (unsigned int k = begin_of(first); k < end; ++k)
+                          if (positions[indices[k]].distance_square(center) <=
+                              radius * radius)
+                            visit(indices[k]);
                       });
     }
 
   private:
-    template <typename Visitor>
-    void
-    visit_bin(const std::size_t b,
-              const Point<dim> &center,
-              const double      radius,
-              const Visitor    &visit) const
+    /** How many points lie in grid cells before this one. */
+    unsigned int
+    begin_of(const unsigned int number) const
     {
-      for (unsigned int k = begins[b]; k < begins[b + 1]; ++k)
-        if (positions[indices[k]].distance_square(center) <= radius * radius)
-          visit(indices[k]);
+      return begins.empty() ?
+               std::lower_bound(bins.begin(), bins.end(), number) -
+                 bins.begin() :
+               begins[number];
     }
 
     const GridBox<dim>            &box;
     const std::vector<Point<dim>> &positions;
-    std::vector<unsigned int>      bins;    // grid cells with points
-    std::vector<unsigned int>      begins;  // of the bins, and the end
-    std::vector<unsigned int>      indices; // of the points, by bin
+    std::vector<unsigned int>      indices; // of the points, by grid cell
+    std::vector<unsigned int>      bins;    // their grid cells, in this order
+    std::vector<unsigned int>      begins;  // of grid cells, or none
   };
 } // namespace Morula
 

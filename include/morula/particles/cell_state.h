@@ -127,6 +127,16 @@ namespace Morula
                                AtDivision::copied});
     }
 
+    /** Declares the strain of the step, if not yet declared. The laws of places
+     *  call it. */
+    void
+    need_step_strain()
+    {
+      if (!step_strain.exists())
+        step_strain = add<double>(
+          {"step_strain", "", "strain of the last step that displaces cells"});
+    }
+
     /** The row of a founder at @p X (µm) of this volume (µm^dim). */
     std::vector<double>
     founder(const Point<dim> &X, const double volume) const
@@ -164,6 +174,9 @@ namespace Morula
     Column<Tensor<2, dim>> shape;
     /** F_r, what has relaxed of F_g, where an effect keeps it apart. */
     Column<Tensor<2, dim>> relaxed;
+    /** a: by how much the last step has changed the neighbourhood of the cell,
+     *  doc/theory.md (6.11). */
+    Column<double> step_strain;
   };
 
   /**

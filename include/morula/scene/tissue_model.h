@@ -8,6 +8,7 @@
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/material.h>
 #include <morula/particles/tissue.h>
+#include <morula/scene/redistribution_rule.h>
 #include <morula/scene/scene.h>
 
 #include <mpi.h>
@@ -42,9 +43,13 @@ namespace Morula
 
     /** What they add to the tables of a run. Refers to them. */
     Tables<dim>
-    tables() const
+    tables(const Redistribution &redistribution) const
     {
       Tables<dim> tables;
+      if (redistribution.places)
+        tables.add_number("close_neighbours");
+      if (redistribution.volumes)
+        tables.add_number("density_error");
       for (const Effect<dim> *const effect : all())
         effect->declare(tables);
       for (const auto &[name, condition] : conditions)
@@ -94,8 +99,9 @@ namespace Morula
     /** @throws InputError */
     explicit TissueModel(const Scene &scene);
 
-    const Scene       scene;
-    const Tables<dim> tables;
+    const Scene          scene;
+    const Redistribution redistribution;
+    const Tables<dim>    tables;
     /** SceneEffects::all() */
     const std::vector<const Effect<dim> *> all_effects;
     /** The types of cells, or null. */

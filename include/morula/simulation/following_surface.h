@@ -107,12 +107,6 @@ namespace Morula
                     const Bodies               &select,
                     const bool                  keeps,
                     const PlaceConditions<dim> &scene);
-    /** Evens out the volumes of growing cells that flow, doc/theory.md (6.9c)
-     *  and (6.9e). */
-    void
-    spread_cells(Tissue<dim>            &tissue,
-                 const SplineSpace<dim> &space,
-                 const double            dt) const;
     /** Lets bodies fuse that have touched each other for long enough, and gives
      *  them one surface. Collective. */
     void

@@ -233,6 +233,9 @@ namespace Morula
     divide();
     void
     remove_the_dead();
+    /** Tissue/Redistribution. Collective. */
+    void
+    keep_places();
 
     /** Updates what the row says of the state, and keeps what it says of the
      *  step. */

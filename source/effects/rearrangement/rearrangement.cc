@@ -9,7 +9,6 @@
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/particles/even_spread.h>
 #include <morula/particles/neighbours.h>
 
 #include <deal.II/base/mpi.h>
@@ -78,6 +77,16 @@ namespace Morula
       is_on() const override
       {
         return !diffusion.is_default() || diffusion.differs_by_type();
+      }
+      bool
+      exchanges_places() const override
+      {
+        return is_on();
+      }
+      bool
+      releases_shear() const override
+      {
+        return is_on() && shear_released > 0.;
       }
       EffectFacts
       facts() const override
@@ -243,7 +252,6 @@ namespace Morula
           }
         take_places(tissue, sent, columns);
         tell(moment, places, rounds.occupants(), n_exchanges, comm);
-        spread(tissue, moment);
       }
 
     private:
@@ -343,27 +351,6 @@ namespace Morula
         moment.of_step["adhesion_energy"] = Utilities::MPI::sum(sum, comm);
         moment.of_step["unlike_share"] =
           Utilities::MPI::sum(unlike, comm) / (touching > 0. ? touching : 1.);
-      }
-
-      /** Evens the places out as fast as cells exchange them. Collective. */
-      void
-      spread(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const
-      {
-        // Flow draws places apart one way and together another; cells that find
-        // new places do not hold them there. Places that keep their shear are
-        // those of a solid, and stay. At a surface the images stand for the
-        // tissue beyond: without one cells would be driven out.
-        if (shear_released == 0. ||
-            Utilities::MPI::sum(tissue.boundary_points().size(),
-                                tissue.communicator()) == 0)
-          return;
-        const double        area = std::pow(mean_cell_volume(tissue), 2. / dim);
-        std::vector<double> parts;
-        for (const Occupant &cell : cells_of(tissue, moment.reader))
-          parts.push_back(std::min(1.,
-                                   shear_released * 2. * dim * cell.diffusion *
-                                     spreading_time / area));
-        spread_cells(tissue, moment.dt, parts);
       }
 
       const Expression      diffusion, drive;

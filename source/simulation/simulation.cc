@@ -121,6 +121,8 @@ namespace Morula
     ++run_state.n_steps;
     for (const auto &equation : equations)
       equation->begin_step();
+    for (const auto &named : model.boundary_conditions.list())
+      named.condition->touch(tissue, time_steps.time());
   }
 
 

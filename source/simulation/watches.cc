@@ -4,6 +4,7 @@
 #include <morula/base/near_tree.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/simulation/watches.h>
+#include <morula/surface/walls.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,6 +24,15 @@ namespace Morula
      *  the two sides need not be quite parallel. Neighbours on one side never
      *  count, as their normals point the same way. */
     constexpr double least_cosine = 0.8;
+
+    /** The largest part of the cells that may be behind held sides. */
+    constexpr double most_behind = 0.01;
+
+    /** A cell is outside if it is deeper there than this part of its size. */
+    constexpr double outside = 0.1;
+
+    template <int dim>
+    using Forbidden = typename BoundaryCondition<dim>::Forbidden;
 
     /** The narrowest gap across which splines reach: its width and the
      *  coordinates of its middle, µm; an infinite width if there is none. Two
@@ -92,6 +102,54 @@ namespace Morula
         }
       const auto all = Utilities::MPI::all_gather(tissue.communicator(), best);
       return *std::min_element(all.begin(), all.end());
+    }
+
+    /** The numbers of a cell at @p x (µm) that is farther outside than @p depth
+     *  (µm): how far, its place, the number of the obstacle, or one more, and
+     *  the normal of the side that it is @p behind (µm). Empty if it is not. */
+    template <int dim>
+    std::vector<double>
+    row_of(const Point<dim>                  &x,
+           double                             depth,
+           const std::vector<Forbidden<dim>> &places,
+           const Tensor<1, dim>              &behind)
+    {
+      unsigned int which = places.size() + 1;
+      for (unsigned int k = 0; k < places.size(); ++k)
+        if (const double found = places[k].second(x); found > depth)
+          {
+            depth = found;
+            which = k;
+          }
+      const bool is_behind = behind.norm() > depth;
+      if (!is_behind && which > places.size())
+        return {};
+      std::vector<double> row{is_behind ? behind.norm() : depth};
+      append_flat(row, x);
+      append_flat(row, is_behind ? unsigned(places.size()) : which);
+      append_flat(row, behind / std::max(behind.norm(), depth));
+      return row;
+    }
+
+    /** How many cells are where none may be: all and those in obstacles and
+     *  behind sides, @p n, and the numbers of the farthest. */
+    template <int dim>
+    std::string
+    text_of(const std::vector<std::uint64_t>  &n,
+            const double *const                farthest,
+            const std::vector<Forbidden<dim>> &places)
+    {
+      const unsigned int which = farthest[dim + 1];
+      std::ostringstream text;
+      text << n[1] + n[2] << " of " << n[0]
+           << " cells are where none may be, the farthest by " << farthest[0]
+           << " um at (" << Flat<Point<dim>>::read(farthest + 1) << ") um, ";
+      if (which < places.size())
+        text << "in the obstacle '" << places[which].first << "'. ";
+      else
+        text << "behind the held side with the normal "
+             << Flat<Tensor<1, dim>>::read(farthest + dim + 2) << ". ";
+      return text.str();
     }
   } // namespace
 
@@ -204,6 +262,79 @@ namespace Morula
             "Grid/Spacing follows it down to two spacings. Later ones are not "
             "told of.";
     announce(text.str());
+  }
+
+
+  template <int dim>
+  std::string
+  Watches<dim>::look_at_cells(const Tissue<dim>         &tissue,
+                              const std::vector<double> &walls,
+                              const bool                 with_obstacles,
+                              const double               t)
+  {
+    // Hardly ever a cell is behind the plane of a side, and only then the held
+    // points tell whether it is behind the side itself. What began there may be
+    // there. The farthest cell is that with the largest row: its depth, its
+    // place, the number of the obstacle and the side's normal. So any number of
+    // ranks finds the same one.
+    const auto    &points     = tissue.boundary_points();
+    const auto    &cells      = tissue.cells();
+    const auto    &conditions = model.boundary_conditions;
+    const MPI_Comm comm       = tissue.communicator();
+    const double   near       = 0.5 * tissue.grid().box().spacing();
+    if (!planes)
+      {
+        held   = walls.empty() ? walls_of(points, comm) : walls;
+        planes = one_of_each_plane<dim>(held, 2. * near);
+      }
+    std::vector<Forbidden<dim>> places;
+    for (const auto &named : conditions.list())
+      for (const auto &place : named.condition->forbidden(t))
+        if (with_obstacles)
+          places.push_back(place);
+    if (planes->empty() && places.empty())
+      return "";
+    const PlaceConditions<dim> scene{{}, {}, [&](const auto &point) {
+                                       return conditions.displacement(point, t);
+                                     }};
+    const Walls<dim>           fronts(*planes, scene, points.columns());
+    std::optional<Walls<dim>>  sides;
+    std::vector<std::uint64_t> n{cells.size(), 0, 0};
+    std::vector<double>        farthest(2 * dim + 2, 0.);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        const Point<dim> x = cells.position(p);
+        Tensor<1, dim>   behind;
+        if (fronts.any_behind(x))
+          {
+            if (!sides)
+              sides.emplace(held, scene, points.columns());
+            if (sides->behind(cells.founder_position(p), near).norm() == 0.)
+              behind = sides->behind(x, near);
+          }
+        const std::vector<double> row = row_of<dim>(
+          x, outside * std::pow(cells.volume(p), 1. / dim), places, behind);
+        if (row.empty())
+          continue;
+        ++n[row[dim + 1] == places.size() ? 2 : 1];
+        farthest = std::max(farthest, row);
+      }
+    Utilities::MPI::sum(n, comm, n);
+    if (n[1] + n[2] == 0)
+      return "";
+    const auto        all = Utilities::MPI::all_gather(comm, farthest);
+    const std::string text =
+      text_of<dim>(n, std::max_element(all.begin(), all.end())->data(), places);
+    if (n[2] > most_behind * n[0])
+      return text +
+             "More than 1 % of the cells are behind sides that slip or are "
+             "fixed: these hold the points of t = 0 and no places. No shorter "
+             "step helps, but plane obstacles do (Obstacles/NAME/Two-sided).";
+    if (!std::exchange(has_told_of_cells, true))
+      announce("Warning: at t = " + as_text(t) + " day " + text +
+               "Smaller steps and grid spacings keep more of them inside. "
+               "Later ones are not told of.");
+    return "";
   }
 
   template class Watches<2>;

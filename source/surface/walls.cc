@@ -5,6 +5,8 @@
 #include <morula/particles/point_exchange.h>
 #include <morula/surface/walls.h>
 
+#include <cmath>
+#include <map>
 #include <tuple>
 
 namespace Morula
@@ -14,7 +16,10 @@ namespace Morula
     /** Cells at a wall end within this way behind it, and a patch
      *  belongs to a point of t = 0 that is at most so far along the wall, in
      *  spacings of the lattice. */
-    constexpr double behind = 3., along = 2.;
+    constexpr double farthest_behind = 3., along = 2.;
+
+    /** How far the points of a plane are from it, in parts of their reach. */
+    constexpr double out_of_plane = 0.01;
 
     /** The cosine of the largest angle between a patch and its wall. */
     constexpr double least_cosine = 0.5;
@@ -42,6 +47,31 @@ namespace Morula
                                          point.get(points.columns().body) :
                                          0));
     return of_all_ranks(held, comm).numbers;
+  }
+
+
+  template <int dim>
+  std::vector<double>
+  one_of_each_plane(const std::vector<double> &walls, const double spacing)
+  {
+    // Points are in one plane whose normals and distances from the origin are
+    // about equal. Where rounding parts them the plane is there twice. A plane
+    // has several points, while each of a curved side has its own.
+    constexpr unsigned int                n = Flat<WallValues<dim>>::n;
+    std::map<std::vector<long>, unsigned> counts;
+    std::vector<double>                   planes;
+    for (std::size_t i = 0; i < walls.size(); i += n)
+      {
+        const auto        wall = Flat<WallValues<dim>>::read(&walls[i]);
+        const auto       &N    = std::get<1>(wall);
+        std::vector<long> plane{std::lround(Tensor<1, dim>(std::get<0>(wall)) *
+                                            N / (out_of_plane * spacing))};
+        for (unsigned int d = 0; d < dim; ++d)
+          plane.push_back(std::lround(N[d] / out_of_plane));
+        if (++counts[plane] == dim)
+          planes.insert(planes.end(), &walls[i], &walls[i] + n);
+      }
+    return planes;
   }
 
 
@@ -91,14 +121,35 @@ namespace Morula
     const double         off  = way * wall.N;
     const double         end  = off - offset * (n * wall.N);
     const Point<dim>     X    = x - off * wall.N - wall.motion;
-    if (end <= -before * edge || end >= behind * edge ||
+    if (end <= -before * edge || end >= farthest_behind * edge ||
         ((way - off * wall.N).norm() > along * edge &&
          scene.condition(X, wall.N) != wall.condition))
       return {};
     return Foot{&wall, X};
   }
 
+
+  template <int dim>
+  Tensor<1, dim>
+  Walls<dim>::behind(const Point<dim> &x, const double near) const
+  {
+    // The nearest point tells which wall it is. Tissue that slips along a
+    // curved one leaves its points' planes as it should, so that only plane
+    // ones tell.
+    const unsigned int   i   = tree->nearest(x);
+    const Tensor<1, dim> way = x - places[i], N = walls[i].N;
+    const double         depth = way * N;
+    if (depth <= 0. || (way - depth * N).norm() > near)
+      return {};
+    for (const unsigned int k : tree->within(places[i], 2. * near))
+      if (walls[k].N * N > least_cosine &&
+          std::abs((places[k] - places[i]) * N) > out_of_plane * near)
+        return {};
+    return depth * N;
+  }
+
   MORULA_INSTANTIATE(walls_of);
+  MORULA_INSTANTIATE(one_of_each_plane);
   template class Walls<2>;
   template class Walls<3>;
 } // namespace Morula

@@ -128,6 +128,9 @@ namespace Morula
     Column<double> contact_pressure;
     /** For how long another body has touched the point, day; if bodies fuse. */
     Column<double> contact_age;
+    /** Which two-sided obstacles hold the point, as a sum of 2^k for number k
+     *  of them; only where there are some. */
+    Column<unsigned int> touched;
   };
 
   /**
@@ -165,6 +168,13 @@ namespace Morula
     set(const Column<T> &column, const typename Column<T>::Type &value) const
     {
       column.set(row_, value);
+    }
+
+    /** The two-sided obstacles that hold it. */
+    unsigned int
+    touched() const
+    {
+      return columns.touched.exists() ? get(columns.touched) : 0;
     }
 
     /** The whole row. */

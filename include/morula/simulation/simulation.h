@@ -151,6 +151,13 @@ namespace Morula
       // Where folds have contact, tissue that comes near does not stick. A gap
       // closes in many steps, so that not each of them has to search.
       constexpr unsigned int every = 10;
+      if (const std::string reason =
+            watches.look_at_cells(tissue,
+                                  run_state.walls,
+                                  run_state.n_steps % every == 0,
+                                  time_steps.time());
+          !reason.empty())
+        give_up(reason);
       if (tissue.cells().has_parts())
         return;
       watches.look_at_pieces(space, tissue.grid(), time_steps.time());

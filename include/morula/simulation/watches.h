@@ -12,7 +12,9 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -57,13 +59,27 @@ namespace Morula
                  const SplineSpace<dim> &space,
                  const double            t);
 
+    /** Looks for cells behind sides that conditions hold, and in obstacles, at
+     *  @p t (day), and tells once of the first ones. Collective.
+     *  @param walls those of the run as numbers; empty: those of its points
+     *  @param with_obstacles whether to look there, too
+     *  @return why the run has to end, as too many are outside; or nothing */
+    std::string
+    look_at_cells(const Tissue<dim>         &tissue,
+                  const std::vector<double> &walls,
+                  const bool                 with_obstacles,
+                  const double               t);
+
   private:
     const TissueModel<dim>              &model;
     const Announce                       announce;
     std::map<std::string, std::uint64_t> points_before; // of conditions
+    std::vector<double>                  held;   // walls_of() the surface
+    std::optional<std::vector<double>>   planes; // one point of each
     PieceWatch<dim>                      watch;
     unsigned int                         n_pieces_ = 0;
-    bool has_joined = false, has_parted = false, has_told_of_gap = false;
+    bool has_joined = false, has_parted = false, has_told_of_gap = false,
+         has_told_of_cells = false;
   };
 } // namespace Morula
 

@@ -49,6 +49,13 @@ namespace Morula
   walls_of(const BoundaryPoints<dim> &points, const MPI_Comm comm);
 
 
+  /** Of the numbers of walls_of(), those of one point of each plane side.
+   *  @param spacing of the grid, µm */
+  template <int dim>
+  std::vector<double>
+  one_of_each_plane(const std::vector<double> &walls, const double spacing);
+
+
   /**
    * Where tissue that flows is held: a wall stays where the scene has it at
    * t = 0, or moves it to, whichever cells stand at it. doc/theory.md, section
@@ -88,6 +95,22 @@ namespace Morula
        const double          offset,
        const double          edge,
        const double          before) const;
+
+    /** Whether @p x (µm) is behind the plane of some wall. */
+    bool
+    any_behind(const Point<dim> &x) const
+    {
+      for (std::size_t i = 0; i < walls.size(); ++i)
+        if ((x - places[i]) * walls[i].N > 0.)
+          return true;
+      return false;
+    }
+
+    /** The way along the outward normal from a wall to @p x (µm), if that is
+     *  behind it: its foot is less than @p near (µm) from a point of the wall,
+     *  and the points there are in a plane. Zero if not. */
+    Tensor<1, dim>
+    behind(const Point<dim> &x, const double near) const;
 
   private:
     std::vector<Wall<dim>>       walls;

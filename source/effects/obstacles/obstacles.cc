@@ -78,10 +78,11 @@ namespace Morula
 
     /**
      * Contact without friction between boundary points and rigid bodies: the
-     * energy Π = Σ a_t κ φ²/2 of all points with φ < 0, where φ is the distance
-     * to a body, positive on the side of the tissue. Its residual is
-     * a_t κ φ ∇φ N_a, its tangent a_t κ (∇φ⊗∇φ + φ ∇∇φ) N_a N_b:
-     * doc/theory.md (4.8d), (4.8e). Keeps references to the bodies.
+     * energy Π = Σ a_t κ φ²/2 of all points with φ < 0, or that a two-sided
+     * body holds, where φ is the distance to a body, positive on the side of
+     * the tissue. Its residual is a_t κ φ ∇φ N_a, its tangent a_t κ (∇φ⊗∇φ + φ
+     * ∇∇φ) N_a N_b: doc/theory.md (4.8d), (4.8e). Keeps references to the
+     * bodies.
      */
     template <int dim>
     class ObstacleContact : public PointTerm<dim>
@@ -98,6 +99,8 @@ namespace Morula
         Tensor<1, dim> way;
         /** κ, kPa/µm. */
         double stiffness;
+        /** The number that points have which it holds; 0: it holds none. */
+        unsigned int bit = 0;
 
         /** How deep @p x (µm) is in the obstacle, µm; negative: not in it. */
         double
@@ -123,9 +126,10 @@ namespace Morula
                 LocalSystem<dim>        &system) const override
       {
         // The place is the one of this evaluation, x_t + u, so Newton's method
-        // finds anew which points touch. The body stays where it is at t = 0
-        // and the place goes back by the body's way, since a body only moves
-        // and never turns.
+        // finds anew which points touch. A point that is held is so for the
+        // whole step, so that its energy has no kink. The body stays where it
+        // is at t = 0 and the place goes back by the body's way, since a body
+        // only moves and never turns.
         const Point<dim> x = boundary_points[p].x + field.value(splines);
         for (const Obstacle &obstacle : obstacles)
           {
@@ -133,7 +137,8 @@ namespace Morula
             // the body. Energy, force and tangent are all even in φ, so the
             // sign matters only to which points are in contact.
             const Distance<dim> phi = (*obstacle.body)(x - obstacle.way);
-            if (obstacle.is_mould ? phi.value <= 0. : phi.value >= 0.)
+            if ((boundary_points[p].touched & obstacle.bit) == 0 &&
+                (obstacle.is_mould ? phi.value <= 0. : phi.value >= 0.))
               continue;
             const double k =
               boundary_points[p].area.norm() * obstacle.stiffness;
@@ -154,6 +159,14 @@ namespace Morula
       const std::vector<Obstacle>                          obstacles;
     };
 
+
+    /** A two-sided obstacle holds points that are so near to it once, and until
+     *  they are farther off, in grid spacings. */
+    constexpr double touching = 0.01, reach = 0.5;
+
+    /** The least cosine of the angle between the normal of a point that is held
+     *  and the way to the obstacle. */
+    constexpr double least_cosine = 0.5;
 
     /** The velocity, which may depend on the time alone. @throws InputError */
     Expression
@@ -213,6 +226,7 @@ namespace Morula
        * that cannot be parsed */
       explicit Obstacles(const Parameters &parameters)
       {
+        unsigned int n_two_sided = 0;
         for (const ObstacleKeys &keys : parameters.obstacles)
           list.push_back({keys.name,
                           keys.side == "inside",
@@ -221,7 +235,11 @@ namespace Morula
                           velocity_of(keys, dim),
                           keys.surface_mesh.path(),
                           keys.shape == "mesh" ? keys.surface_mesh.value() : "",
-                          thickness_of(keys, dim)});
+                          thickness_of(keys, dim),
+                          keys.two_sided ? 1u << n_two_sided++ % 32 : 0});
+        if (n_two_sided > 32)
+          parameters.obstacles.back().two_sided.refuse(
+            "true for at most 32 obstacles", "Join some of them into a mesh.");
       }
 
       /** @throws StepFailed if an obstacle moves too far in the step */
@@ -295,6 +313,54 @@ namespace Morula
       {
         return true;
       }
+      bool
+      holds_what_touches() const override
+      {
+        return std::any_of(list.begin(), list.end(), [](const Obstacle &one) {
+          return one.bit != 0;
+        });
+      }
+      void
+      touch(Tissue<dim> &tissue, const double t) const override
+      {
+        // A point is held from the moment on at which it touches with its side
+        // towards the obstacle, until it is out of reach or turns away. New
+        // patches have this from their predecessors: one at the rim of the
+        // contact may have it from a neighbour, but does not face the obstacle.
+        const BoundaryPoints<dim> &points = tissue.boundary_points();
+        const auto                &column = points.columns().touched;
+        const double               h      = tissue.grid().box().spacing();
+        for (const Obstacle &one : list)
+          {
+            const Tensor<1, dim> way =
+              one.bit != 0 ? one.way(t) : Tensor<1, dim>();
+            for (unsigned int p = 0; one.bit != 0 && p < points.size(); ++p)
+              {
+                const auto           point = tissue.boundary_point(p);
+                const Tensor<1, dim> A     = point.area_vector();
+                const unsigned int   marks = point.get(column);
+                const double         limit = marks & one.bit ? reach : touching;
+                const auto           phi   = one.body(points.position(p) - way);
+                const double         sign  = one.is_mould ? -1. : 1.;
+                const bool           is_held =
+                  sign * phi.value <= limit * h &&
+                  sign * phi.gradient * A <= -least_cosine * A.norm();
+                point.set(column, is_held ? marks | one.bit : marks & ~one.bit);
+              }
+          }
+      }
+      std::vector<typename BoundaryCondition<dim>::Forbidden>
+      forbidden(const double t) const override
+      {
+        std::vector<typename BoundaryCondition<dim>::Forbidden> places;
+        for (const Obstacle &one : list)
+          places.emplace_back(one.name,
+                              [&one, way = one.way(t)](const Point<dim> &x) {
+                                const double distance = one.body(x - way).value;
+                                return one.is_mould ? distance : -distance;
+                              });
+        return places;
+      }
       void
       check(const Preview<dim> &scene) const override
       {
@@ -306,6 +372,16 @@ namespace Morula
             const auto [depth, place] = deepest<dim>(
               {&obstacle.body, obstacle.is_mould, Tensor<1, dim>(), 0.},
               scene.boundary_points);
+            // What a thin body holds could be pulled out on its other side.
+            if (obstacle.bit != 0 &&
+                obstacle.thickness < scene.keys.grid.spacing)
+              throw InputError(
+                "Obstacles/" + obstacle.name + "/Two-sided",
+                "true",
+                "false, or an obstacle that is at least a grid "
+                "spacing thick",
+                "It would hold the surface on both of its sides: "
+                "make it thicker, or Grid/Spacing smaller.");
             // The surface may begin a little inside, and the contact pushes it
             // out in the first step. Half a spacing leaves room below the whole
             // one that term() refuses.
@@ -363,6 +439,8 @@ namespace Morula
         std::string mesh;      // empty without one
         /** The least thickness of the body, µm; infinite if it has none. */
         double thickness;
+        /** The number that points have which it holds; 0: one-sided. */
+        unsigned int bit;
 
         /** The way of the body from t = 0 to @p t, µm. */
         Tensor<1, dim>
@@ -397,7 +475,8 @@ namespace Morula
           return {&body,
                   is_mould,
                   way(t),
-                  stiffness * points.youngs_modulus / points.h};
+                  stiffness * points.youngs_modulus / points.h,
+                  bit};
         }
       };
 

@@ -53,12 +53,12 @@ namespace Morula
     key_of_pair(const std::uint64_t seed,
                 const std::uint64_t lower,
                 const std::uint64_t higher,
-                const double        t)
+                const double        moment)
     {
-      std::uint64_t bits_of_time;
-      std::memcpy(&bits_of_time, &t, sizeof(t));
+      std::uint64_t bits_of_moment;
+      std::memcpy(&bits_of_moment, &moment, sizeof(moment));
       constexpr std::uint64_t purpose = 0x65786368616e6765; // "exchange"
-      return bits(bits(seed, lower, higher)[0], bits_of_time, purpose)[0];
+      return bits(bits(seed, lower, higher)[0], bits_of_moment, purpose)[0];
     }
   } // namespace
 
@@ -102,7 +102,7 @@ namespace Morula
   attempts(const Places                &places,
            const std::vector<Occupant> &occupants,
            const std::uint64_t          seed,
-           const double                 t,
+           const double                 moment,
            const double                 dt)
   {
     // Attempts come at the rate 2 ν, as half of them are accepted where the
@@ -124,7 +124,7 @@ namespace Morula
           if (rate <= 0.)
             continue;
           const std::uint64_t key =
-            key_of_pair(seed, places.keys[p], places.keys[q], t);
+            key_of_pair(seed, places.keys[p], places.keys[q], moment);
           double time = 0.;
           for (unsigned int n = 0;; ++n)
             {

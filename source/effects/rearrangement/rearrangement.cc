@@ -170,6 +170,7 @@ namespace Morula
         , energy(setting.tensions, parameters.energy)
         , shear_released(parameters.shear_released)
         , random_seed(setting.random_seed)
+        , slack(setting.slack)
         , death_time(setting.columns.template find<double>("death_time"))
         , neighbours(setting.neighbours)
       {}
@@ -224,7 +225,7 @@ namespace Morula
         ExchangeRounds    rounds(
           places,
           cells,
-          attempts(places, cells, random_seed, moment.t, moment.dt),
+          attempts(places, cells, random_seed, moment.t / slack, moment.dt),
           energy);
         run(rounds, places, comm);
 
@@ -357,6 +358,7 @@ namespace Morula
       const AdhesionEnergy  energy;
       const double          shear_released;
       const std::uint64_t   random_seed;
+      const double          slack; // in proportion to Time/Step, day
       const Column<double>  death_time;
       const NeighbourSearch neighbours;
     };

@@ -202,7 +202,8 @@ namespace Morula
                                  point.initial_normal(),
                                  store.position(p),
                                  point.initial_area(),
-                                 point.area_vector()});
+                                 point.area_vector(),
+                                 point.touched()});
       }
     return loaded;
   }

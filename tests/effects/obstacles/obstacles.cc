@@ -131,3 +131,47 @@ TEST(Obstacles, SayWhereAStepIsTooLong)
                {"(-51 25) um is 51 um deep in the obstacle 'wall'"});
   EXPECT_EQ(complaint("0; 0", -49.), "");
 }
+
+
+/** What has touched is held on both sides, by one energy; the rest is pushed
+ *  only. Its force and its tangent are the derivatives. */
+TEST_2D_3D(Obstacles, TwoSidedOnesHoldWhatHasTouched)
+{
+  std::mt19937 generator(1);
+  for (const Values &values : shapes<dim>())
+    {
+      SCOPED_TRACE(values.at("Shape"));
+      std::vector<std::string> keys{"Dimension=" + std::to_string(dim),
+                                    "Obstacles/Names=wall",
+                                    "Obstacles/wall/Two-sided=true"};
+      for (const auto &[key, value] : values)
+        keys.push_back("Obstacles/wall/" + key + "=" + value);
+      const SceneEffects<dim> effects = effects_of<dim>(scene_of(keys));
+      const auto             &walls   = *effects.conditions.at(0).condition;
+      EXPECT_TRUE(walls.holds_what_touches());
+      const auto        at = body<dim>(values);
+      LoadedPoints<dim> points;
+      static_cast<GroupedPoints<dim> &>(points) =
+        random_points_in_cell<dim>(generator, 8);
+      points.youngs_modulus = 2.;
+      double       expected = 0.;
+      unsigned int n_held   = 0;
+      for (unsigned int p = 0; p < 8; ++p)
+        {
+          const Point<dim>   x       = Point<dim>(50. * points.xi[p]);
+          const unsigned int touched = p % 2;
+          Tensor<1, dim>     area;
+          area[0] = 1.5;
+          points.points.push_back({{}, {}, {}, x, 1., area, touched});
+          const double phi = at(x).value;
+          n_held += phi > 0. && touched == 1;
+          if (phi < 0. || touched == 1)
+            expected += 0.5 * 1.5 * 100. * 2. / 50. * phi * phi;
+        }
+      ASSERT_GT(n_held, 0u);
+      const auto               term = walls.term(points, 0.);
+      const TermOnOneCell<dim> cell(*term, GrowthAt::current);
+      EXPECT_NEAR(cell.energy(LocalField<dim>{}), expected, 1e-12 * expected);
+      expect_derivatives(*term, random_field<dim>(generator, 0.02));
+    }
+}

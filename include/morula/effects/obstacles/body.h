@@ -78,6 +78,12 @@ namespace Morula
       {},
       positive("E/h", "100 lets tissue under the pressure E go in by h/100.")};
 
+    Key<bool> two_sided{
+      {this, "Two-sided"},
+      false,
+      "Whether it also holds what has touched it, and pulls it back, until "
+      "that is half a grid spacing off; along the obstacle it slides."};
+
     ExpressionKey velocity{
       {this, "Velocity"},
       "0; 0; 0",

@@ -142,13 +142,14 @@ namespace Morula
    * All attempts in a step of length @p dt (day), in the order of time: a
    * Poisson process for each edge, from the keys of the cells that stand there
    * at the beginning. doc/theory.md (12.4)
-   * @param t of the step, which makes its draws its own
+   * @param moment a number without a unit for the time of the step, which makes
+   *               its draws its own
    */
   std::vector<Attempt>
   attempts(const Places                &places,
            const std::vector<Occupant> &occupants,
            const std::uint64_t          seed,
-           const double                 t,
+           const double                 moment,
            const double                 dt);
 
   /** What became of an attempt. */

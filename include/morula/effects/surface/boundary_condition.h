@@ -9,6 +9,7 @@
 #include <morula/mechanics/term.h>
 #include <morula/particles/boundary_state.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -37,6 +38,8 @@ namespace Morula
       double initial_area;
       /** Area times outward normal, µm^(dim-1). */
       Tensor<1, dim> area;
+      /** The two-sided obstacles that hold it: BoundaryColumns::touched. */
+      unsigned int touched = 0;
     };
 
     /** The points in the order of xi. */
@@ -145,6 +148,31 @@ namespace Morula
     only_pushes() const
     {
       return false;
+    }
+
+    /** Whether it holds tissue that has touched it: points remember which. */
+    virtual bool
+    holds_what_touches() const
+    {
+      return false;
+    }
+
+    /** Lets the points that touch it at @p t (day), when a step begins,
+     *  remember that, and those forget it that have let go. */
+    virtual void
+    touch(Tissue<dim> &, const double /*t*/) const
+    {}
+
+    /** What is called so, and how deep a place (µm) is in it, µm; negative: not
+     *  in it. */
+    using Forbidden =
+      std::pair<std::string, std::function<double(const Point<dim> &)>>;
+
+    /** Where no cell may be at @p t (day); what is given keeps references. */
+    virtual std::vector<Forbidden>
+    forbidden(const double /*t*/) const
+    {
+      return {};
     }
 
     /** Whether tissue at rest would move: for the estimate of the time. */

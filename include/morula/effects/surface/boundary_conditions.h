@@ -93,13 +93,14 @@ namespace Morula
     {
       // Points may merge if each condition acts on both or on neither:
       // doc/theory.md, section 4.5.
-      return std::all_of(list_.begin(), list_.end(), [&](const Named &named) {
-        const auto acts_on = [&named](const BoundaryView<dim> &point) {
-          return named.condition->acts_on(point.seed_position(),
-                                          point.initial_normal());
-        };
-        return acts_on(a) == acts_on(b);
-      });
+      return a.touched() == b.touched() &&
+             std::all_of(list_.begin(), list_.end(), [&](const Named &named) {
+               const auto acts_on = [&named](const BoundaryView<dim> &point) {
+                 return named.condition->acts_on(point.seed_position(),
+                                                 point.initial_normal());
+               };
+               return acts_on(a) == acts_on(b);
+             });
     }
 
     /** Whether the scene has conditions that fix or let slip. */

@@ -75,11 +75,10 @@ namespace Morula
         data.current = elastic_state(cell, cell.growth(), material);
       const double V0 = cell.initial_volume();
       data.carried    = cell.carried_volume();
-      data.grown      = growth.present ?
-                          Grown{V0 * determinant(growth.previous[i]),
-                                  V0 * determinant(growth.current[i])} :
-                          Grown{V0 * determinant(cell.growth()),
-                                  V0 * determinant(cell.growth())};
+      data.grown = growth.present ? Grown{V0 * determinant(growth.previous[i]),
+                                          V0 * determinant(growth.current[i])} :
+                                    Grown{V0 * determinant(cell.growth()),
+                                          V0 * determinant(cell.growth())};
       return data;
     }
 
@@ -122,8 +121,8 @@ namespace Morula
       return std::accumulate(n.begin(), n.end(), 1u, std::multiplies<>());
     }
 
-    /** What ranks tell each other of a quadrature point: its part, its phase, λ,
-     *  μ, A and W of both states, c, and V⁰ det F_g of both. */
+    /** What ranks tell each other of a quadrature point: its part, its phase,
+     * λ, μ, A and W of both states, c, and V⁰ det F_g of both. */
     template <int dim>
     using Message = std::tuple<unsigned int,
                                unsigned int,
@@ -266,8 +265,8 @@ namespace Morula
   template <int dim>
   std::vector<unsigned int>
   phases_of_cells(const Tissue<dim>            &tissue,
-         const DevelopmentOfStep<dim> &growth,
-         const TissueMaterial         &material)
+                  const DevelopmentOfStep<dim> &growth,
+                  const TissueMaterial         &material)
   {
     // The classes are those of μ, k and 1/τ. They begin with the largest
     // values of the tissue, so that they do not depend on the unit, and small
@@ -281,11 +280,10 @@ namespace Morula
     for (unsigned int i = 0; i < n; ++i)
       {
         const Lame lame = lame_of(tissue, i, growth, material);
-        values[i] = {{lame.mu,
-                     material.material().bulk_modulus(lame.lambda, lame.mu),
-                     growth.relaxation.empty() ?
-                       0. :
-                       growth.relaxation[i].exponent}};
+        values[i]       = {
+          {lame.mu,
+                 material.material().bulk_modulus(lame.lambda, lame.mu),
+           growth.relaxation.empty() ? 0. : growth.relaxation[i].exponent}};
         for (unsigned int k = 0; k < 3; ++k)
           largest[k] = std::max(largest[k], values[i][k]);
       }

@@ -28,7 +28,8 @@ namespace Morula
       /** ρ(ξ) of the pool, as 1 and ξ - ξ̄ have parts in it. */
       std::array<double, dim + 1> growth = {};
       Point<dim>                  centre = {};
-      /** The part of the exchange of volume within the pool that takes place. */
+      /** The part of the exchange of volume within the pool that takes place.
+       */
       double exchanged = 1.;
 
       double
@@ -60,7 +61,7 @@ namespace Morula
     {
       // The weights J_e G make Σ J_e (G' - ρ G) = 0, so that an exchange of
       // volume within the pool keeps its sum: doc/theory.md (2.9). Few points,
-      // or points in a row, say nothing of a slope.
+      // or points in a row, say nothing of a slope: their growth is noise.
       double before = 0., after = 0.;
       for (unsigned int p = pool.first; p < pool.last; ++p)
         {
@@ -77,11 +78,12 @@ namespace Morula
           const Tensor<1, dim> d = points.xi[p] - group.centre;
           const double         w = J_e(p) * points.grown[p].before;
           moments += w * outer_product(d, d);
-          right += J_e(p) *
-                   (points.grown[p].after - group.growth[0] * points.grown[p].before) *
-                   d;
+          right +=
+            J_e(p) *
+            (points.grown[p].after - group.growth[0] * points.grown[p].before) *
+            d;
         }
-      if (pool.last - pool.first >= 2 * (dim + 1) &&
+      if (pool.last - pool.first >= 4 * (dim + 1) &&
           determinant(moments) > std::pow(0.02 * before, dim))
         {
           const Tensor<1, dim> slope = invert(moments) * right;
@@ -99,13 +101,14 @@ namespace Morula
                    const Ratio               &J_e,
                    GroupAfter<dim>           &group)
     {
-      // The deformation is needed of points alone that lose much, which are few.
+      // The deformation is needed of points alone that lose much, which are
+      // few.
       constexpr double much = 0.1, most = 0.9;
       for (unsigned int p = pool.first; p < pool.last; ++p)
         {
-          const double lost =
-            J_e(p) * (group.expected_growth(points.xi[p]) * points.grown[p].before -
-                      points.grown[p].after);
+          const double lost = J_e(p) * (group.expected_growth(points.xi[p]) *
+                                          points.grown[p].before -
+                                        points.grown[p].after);
           if (lost > much * points.carried[p])
             group.exchanged =
               std::min(group.exchanged,
@@ -222,9 +225,9 @@ namespace Morula
                      const double                det_f,
                      const Visit                &visit) const
       {
-        const auto   n    = occupancy.n_points_per_edge(domain, id);
-        const auto  &box  = occupancy.window().whole();
-        double       part = 1.;
+        const auto  n    = occupancy.n_points_per_edge(domain, id);
+        const auto &box  = occupancy.window().whole();
+        double      part = 1.;
         for (const unsigned int n_d : n)
           part /= n_d;
         domain.for_quadrature_points(n, [&](const Point<dim> &x) {
@@ -236,10 +239,9 @@ namespace Morula
                 occupancy.nodes().node_of_cell(index, id);
               visit(at(node, phase),
                     xi,
-                    fields.empty() ?
-                      det_f :
-                      determinant(fields[node].step_deformation(
-                        SplineValues<dim>(xi, box.spacing()))),
+                    fields.empty() ? det_f :
+                                     determinant(fields[node].step_deformation(
+                                       SplineValues<dim>(xi, box.spacing()))),
                     part / n_shares);
             });
         });
@@ -315,16 +317,15 @@ namespace Morula
                   const DisplacementField<dim> &displacement)
   {
     // Volumes belong to pools. They are found first, for the window of this
-    // rank. Each cell then takes the mean of J_e over its quadrature points, and
-    // carries on what it brought, as its points have moved, with what it has
-    // grown beyond its pool: doc/theory.md (2.9).
+    // rank. Each cell then takes the mean of J_e over its quadrature points,
+    // and carries on what it brought, as its points have moved, with what it
+    // has grown beyond its pool: doc/theory.md (2.9).
     std::vector<VolumeOfStep> volumes;
     if (material.volumetric_form() == VolumetricStrain::pointwise)
       return volumes;
     const MaterialPoints<dim> points =
       material_points(tissue, space, growth, material);
-    const auto force =
-      internal_force(points, VolumetricStrain::pooled, kernel);
+    const auto force = internal_force(points, VolumetricStrain::pooled, kernel);
     std::vector<PoolsAfter<dim>> pools; // by body
     for (unsigned int b = 0; b < space.n_bodies(); ++b)
       pools.emplace_back(*force, points, space, b, displacement);
@@ -360,9 +361,9 @@ namespace Morula
             volumes[p].J_e += part * group.J_e;
             smoothed += part * group.J_e * group.smoothing;
             volumes[p].carried +=
-              part * (c * det_f +
-                      group.exchanged * group.J_e *
-                        (after - group.expected_growth(xi) * before));
+              part *
+              (c * det_f + group.exchanged * group.J_e *
+                             (after - group.expected_growth(xi) * before));
           });
         volumes[p].smoothing = smoothed / volumes[p].J_e;
       }

@@ -77,18 +77,17 @@ namespace Morula
     CellQuantities   q;
     static_cast<CellScalars &>(q) = state.scalars(cell.initial_volume());
     // σ = W τ / V with V = V⁰ det F: V⁰ cancels, so that W/V is 1/det F or det
-    // F_g/det F (doc/theory.md, section 1.5). Where volumes are pooled it is that
-    // of the smoothed F_e, doc/theory.md (2.10).
+    // F_g/det F (doc/theory.md, section 1.5). Where volumes are pooled it is
+    // that of the smoothed F_e, doc/theory.md (2.10).
     const double stretch = std::pow(state.smoothing, 1. / dim);
-    q.stress =
-      kirchhoff_stress(
-        stretch == 1. ?
-          state.point :
-          ElasticPoint<dim>(stretch * (state.F * invert(state.F_g)),
-                            lame,
-                            material)) *
-      ((per_grown_volume ? q.growth_volume_ratio : 1.) /
-       (determinant(state.F) * state.smoothing));
+    q.stress             = kirchhoff_stress(
+                 stretch == 1. ?
+                   state.point :
+                   ElasticPoint<dim>(stretch * (state.F * invert(state.F_g)),
+                                     lame,
+                                     material)) *
+               ((per_grown_volume ? q.growth_volume_ratio : 1.) /
+                (determinant(state.F) * state.smoothing));
     return q;
   }
 

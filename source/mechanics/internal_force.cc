@@ -175,7 +175,8 @@ namespace Morula
         visit(SpatialGradients<dim>(splines, invert(f)),
               ElasticPoint<dim>(F_e, points.lame_of(p), *points.material),
               states[p].W,
-              points.carried.empty() ? 0. : points.carried[p] * det_f);
+              points.carried.empty() ? 0. : points.carried[p],
+              det_f);
       }
     return true;
   }
@@ -196,7 +197,8 @@ namespace Morula
       [&](const SpatialGradients<dim> &gradients,
           const ElasticPoint<dim>     &state,
           const double                 W,
-          const double                 V) {
+          const double                 c,
+          const double                 det_f) {
         const auto &response = state.response();
         // Without a pool the law acts as a whole.
         if (volume == nullptr)
@@ -209,10 +211,11 @@ namespace Morula
         // part once the pool's volume is known.
         add_stress(gradients, W * state.distortional_stress(), system);
         system.add_energy(W * response.energy, W * response.magnitude);
-        volume->v += V;
+        const double weight = volume->pressed() ? c : c * det_f;
+        volume->v += volume->pressed() ? c * std::log(det_f) : weight;
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-            volume->gradients[i][a] += V * gradients.g[i][a];
+            volume->gradients[i][a] += weight * gradients.g[i][a];
       });
   }
 
@@ -221,7 +224,7 @@ namespace Morula
   InternalForce<dim>::add_tangent(const Range           &range,
                                   const LocalField<dim> &field,
                                   const GrowthAt         growth,
-                                  const double          *mean_stress,
+                                  const PressureOfPool  *pressure,
                                   LocalSystem<dim>      &system) const
   {
     // The upper blocks are summed in an array of their own, since the matrix
@@ -230,30 +233,37 @@ namespace Morula
     // that a point carries, in A and in γ: doc/theory.md (2.8).
     std::vector<double> upper(system.matrix.size(), 0.);
     const bool          coupled = points.material->coupled();
-    const bool          valid   = for_each_point(
-      range,
-      field,
-      growth,
-      system,
-      [&](const SpatialGradients<dim> &gradients,
-          const ElasticPoint<dim>     &state,
-          const double                 W,
-          const double                 V) {
-        const auto  &r      = state.response();
-        const bool   pooled = mean_stress != nullptr;
-        const double A      = pooled ? r.A : r.total_A(),
-                     gamma  = pooled ? r.gamma : r.total_gamma(),
-                     pull   = pooled ? *mean_stress * V : 0.;
-        add_blocks(gradients,
-                   state.b(),
-                   {W * A + pull,
-                    W * (r.alpha - gamma) - pull,
-                    W * r.alpha,
-                    W * r.B,
-                    W * r.C},
-                   coupled,
-                   upper.data());
-      });
+    const bool          valid =
+      for_each_point(range,
+                     field,
+                     growth,
+                     system,
+                     [&](const SpatialGradients<dim> &gradients,
+                         const ElasticPoint<dim>     &state,
+                         const double                 W,
+                         const double                 c,
+                         const double                 det_f) {
+                       const auto  &r      = state.response();
+                       const bool   pooled = pressure != nullptr;
+                       const double A      = pooled ? r.A : r.total_A(),
+                                    gamma  = pooled ? r.gamma : r.total_gamma();
+                       double of_A = 0., of_gamma = 0.;
+                       if (pooled)
+                         {
+                           of_gamma = pressure->mean_stress * c *
+                                      (pressure->pressed ? 1. : det_f);
+                           of_A = pressure->pressed ? 0. : of_gamma;
+                         }
+                       add_blocks(gradients,
+                                  state.b(),
+                                  {W * A + of_A,
+                                   W * (r.alpha - gamma) - of_gamma,
+                                   W * r.alpha,
+                                   W * r.B,
+                                   W * r.C},
+                                  coupled,
+                                  upper.data());
+                     });
     if (valid)
       add_lower_blocks<dim>(upper, system.matrix);
     return valid;
@@ -271,19 +281,15 @@ namespace Morula
     // class. After the points' part the product V_a V_b completes doc/theory.md
     // (2.8).
     const PoolVolume<dim> volume =
-      volume_of(pool, field, growth);
-    const std::size_t ordinal = system.linearisations.size();
-    const double      theta   = system.last != nullptr ?
-                                  (*system.last)[ordinal].at(field) :
-                                  volume.theta();
+      with_points(volume_without_points(pool, growth), pool, field, growth);
+    const std::size_t        ordinal = system.linearisations.size();
+    const double             theta   = system.last != nullptr ?
+                                         (*system.last)[ordinal].at(field) :
+                                         volume.theta(grown(pool, growth));
     const Volumetric<double> U =
       pool_energy(points.pools, pool, growth, theta, *points.material).U;
-    const double mean_stress = volume.mean_stress(U);
-    if (!add_tangent({pool.first, pool.last},
-                     field,
-                     growth,
-                     &mean_stress,
-                     system))
+    const PressureOfPool pressure = volume.pressure(U);
+    if (!add_tangent({pool.first, pool.last}, field, growth, &pressure, system))
       return;
     volume.add_tangent(U, system);
     // The next residual has the growth at t + dt, so the linearisation starts
@@ -291,7 +297,7 @@ namespace Morula
     system.linearisations.push_back(
       {field,
        volume.derivative(),
-       std::log(volume.v / grown(pool, GrowthAt::current))});
+       volume.theta(grown(pool, GrowthAt::current))});
   }
 
   template <int dim>
@@ -326,17 +332,15 @@ namespace Morula
           }
         // The points' pass leaves the sums; then the volumetric part is one
         // force for the whole pool.
-        PoolVolume<dim> volume{grown(pool, growth)};
-        if (add_forces({pool.first, pool.last},
-                       field,
-                       growth,
-                       &volume,
-                       system))
-          volume.add_forces(
-            pool_energy(
-              pools, pool, growth, volume.theta(), *points.material)
-              .U,
-            system);
+        PoolVolume<dim> volume = volume_without_points(pool, growth);
+        if (add_forces({pool.first, pool.last}, field, growth, &volume, system))
+          volume.add_forces(pool_energy(pools,
+                                        pool,
+                                        growth,
+                                        volume.theta(grown(pool, growth)),
+                                        *points.material)
+                              .U,
+                            system);
       }
   }
 

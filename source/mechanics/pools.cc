@@ -64,8 +64,7 @@ namespace Morula
                     all >= full * std::pow(points.h, dim))
                   filled.push_back({space.grid_cells()[c].number, phase});
             }
-          const auto of_others =
-            space.occupancy(b).window().to_windows(filled);
+          const auto of_others = space.occupancy(b).window().to_windows(filled);
           filled.insert(filled.end(), of_others.begin(), of_others.end());
           std::multimap<unsigned int, unsigned int> places;
           for (const Filled &one : filled)
@@ -107,7 +106,7 @@ namespace Morula
              MaterialPoints<dim> &points)
     {
       Pools &pools = points.pools;
-      Pool   pool{first, last, static_cast<unsigned int>(pools.groups.size()), 0};
+      Pool pool{first, last, static_cast<unsigned int>(pools.groups.size()), 0};
       const Lame *lame = nullptr;
       double      k    = 0.;
       for (unsigned int p = first; p < last; ++p)
@@ -147,8 +146,8 @@ namespace Morula
   {
     // A pool of one group has its J_e. In a mixed one Newton's method looks for
     // ln J_e of the groups and the pressure q, with Λ U' = q G J_e in each and
-    // Σ G J_e = v: the steps of doc/theory.md (2.7). A step bounds U'' - U' from
-    // below, as the energy of some laws is not convex in J_e.
+    // Σ G J_e = v: the steps of doc/theory.md (2.7). A step bounds U'' - U'
+    // from below, as the energy of some laws is not convex in J_e.
     const auto begin = pools.groups.begin() + pool.first_group,
                end   = pools.groups.begin() + pool.last_group;
     PoolEnergy result;
@@ -163,7 +162,7 @@ namespace Morula
     for (auto group = begin; group != end; ++group)
       grown += group->grown.at(growth);
     result.theta.assign(end - begin, theta);
-    const double v = grown * std::exp(theta);
+    const double v      = grown * std::exp(theta);
     double       change = 1.;
     for (unsigned int i = 0; i < 60; ++i)
       {
@@ -172,11 +171,11 @@ namespace Morula
         std::vector<OfGroup> of_groups;
         for (auto group = begin; group != end; ++group)
           {
-            const double ln_J   = result.theta[group - begin],
-                         Lambda = group->modulus.at(growth),
-                         volume = group->grown.at(growth) * std::exp(ln_J);
-            const auto   U      = material.volumetric(ln_J);
-            const double D      = U.curvature - U.slope,
+            const double ln_J    = result.theta[group - begin],
+                         Lambda  = group->modulus.at(growth),
+                         volume  = group->grown.at(growth) * std::exp(ln_J);
+            const auto   U       = material.volumetric(ln_J);
+            const double D       = U.curvature - U.slope,
                          bounded = Lambda * std::max(D, 0.1);
             missing -= volume;
             pull += volume * Lambda * U.slope / bounded;
@@ -188,18 +187,18 @@ namespace Morula
             of_groups.push_back({volume, Lambda * U.slope, bounded});
           }
         const double q = (missing + pull) / of_step;
-        result.U = {modulus,
-                    energy / modulus,
-                    size / modulus,
-                    q * v / modulus,
-                    (v * v / S + q * v) / modulus};
+        result.U       = {modulus,
+                          energy / modulus,
+                          size / modulus,
+                          q * v / modulus,
+                          (v * v / S + q * v) / modulus};
         if (change < 1e-12)
           break;
         change = 0.;
         for (std::size_t g = 0; g < of_groups.size(); ++g)
           {
             const auto &[volume, slope, D] = of_groups[g];
-            const double step = (q * volume - slope) / D;
+            const double step              = (q * volume - slope) / D;
             result.theta[g] += std::clamp(step, -0.5, 0.5);
             change = std::max(change, std::abs(step));
           }
@@ -214,19 +213,19 @@ namespace Morula
              const std::vector<unsigned int> &phases,
              MaterialPoints<dim>             &points)
   {
-    // A point's key is its phase where that has a pool, else a number behind all
-    // phases, with the phase second: so the points of a mixed pool stand behind
-    // each other, group by group. Points of one key, in the order in which they
-    // stood, are a pool.
+    // A point's key is its phase where that has a pool, else a number behind
+    // all phases, with the phase second: so the points of a mixed pool stand
+    // behind each other, group by group. Points of one key, in the order in
+    // which they stood, are a pool.
     if (phases.empty())
       {
         make_pools_of_grid_cells(points);
         return;
       }
-    constexpr unsigned int mixed = -1;
-    using Key                    = std::pair<unsigned int, unsigned int>;
-    const auto       near        = phases_around(space, phases, points);
-    std::vector<Key> keys(points.xi.size());
+    constexpr unsigned int mixed   = -1;
+    using Key                      = std::pair<unsigned int, unsigned int>;
+    const auto                near = phases_around(space, phases, points);
+    std::vector<Key>          keys(points.xi.size());
     std::vector<unsigned int> order(points.xi.size());
     std::iota(order.begin(), order.end(), 0u);
     for (unsigned int c = 0; c < near.size(); ++c)

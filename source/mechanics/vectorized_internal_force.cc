@@ -52,7 +52,10 @@ namespace Morula
         // The kernel adds the gradients to the volume's own array.
         KernelVolume sums;
         if (volume != nullptr)
-          sums.gradients = &volume->gradients[0][0];
+          {
+            sums.pressed   = volume->pressed();
+            sums.gradients = &volume->gradients[0][0];
+          }
         const KernelResult found =
           kernels.residual(input(range, field, growth),
                            system.residual.data(),
@@ -70,7 +73,7 @@ namespace Morula
       add_tangent(const Range           &range,
                   const LocalField<dim> &field,
                   const GrowthAt         growth,
-                  const double          *mean_stress,
+                  const PressureOfPool  *pressure,
                   LocalSystem<dim>      &system) const override
       {
         // The caller says whether rounding to seven digits does here.
@@ -78,7 +81,7 @@ namespace Morula
           system.in_single ? kernels.tangent_in_single : kernels.tangent;
         return range.first == range.last ||
                admit(tangent(input(range, field, growth),
-                             mean_stress,
+                             pressure,
                              system.matrix.data()),
                      range,
                      system);
@@ -102,7 +105,8 @@ namespace Morula
                 points.h,
                 &field.coefficient[0][0],
                 points.material->law(),
-                points.carried.empty() ? nullptr : &points.carried[range.first]};
+                points.carried.empty() ? nullptr :
+                                         &points.carried[range.first]};
       }
 
       /** Tells @p system what a kernel found; false if a point is inverted. */

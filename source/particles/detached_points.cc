@@ -162,11 +162,8 @@ namespace Morula
       std::vector<double>          squares;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
-          squares.push_back(
-            distance_square_here(points[p],
-                                 sides.empty() ? nullptr : &sides[p],
-                                 tissue,
-                                 square));
+          squares.push_back(distance_square_here(
+            points[p], sides.empty() ? nullptr : &sides[p], tissue, square));
           square = std::max(square, squares.back());
         }
       // Several cells may be equally near but for rounding, and the lowest id
@@ -179,7 +176,8 @@ namespace Morula
           // far_points() looks no farther than a grid spacing.
           near    = std::min(equal * largest, tissue.grid().box().spacing());
           largest = 0.;
-          for (const auto &point : far_points(points, sides, tissue, near, squares))
+          for (const auto &point :
+               far_points(points, sides, tissue, near, squares))
             largest = std::max(largest, point.way.norm());
           largest = Utilities::MPI::max(largest, comm);
       } while (largest < near);

@@ -260,8 +260,8 @@ namespace Morula
         rows.push_back({"cuts", tissue.cuts});
     }
 
-    /** Whose volumes are one sum. @param mixed the part of the tissue in pools of
-     *  unlike cells */
+    /** Whose volumes are one sum. @param mixed the part of the tissue in pools
+     * of unlike cells */
     void
     add_pools(EffectRows &rows, const double mixed)
     {

@@ -212,7 +212,8 @@ namespace Morula
     // A step holds the least memory here, before its matrix exists.
     tissue.defragment();
     tissue.part();
-    // Where volumes are pooled, points on grid lines belong to all grid cells around (doc/theory.md, section 2.4).
+    // Where volumes are pooled, points on grid lines belong to all grid cells
+    // around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
   }
@@ -221,13 +222,14 @@ namespace Morula
   double
   Simulation<dim>::mixed_share()
   {
-    // Who is alike is known of a step: it follows from stiffness and relaxation.
+    // Who is alike is known of a step: it follows from stiffness and
+    // relaxation.
     const Pools pools =
-      material_points(
-        tissue,
-        splines(),
-        model.development.of_step(tissue, 0., model.scene.time.step, PastStep()),
-        model.material)
+      material_points(tissue,
+                      splines(),
+                      model.development.of_step(
+                        tissue, 0., model.scene.time.step, PastStep()),
+                      model.material)
         .pools;
     double sums[2] = {0., 0.}; // of mixed pools, of all
     for (const Pool &pool : pools.list)

@@ -19,7 +19,7 @@ using
 
 #include "common/pools.h"
 
-namespace Morula;
+  namespace Morula;
 
 namespace
 {

@@ -10,8 +10,8 @@
 
 namespace Morula
 {
-  /** Lets points carry about what their growth at t + dt has, W of an energy per
-   *  grown volume, and makes one pool of each grid cell. */
+  /** Lets points carry about what their growth at t + dt has, W of an energy
+   * per grown volume, and makes one pool of each grid cell. */
   template <int dim>
   void
   pool(MaterialPoints<dim> &points)
@@ -28,8 +28,9 @@ namespace Morula
     make_pools_of_grid_cells(points);
   }
 
-  /** Makes the points of a grid cell two pools, of which the second one is mixed:
-   *  two thirds of its points are of one phase, the others of another one. */
+  /** Makes the points of a grid cell two pools, of which the second one is
+   * mixed: two thirds of its points are of one phase, the others of another
+   * one. */
   template <int dim>
   void
   pool_in_groups(MaterialPoints<dim> &points)

@@ -21,11 +21,11 @@
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/state_columns.h>
-#include <morula/effects/volumes_of_step.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/nitsche.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/particles/detached_points.h>
 #include <morula/scene/tissue_model.h>
 

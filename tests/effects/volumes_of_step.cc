@@ -56,12 +56,11 @@ namespace
     {
       DevelopmentEffects<dim> effects;
       effects.law = isotropic_growth<dim>("1 + t");
-      const CellDevelopment<dim> development(
-        std::move(effects),
-        growing_columns(),
-        StateColumns<dim>(),
-        material,
-        0);
+      const CellDevelopment<dim> development(std::move(effects),
+                                             growing_columns(),
+                                             StateColumns<dim>(),
+                                             material,
+                                             0);
       const auto places = ball_points(Point<dim>(), 130., spacing);
       tissue.place(only_first_rank(founders<dim>(places,
                                                  std::pow(spacing, dim),
@@ -116,16 +115,16 @@ namespace
       {
         const LocalField<dim> field = step.field->on_grid_cell(c);
         for (unsigned int q = points.offsets[c]; q < points.offsets[c + 1]; ++q)
-          moved += points.carried[q] *
-                   determinant(field.step_deformation(
-                     SplineValues<dim>(points.xi[q], points.h)));
+          moved +=
+            points.carried[q] * determinant(field.step_deformation(
+                                  SplineValues<dim>(points.xi[q], points.h)));
       }
     for (unsigned int p = 0; p < step.tissue.cells().size(); ++p)
       {
         kept += step.volume(p);
         carried += step.volumes[p].carried;
       }
-    moved = Utilities::MPI::sum(moved, MPI_COMM_WORLD);
+    moved   = Utilities::MPI::sum(moved, MPI_COMM_WORLD);
     kept    = Utilities::MPI::sum(kept, MPI_COMM_WORLD);
     carried = Utilities::MPI::sum(carried, MPI_COMM_WORLD);
     EXPECT_NEAR(kept, moved, 1e-12 * moved);

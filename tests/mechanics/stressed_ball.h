@@ -16,10 +16,10 @@
 #include <random>
 #include <vector>
 
-#include "common/pools.h"
 #include "common/body_on_grid.h"
 #include "common/linear_problem.h"
 #include "common/materials.h"
+#include "common/pools.h"
 
 namespace Morula
 {

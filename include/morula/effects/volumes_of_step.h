@@ -22,8 +22,8 @@ namespace Morula
 
   /**
    * Volumes of this rank's cells after a step, in the order of Tissue::cells().
-   * A cell that lies in several pools takes the mean over its quadrature points.
-   * The list is empty if volumes are pointwise. Collective.
+   * A cell that lies in several pools takes the mean over its quadrature
+   * points. The list is empty if volumes are pointwise. Collective.
    * @param growth       of the step, not yet committed
    * @param kernel       value of Solver/Kernel
    * @param displacement of the step, um

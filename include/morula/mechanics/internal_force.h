@@ -16,31 +16,46 @@
 namespace Morula
 {
   /** The volume v of a pool at a displacement, and the forces of its energy
-   *  Λ U(ϑ), ϑ = ln v/G: doc/theory.md (2.6), (2.8). */
+   *  Λ U(ϑ), ϑ = ln v/G: doc/theory.md (2.6), (2.8); under pressure (2.8b). */
   template <int dim>
   struct PoolVolume
   {
     static constexpr unsigned int n = BSpline<dim>::n;
 
-    /** G, µm^dim. */
-    double grown;
-    /** v = Σ c det f, µm^dim. */
+    /** Σ c, µm^dim, if the pool is under pressure as the step begins; else 0.
+     */
+    double start;
+    /** v = Σ c det f, µm^dim; under pressure Σ c ln det f. */
     double v = 0.;
-    /** V_a = Σ c det f g_a. */
+    /** V_a = Σ c det f g_a; under pressure Σ c g_a. */
     double gradients[dim][n] = {};
 
-    /** ϑ. */
-    double
-    theta() const
+    bool
+    pressed() const
     {
-      return std::log(v / grown);
+      return start > 0.;
     }
 
-    /** q = Φ'(v), kPa. */
+    /** ϑ. @param grown G of the growth that counts, µm^dim */
     double
-    mean_stress(const Volumetric<double> &U) const
+    theta(const double grown) const
     {
-      return U.modulus * U.slope / v;
+      return pressed() ? std::log(start / grown) + v / start :
+                         std::log(v / grown);
+    }
+
+    /** The factor of the gradients in those of ϑ, 1/µm^dim. */
+    double
+    share() const
+    {
+      return 1. / (pressed() ? start : v);
+    }
+
+    /** q, kPa. */
+    PressureOfPool
+    pressure(const Volumetric<double> &U) const
+    {
+      return {U.modulus * U.slope * share(), pressed()};
     }
 
     /** The energy and q V_a. */
@@ -48,7 +63,7 @@ namespace Morula
     add_forces(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       system.add_energy(U.modulus * U.energy, U.modulus * U.magnitude);
-      const double q = mean_stress(U);
+      const double q = pressure(U).mean_stress;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
           system.add_force(i, a, q * gradients[i][a]);
@@ -59,7 +74,9 @@ namespace Morula
     add_tangent(const Volumetric<double> &U, LocalSystem<dim> &system) const
     {
       constexpr unsigned int n_dofs = LocalSystem<dim>::n_dofs;
-      const double scale      = U.modulus * (U.curvature - U.slope) / (v * v);
+      const double           scale  = U.modulus *
+                           (U.curvature - (pressed() ? 0. : U.slope)) *
+                           share() * share();
       const double *const all = &gradients[0][0];
       for (unsigned int row = 0; row < n_dofs; ++row)
         {
@@ -76,7 +93,7 @@ namespace Morula
       LocalField<dim> result;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int a = 0; a < n; ++a)
-          result.coefficient[i][a] = gradients[i][a] / v;
+          result.coefficient[i][a] = gradients[i][a] * share();
       return result;
     }
   };
@@ -93,7 +110,7 @@ namespace Morula
    *
    * with the coefficients of the material's law (Response). Pooled, the
    * volumetric part is that of the sum of the volumes that the points of a pool
-   * carry, (2.6) to (2.8): one volumetric constraint a pool, so that nearly
+   * carry, (2.6) to (2.8b): one volumetric constraint a pool, so that nearly
    * incompressible tissue does not lock. Such tangents take ϑ from the
    * linearisation at the last tangent, if the local system has one, as if the
    * pressure were an unknown of its own: ϑ of the displacement itself is wrong
@@ -121,16 +138,16 @@ namespace Morula
     /** The energy of pool number @p pool, and its J_e, with the growth at
      *  t + dt. Pooled only. @param field of its grid cell */
     PoolEnergy
-    energy_of(const unsigned int     pool,
-              const LocalField<dim> &field) const
+    energy_of(const unsigned int pool, const LocalField<dim> &field) const
     {
       const Pool &of = points.pools.list[pool];
-      return pool_energy(
-        points.pools,
-        of,
-        GrowthAt::current,
-        volume_of(of, field, GrowthAt::current).theta(),
-        *points.material);
+      return pool_energy(points.pools,
+                         of,
+                         GrowthAt::current,
+                         std::log(
+                           with_points({0.}, of, field, GrowthAt::current).v /
+                           grown(of, GrowthAt::current)),
+                         *points.material);
     }
 
   protected:
@@ -153,18 +170,18 @@ namespace Morula
                PoolVolume<dim>       *volume,
                LocalSystem<dim>      &system) const;
 
-    /** Adds to the tangent; of a pool with this mean stress q (kPa), all but
-     *  Φ'' V_a V_b in (2.8). False if a point is inverted. */
+    /** Adds to the tangent; of a pool with this pressure, all but the
+     *  product V_a V_b in (2.8). False if a point is inverted. */
     virtual bool
     add_tangent(const Range           &range,
                 const LocalField<dim> &field,
                 const GrowthAt         growth,
-                const double          *mean_stress,
+                const PressureOfPool  *pressure,
                 LocalSystem<dim>      &system) const;
 
-    /** Calls visit(gradients, state, W, volume) for these points with the volume
-     *  c det f that they carry; false at the first that @p system does not
-     *  admit. */
+    /** Calls visit(gradients, state, W, volume) for these points with the
+     * volume c det f that they carry; false at the first that @p system does
+     * not admit. */
     template <typename Visit>
     bool
     for_each_point(const Range           &range,
@@ -173,14 +190,25 @@ namespace Morula
                    LocalSystem<dim>      &system,
                    const Visit           &visit) const;
 
+    /** The volume before points are added. */
     PoolVolume<dim>
-    volume_of(const Pool            &pool,
-              const LocalField<dim> &field,
-              const GrowthAt         growth) const
+    volume_without_points(const Pool &pool, const GrowthAt growth) const
+    {
+      double carried = 0.;
+      for (unsigned int p = pool.first; p < pool.last; ++p)
+        carried += points.carried[p];
+      return {carried < grown(pool, growth) ? carried : 0.};
+    }
+
+    /** @p volume, and the points of a pool. */
+    PoolVolume<dim>
+    with_points(PoolVolume<dim>        volume,
+                const Pool            &pool,
+                const LocalField<dim> &field,
+                const GrowthAt         growth) const
     {
       // The volume is all that is wanted of this loop over the points.
       LocalSystem<dim> unused(LocalSystem<dim>::energy_and_residual);
-      PoolVolume<dim>  volume{grown(pool, growth)};
       add_forces({pool.first, pool.last}, field, growth, &volume, unused);
       return volume;
     }

@@ -207,8 +207,8 @@ namespace Morula
         largest_gap = {gap, xi};
     }
 
-    /** In: the linearisations of the last tangent of the step on this grid cell,
-     *  one for each of its pools, if there was one. */
+    /** In: the linearisations of the last tangent of the step on this grid
+     * cell, one for each of its pools, if there was one. */
     const std::vector<VolumeLinearisation<dim>> *last = nullptr;
     /** Out: those of this tangent, if a term has any. */
     std::vector<VolumeLinearisation<dim>> linearisations;

@@ -36,15 +36,27 @@ namespace Morula
     unsigned int  lame_stride; // 2, or 0 if they are the same for all points
     double        h;           // µm
     const double *coefficients;
-    const void   *law; // of the material that the kernels were made for
+    const void   *law;     // of the material that the kernels were made for
     const double *carried; // c by point, µm^dim; read if pooled
   };
 
-  /** The volume of a pool and its derivative: doc/theory.md (2.6). */
+  /** The volume of a pool and its derivative: doc/theory.md (2.6), or (2.8b) if
+   *  it is under pressure. */
   struct KernelVolume
   {
-    double  v         = 0.;      // Σ c det f
-    double *gradients = nullptr; // Σ c det f g, dim 3^dim values by component
+    bool    pressed   = false;
+    double  v         = 0.;      // Σ c det f; pressed: Σ c ln det f
+    double *gradients = nullptr; // Σ c det f g, dim 3^dim values by component;
+                                 // pressed: Σ c g
+  };
+
+  /** What the tangent at points needs of their pool. */
+  struct PressureOfPool
+  {
+    /** q, kPa. */
+    double mean_stress;
+    /** Whether it is under pressure as the step begins. */
+    bool pressed;
   };
 
   /** The result of a kernel. */
@@ -101,18 +113,18 @@ namespace Morula
                              double            *magnitudes,
                              KernelVolume      *volume);
 
-    /** Adds to the tangent row by row. If @p mean_stress is not null, that is
-     *  q of the pool, kPa, and the product V_a V_b in doc/theory.md (2.8) is
-     *  left out. */
-    KernelResult (*tangent)(const KernelInput &input,
-                            const double      *mean_stress,
-                            double            *matrix);
+    /** Adds to the tangent row by row. If @p pressure is not null, that is
+     *  the pool's, and the product V_a V_b in doc/theory.md (2.8) is left out.
+     */
+    KernelResult (*tangent)(const KernelInput    &input,
+                            const PressureOfPool *pressure,
+                            double               *matrix);
 
     /** As tangent(), with products and their sums in single precision: to 10⁻⁶
      *  of the largest entry, in less time. */
-    KernelResult (*tangent_in_single)(const KernelInput &input,
-                                      const double      *mean_stress,
-                                      double            *matrix);
+    KernelResult (*tangent_in_single)(const KernelInput    &input,
+                                      const PressureOfPool *pressure,
+                                      double               *matrix);
 
     /** Adds products of splines, for other terms' tangents. */
     AddProducts<dim> add_products;

@@ -131,7 +131,8 @@ namespace Morula
         return {flows ? std::optional<Tensor<2, dim>>(D) : std::nullopt,
                 w * -std::expm1(-gamma),
                 false,
-                gamma};
+                gamma,
+                flows || flow.yield_stress == 0. ? std::exp(-gamma) : 1.};
       }
 
       void

@@ -270,7 +270,7 @@ namespace Morula
                                                   tissue.communicator());
         // Where volumes are pooled, they make the pressure. The vector is empty
         // otherwise.
-        const auto volumes = volumes_of_step(tissue,
+        const auto                          volumes = volumes_of_step(tissue,
                                              attempt.space,
                                              attempt.growth,
                                              attempt.material,

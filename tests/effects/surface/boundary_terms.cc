@@ -226,13 +226,13 @@ TEST_2D_3D(BoundaryTerms, TractionHasNoVolumetricPartWhereThatIsTheGridCells)
   const double   penalty   = 1e3 * (constants.lambda + 2. * constants.mu) / 50.;
   Tensor<1, dim> moved;
   moved[0] = 1e-3;
-  const Problem<dim> problem(parameters,
+  const Problem<dim>   problem(parameters,
                              CellDevelopment<dim>({}, {}),
                              moved,
                              1.01 * unit_tensor<dim>());
-  const double       a_t      = area * std::pow(1.01, dim - 1);
-  const double       traction = constants.mu * b / std::pow(1.01, dim);
-  const TissueMaterial pooled = material("1", 0.4999, true, "pooled");
+  const double         a_t      = area * std::pow(1.01, dim - 1);
+  const double         traction = constants.mu * b / std::pow(1.01, dim);
+  const TissueMaterial pooled   = material("1", 0.4999, true, "pooled");
   const double energy = problem.sums(*problem.nitsche(pooled, 1.)).energy;
   EXPECT_NEAR(energy,
               a_t * (0.5 * penalty * 1e-6 - traction * 1e-3),

@@ -10,7 +10,6 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <cmath>
 #include <optional>
 
 namespace Morula
@@ -154,16 +153,16 @@ namespace Morula
     bool begins_anew = false;
     /** Δt/τ; 0 if stress does not fade with time. */
     double exponent = 0.;
+    /** What is left of a stress that fades: e^(-Δt/τ), or 1 below a yield
+     *  stress. */
+    double kept = 1.;
   };
 
   /** How far a cell relaxes in a step. */
   struct Relaxed
   {
-    /** Δt/τ. */
-    double exponent = 0.;
-    /** What is left of a stress that fades: e^(-Δt/τ), or 1 below a yield
-     *  stress. */
-    double kept = 1.;
+    /** The sum of FlowOfStep::exponent, and the product of FlowOfStep::kept. */
+    double exponent = 0., kept = 1.;
 
     /** Takes a flow into account. */
     template <int dim>
@@ -171,8 +170,7 @@ namespace Morula
     add(const FlowOfStep<dim> &flow)
     {
       exponent += flow.exponent;
-      if (flow.D)
-        kept *= std::exp(-flow.exponent);
+      kept *= flow.kept;
     }
   };
 

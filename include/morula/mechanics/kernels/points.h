@@ -184,8 +184,9 @@ namespace Morula
               for (unsigned int e = 0; e < dim; ++e)
                 A[d][e][l] = state[dim * d + e];
             }
-          W[l]       = exists ? state[dim * dim] : 0.;
-          carried[l] = exists && input.carried != nullptr ? input.carried[p] : 0.;
+          W[l] = exists ? state[dim * dim] : 0.;
+          carried[l] =
+            exists && input.carried != nullptr ? input.carried[p] : 0.;
           lambda[l] = input.lame[input.lame_stride * p];
           mu[l]     = input.lame[input.lame_stride * p + 1];
         }

@@ -10,7 +10,7 @@ namespace Morula
     /** What a law sees of the points. */
     template <int dim>
     MORULA_INLINE Strain<Lanes>
-    strain(const Points<dim> &points)
+                  strain(const Points<dim> &points)
     {
       Lanes trace = {};
       for (unsigned int i = 0; i < dim; ++i)
@@ -113,7 +113,7 @@ namespace Morula
             target[3 * (n_yz<dim> * i + yz) + x] += sum(sums[i][yz][x]);
     }
 
-    /** The volume of a pool's points, doc/theory.md (2.6). */
+    /** The volume of a pool's points, doc/theory.md (2.6), (2.8b). */
     template <int dim>
     struct VolumeSums
     {
@@ -122,13 +122,14 @@ namespace Morula
 
       /** Adds points. */
       MORULA_INLINE void
-      add(const Points<dim> &points)
+      add(const Points<dim> &points, const bool pressed)
       {
-        const Lanes volume = points.carried * points.det_f;
-        Lanes       M[dim][dim];
+        const Lanes volume =
+          pressed ? points.carried : points.carried * points.det_f;
+        Lanes M[dim][dim];
         for (unsigned int i = 0; i < dim; ++i)
           column(points.f_inverse, i, volume, M[i]);
-        v += volume;
+        v += pressed ? volume * logarithm(points.det_f) : volume;
         add_gradients(points, M, gradients);
       }
 
@@ -151,8 +152,8 @@ namespace Morula
              KernelVolume      *volume)
     {
       KernelResult result;
-      result.smallest_J        = __builtin_inf();
-      Sums<dim>       sums     = {}, sizes = {};
+      result.smallest_J    = __builtin_inf();
+      Sums<dim>       sums = {}, sizes = {};
       Lanes           energies[2] = {};
       VolumeSums<dim> volumes;
       const Law      &law = *static_cast<const Law *>(input.law);
@@ -168,7 +169,7 @@ namespace Morula
           Lanes       tau[dim][dim], P[dim][dim];
           Lanes       energy = r.energy, size = r.magnitude;
           if constexpr (pooled)
-            volumes.add(points);
+            volumes.add(points, volume->pressed);
           else
             {
               energy += k * r.volumetric.energy;

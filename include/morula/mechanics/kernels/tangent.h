@@ -71,15 +71,16 @@ namespace Morula
         }
     }
 
-    /** The rows of the rank updates of these points. @param pull is added to W A
-     *  and W γ */
+    /** The rows of the rank updates of these points. @param of_A is
+     *  added to W A, and @p of_gamma to W γ */
     template <int dim, typename Real>
     MORULA_INLINE void
     make_rows(const Points<dim>     &points,
               const Response<Lanes> &r,
               const Lanes           &A,
               const Lanes           &gamma,
-              const Lanes           &pull,
+              const Lanes           &of_A,
+              const Lanes           &of_gamma,
               const unsigned int     n,
               PointRows<dim, Real>  *rows)
     {
@@ -92,8 +93,8 @@ namespace Morula
             all_rows.write(i, l, rows[l].g[i]);
             all_rows.write(dim + i, l, rows[l].m[i]);
           }
-      const Numbers W_A = points.W * A + pull,
-                    W_c = points.W * (r.alpha - gamma) - pull;
+      const Numbers W_A = points.W * A + of_A,
+                    W_c = points.W * (r.alpha - gamma) - of_gamma;
       for (unsigned int l = 0; l < n; ++l)
         rows[l].scale(W_A[l], W_c[l]);
     }
@@ -106,7 +107,8 @@ namespace Morula
               const CoupledResponse<Lanes> &r,
               const Lanes                  &A,
               const Lanes                  &gamma,
-              const Lanes                  &pull,
+              const Lanes                  &of_A,
+              const Lanes                  &of_gamma,
               const unsigned int            n,
               CoupledPointRows<dim, Real>  *rows)
     {
@@ -127,8 +129,8 @@ namespace Morula
             all_rows.write(dim + i, l, rows[l].m[i]);
             all_rows.write(2 * dim + i, l, rows[l].b_g[i]);
           }
-      const Numbers W_A = points.W * A + pull,
-                    W_c = points.W * (r.alpha - gamma) - pull,
+      const Numbers W_A = points.W * A + of_A,
+                    W_c = points.W * (r.alpha - gamma) - of_gamma,
                     W_B = points.W * r.B, W_C = points.W * r.C;
       for (unsigned int l = 0; l < n; ++l)
         rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
@@ -148,11 +150,13 @@ namespace Morula
     };
 
     /** Tangent of a grid cell: doc/theory.md (2.5); of a pool without the first
-     *  term of (2.8). Deformations and the law are in double precision, the sums
-     *  of products of type Real. */
+     *  term of (2.8). Deformations and the law are in double precision, the
+     * sums of products of type Real. */
     template <int dim, typename Law, bool pooled, typename Real>
     MORULA_INLINE KernelResult
-    tangent(const KernelInput &input, const double *mean_stress, double *matrix)
+    tangent(const KernelInput    &input,
+            const PressureOfPool *pressure,
+            double               *matrix)
     {
       KernelResult result;
       result.smallest_J = __builtin_inf();
@@ -170,16 +174,29 @@ namespace Morula
           const auto         r = law.response(strain(points));
           const unsigned int n = input.n - p < lanes ? input.n - p : lanes;
           if constexpr (pooled)
+            {
+              const Lanes pull = pressure->mean_stress * points.carried;
+              if (pressure->pressed)
+                make_rows(points, r, r.A, r.gamma, Lanes{}, pull, n, rows);
+              else
+                make_rows(points,
+                          r,
+                          r.A,
+                          r.gamma,
+                          pull * points.det_f,
+                          pull * points.det_f,
+                          n,
+                          rows);
+            }
+          else
             make_rows(points,
                       r,
-                      r.A,
-                      r.gamma,
-                      *mean_stress * points.carried * points.det_f,
+                      r.total_A(),
+                      r.total_gamma(),
+                      Lanes{},
+                      Lanes{},
                       n,
                       rows);
-          else
-            make_rows(
-              points, r, r.total_A(), r.total_gamma(), Lanes{}, n, rows);
           blocks.update(rows, n);
         }
       blocks.add_to(matrix);
@@ -189,13 +206,13 @@ namespace Morula
     /** See VectorKernels. */
     template <int dim, typename Law, typename Real>
     inline KernelResult
-    tangent_of(const KernelInput &input,
-               const double      *mean_stress,
-               double            *matrix)
+    tangent_of(const KernelInput    &input,
+               const PressureOfPool *pressure,
+               double               *matrix)
     {
-      return mean_stress != nullptr ?
-               tangent<dim, Law, true, Real>(input, mean_stress, matrix) :
-               tangent<dim, Law, false, Real>(input, mean_stress, matrix);
+      return pressure != nullptr ?
+               tangent<dim, Law, true, Real>(input, pressure, matrix) :
+               tangent<dim, Law, false, Real>(input, pressure, matrix);
     }
   } // namespace MORULA_KERNELS
 } // namespace Morula

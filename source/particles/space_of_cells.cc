@@ -167,21 +167,24 @@ namespace Morula
       void
       add_space(const unsigned int i);
 
-      /** Which of some patches is nearest to @p x; of equally near ones that of
-       *  the lowest id. */
+      /** Which of some patches is nearest to @p x; of those that are equally
+       *  near but for rounding, that of the lowest id. */
       unsigned int
       nearest(const Point<dim> &x, const std::vector<unsigned int> &near) const
       {
-        unsigned int found = near.at(0);
-        double       least = x.distance_square(patches.positions[found]);
+        constexpr double rounding = 1. + 1e-6;
+        const auto       far      = [&](const unsigned int b) {
+          return x.distance_square(patches.positions[b]);
+        };
+        double least = far(near.at(0));
         for (const unsigned int b : near)
-          if (const double far = x.distance_square(patches.positions[b]);
-              far < least ||
-              (far == least && patches.ids[b] < patches.ids[found]))
-            {
-              found = b;
-              least = far;
-            }
+          least = std::min(least, far(b));
+        unsigned int found = numbers::invalid_unsigned_int;
+        for (const unsigned int b : near)
+          if (far(b) <= rounding * least &&
+              (found == numbers::invalid_unsigned_int ||
+               patches.ids[b] < patches.ids[found]))
+            found = b;
         return found;
       }
 

@@ -7,6 +7,7 @@
 #include <morula/particles/space_of_cells.h>
 #include <morula/simulation/redistribution.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
@@ -19,24 +20,12 @@ namespace Morula
     /** k: how fast volumes go to their space, by the strain of the step. */
     constexpr double rate_of_volumes = 5.;
 
-    /** Makes the volume of a cell larger by a factor. Its amounts stay. */
-    template <int dim>
-    void
-    scale_volume(const CellView<dim, double> &cell,
-                 const double                 factor,
-                 const TissueModel<dim>      &model)
-    {
-      cell.set(cell.columns().deformation,
-               std::pow(factor, 1. / dim) * cell.F());
-      model.dilute(cell, factor);
-    }
-
-
-    /** Brings volumes in line with their space, doc/theory.md (6.11c), and
-     *  returns the root of the mean square of ln φ before. Collective. */
+    /** Brings the volumes that cells carry in line with their space,
+     *  doc/theory.md (6.11c), and returns the root of the mean square of ln φ
+     *  before. Collective. */
     template <int dim>
     double
-    fit_volumes(Tissue<dim> &tissue, const TissueModel<dim> &model)
+    fit_volumes(Tissue<dim> &tissue)
     {
       const SpaceOfCells space   = space_of_cells(tissue);
       const auto        &columns = tissue.cells().columns();
@@ -51,10 +40,39 @@ namespace Morula
           sums.add(0, 1.);
           sums.add(1, misfit * misfit);
           if (part > 0.)
-            scale_volume(cell, std::exp(-part * misfit), model);
+            cell.set(columns.carried,
+                     cell.get(columns.carried) * std::exp(-part * misfit));
         }
       const std::vector<double> all = sums.all();
       return all[0] > 0. ? std::sqrt(all[1] / all[0]) : 0.;
+    }
+
+
+    /** Puts cells that stand in an obstacle on its surface. Only the surface of
+     *  the tissue feels obstacles: where it is rounder than a corner, cells
+     *  beyond it would be squeezed out, and live on there. Collective. */
+    template <int dim>
+    void
+    keep_out(Tissue<dim>                   &tissue,
+             const BoundaryConditions<dim> &conditions,
+             const double                   t)
+    {
+      std::vector<Point<dim>> positions;
+      bool                    moves = false;
+      for (const auto &named : conditions.list())
+        for (const auto &place : named.condition->forbidden(t))
+          {
+            if (positions.empty())
+              positions = tissue.cells().positions();
+            for (Point<dim> &x : positions)
+              if (const Tensor<1, dim> way = place.second(x); way.norm() > 0.)
+                {
+                  x += way;
+                  moves = true;
+                }
+          }
+      if (Utilities::MPI::logical_or(moves, tissue.communicator()))
+        tissue.move(positions, tissue.boundary_points().positions());
     }
   } // namespace
 
@@ -67,19 +85,12 @@ namespace Morula
                     const DevelopmentOfStep<dim>      &of_step,
                     const bool                         flows)
   {
-    // A flow has a share in each cell in which it acts.
-    double strain  = 0.;
-    bool   relaxes = false;
+    double strain = 0.;
     if (of_step.present)
-      {
-        strain = std::abs(std::log(determinant(cell.growth()) /
-                                   determinant(of_step.previous[p])));
-        const std::size_t n =
-          of_step.flow_shares.size() / of_step.previous.size();
-        for (std::size_t k = 0; k < n; ++k)
-          relaxes = relaxes || of_step.flow_shares[p * n + k] > 0.;
-      }
-    if (flows || relaxes)
+      strain = std::abs(std::log(determinant(cell.growth()) /
+                                 determinant(of_step.previous[p])));
+    if (flows ||
+        (!of_step.relaxation.empty() && of_step.relaxation[p].kept < 1.))
       strain += deviator(symmetrize(f)).norm();
     return strain;
   }
@@ -89,13 +100,17 @@ namespace Morula
   void
   redistribute(Tissue<dim>            &tissue,
                const TissueModel<dim> &model,
+               const double            t,
                const bool              has_surface,
                NamedNumbers           &numbers)
   {
     if (model.redistribution.places)
-      numbers["close_neighbours"] = keep_apart(tissue);
+      {
+        numbers["close_neighbours"] = keep_apart(tissue);
+        keep_out(tissue, model.boundary_conditions, t);
+      }
     if (model.redistribution.volumes && has_surface)
-      numbers["density_error"] = fit_volumes(tissue, model);
+      numbers["density_error"] = fit_volumes(tissue);
   }
 
   MORULA_INSTANTIATE(displacing_strain);

@@ -3,8 +3,8 @@
 
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
-#include <morula/effects/volumes_of_step.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/simulation/redistribution.h>
 #include <morula/simulation/simulation.h>
@@ -291,7 +291,7 @@ namespace Morula
     if (!model.redistribution.places)
       return;
     const TimerOutput::Scope section(timer, "places");
-    redistribute(tissue, model, surface.exists(), of_step);
+    redistribute(tissue, model, time_steps.time(), surface.exists(), of_step);
   }
 
 
@@ -337,6 +337,9 @@ namespace Morula
                                                               time_steps.time(),
                                                               model.densities);
     events.insert(events.end(), removals.begin(), removals.end());
+    // A surface that is made from the cells does not enclose lost ones.
+    if (Utilities::MPI::logical_or(!removals.empty(), comm))
+      run_state.surface_way = std::numeric_limits<double>::infinity();
     // The events are those of this rank's cells. The length of a step is the
     // same on all ranks.
     if (Utilities::MPI::logical_or(cuts(events), comm))

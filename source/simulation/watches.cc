@@ -116,7 +116,7 @@ namespace Morula
     {
       unsigned int which = places.size() + 1;
       for (unsigned int k = 0; k < places.size(); ++k)
-        if (const double found = places[k].second(x); found > depth)
+        if (const double found = places[k].second(x).norm(); found > depth)
           {
             depth = found;
             which = k;

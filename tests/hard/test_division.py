@@ -28,7 +28,8 @@ LATER = {"Time/End time": "1.75"}
 
 def run(case, name, keys=(), cells=None, **options):
     """What holds of any division: initial volume, numbers, distances."""
-    keys, files = dict(keys), {}
+    # Daughters stay where their mothers have put them.
+    keys, files = {"Tissue/Redistribution": "false", **dict(keys)}, {}
     if cells:
         files["cells.csv"] = "x,y,z\n" + "".join(
             "{!r},{!r},{!r}\n".format(*map(float, place)) for place in CELLS[cells])

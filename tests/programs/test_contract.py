@@ -22,7 +22,7 @@ COLUMNS = {
         "max_elastic_volume_ratio,dividing,held_at_checkpoint,xmin,xmax,ymin,ymax,zmin,zmax,"
         "active_grid_cells,inner_splines,outer_splines,unknowns,newton_iterations,"
         "linear_iterations,rejected_steps,residual,wall_seconds,min_cells_per_spacing,turns,"
-        "proximal_paths,surface_distance,enclosed_volume",
+        "proximal_paths,close_neighbours,surface_distance,enclosed_volume",
     "cells-0000.csv":
         "time,id,parent,generation,phase,x,y,z,X,Y,Z,initial_volume,volume,growth_volume_ratio,"
         "elastic_volume_ratio,energy_density,sigma_xx,sigma_yy,sigma_zz,sigma_xy,sigma_yz,sigma_zx",

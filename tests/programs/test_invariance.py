@@ -95,8 +95,6 @@ SCENES = {
 }
 
 
-# Tissue that flows and grows still has times of its own with a unit.
-FLOWING = {"spheroid", "crypt", "exchanges", "bodies", "ball"}
 POWERS = {"um": 8., "day": 32., "kPa": 64.}
 
 
@@ -123,8 +121,7 @@ def run_in(runs, name, units, keys=()):
 
 
 @pytest.mark.parametrize("name, units", [
-    *[pytest.param(name, POWERS, id=name, marks=pytest.mark.xfail(
-        name in FLOWING, reason="times of 0.125 and 0.5 day")) for name in SCENES],
+    *[pytest.param(name, POWERS, id=name) for name in SCENES],
     pytest.param("strip", {"um": 1., "day": 25., "kPa": 3.}, id="strip, no powers of two")])
 def test_units_of_time_length_and_stress_do_not_matter(runs, name, units):
     usual = run_in(runs, name, {"um": 1., "day": 1., "kPa": 1.})

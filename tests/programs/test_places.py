@@ -69,3 +69,29 @@ def test_when(runs):
             ("off", {**flowing, "Tissue/Redistribution": "false"}, set()),
             ("on", {**elastic, "Tissue/Redistribution": "true"}, {first})]:
         assert {first, second} & {*runs.run(name, keys).statistics} == wanted, name
+
+
+def test_closed_box_of_planes(runs):
+    """Tissue that grows against its pressure and is shed with it fills a box of planes:
+    no cell leaves through a corner, the volume is the room's, and p = p0 b/k."""
+    walls = {"left": (-1, 0), "right": (1, 0), "base": (0, -1), "lid": (0, 1)}
+    keys = {"Dimension": 2, "Time/End time": 6, "Time/Step": 0.1, "Tissue/Shape": "box",
+            "Tissue/Size": "192, 192", "Tissue/Cell spacing": 8, "Grid/Spacing": 32,
+            "Material/Energy per": "grown volume", "Material/Volumetric strain": "pooled",
+            "Material/Relaxation time": 0.1, "Growth/Law": "rate", "Growth/Rate/Rate": 0.5,
+            "Division by size/Volume": 92, "Division by size/Noise": 0.2,
+            "Extrusion/Rate": "max(0, pressure)", "Obstacles/Names": ", ".join(walls),
+            "Output/Formats": "csv", "Output/Interval": 1}
+    for name, (x, y) in walls.items():
+        keys.update({f"Obstacles/{name}/Shape": "plane",
+                     f"Obstacles/{name}/Center": f"{96 * x}, {96 * y}",
+                     f"Obstacles/{name}/Normal": f"{-x}, {-y}"})
+    run = runs.run("box", keys)
+    pressures = []
+    for day in range(2, 7):
+        cells = run.cells(day)
+        assert abs(cells[["x", "y"]].to_numpy()).max() < 96.5
+        assert abs(cells["volume"].sum() / 192**2 - 1) < 0.02
+        trace = cells["sigma_xx"] + cells["sigma_yy"] + cells["sigma_zz"]
+        pressures.append((-trace / 3 * cells["volume"]).sum() / cells["volume"].sum())
+    assert abs(sum(pressures) / len(pressures) / 0.5 - 1) < 0.08

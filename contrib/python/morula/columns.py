@@ -12,7 +12,8 @@ STATISTICS = {"cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
               "max_energy_density": STRESS, "min_elastic_volume_ratio": NUMBER,
               "max_elastic_volume_ratio": NUMBER, "dividing": NUMBER, "held_at_checkpoint": NUMBER,
               "xmin": LENGTH, "xmax": LENGTH, "ymin": LENGTH, "ymax": LENGTH, "zmin": LENGTH,
-              "zmax": LENGTH, "surface_distance": LENGTH, "enclosed_volume": VOLUME}
+              "zmax": LENGTH, "surface_distance": LENGTH, "enclosed_volume": VOLUME,
+              "close_neighbours": NUMBER}
 
 
 

@@ -26,7 +26,8 @@ namespace Morula
   /**
    * Gives cells the places that their volumes ask for, and volumes that fit the
    * space there, doc/theory.md, section 6.11, after what a step has divided,
-   * removed and exchanged. Collective.
+   * removed and exchanged, and puts them out of obstacles. Collective.
+   * @param t           now, day
    * @param has_surface without one no space is known, and volumes stay
    * @param numbers get the columns of statistics.csv
    */
@@ -34,6 +35,7 @@ namespace Morula
   void
   redistribute(Tissue<dim>            &tissue,
                const TissueModel<dim> &model,
+               const double            t,
                const bool              has_surface,
                NamedNumbers           &numbers);
 } // namespace Morula

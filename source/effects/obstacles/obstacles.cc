@@ -75,7 +75,6 @@ namespace Morula
       }
     };
 
-
     /**
      * Contact without friction between boundary points and rigid bodies: the
      * energy Π = Σ a_t κ φ²/2 of all points with φ < 0, or that a two-sided
@@ -159,7 +158,6 @@ namespace Morula
       const std::vector<Obstacle>                          obstacles;
     };
 
-
     /** A two-sided obstacle holds points that are so near to it once, and until
      *  they are farther off, in grid spacings. */
     constexpr double touching = 0.01, reach = 0.5;
@@ -212,7 +210,6 @@ namespace Morula
           best = {depth, place};
       return best;
     }
-
 
     /** Rigid bodies that the surface of the tissue slides along and cannot
      *  enter: doc/theory.md (4.8d). */
@@ -323,10 +320,9 @@ namespace Morula
       void
       touch(Tissue<dim> &tissue, const double t) const override
       {
-        // A point is held from the moment on at which it touches with its side
-        // towards the obstacle, until it is out of reach or turns away. New
-        // patches have this from their predecessors: one at the rim of the
-        // contact may have it from a neighbour, but does not face the obstacle.
+        // A point is held once it touches with its side towards the obstacle,
+        // until it is out of reach or turns away. New patches have this from
+        // their predecessors, also one at the rim that does not face it.
         const BoundaryPoints<dim> &points = tissue.boundary_points();
         const auto                &column = points.columns().touched;
         const double               h      = tissue.grid().box().spacing();
@@ -356,8 +352,11 @@ namespace Morula
         for (const Obstacle &one : list)
           places.emplace_back(one.name,
                               [&one, way = one.way(t)](const Point<dim> &x) {
-                                const double distance = one.body(x - way).value;
-                                return one.is_mould ? distance : -distance;
+                                const auto phi = one.body(x - way);
+                                return (one.is_mould ? phi.value <= 0. :
+                                                       phi.value >= 0.) ?
+                                         Tensor<1, dim>() :
+                                         -phi.value * phi.gradient;
                               });
         return places;
       }

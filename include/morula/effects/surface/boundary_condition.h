@@ -163,10 +163,10 @@ namespace Morula
     touch(Tissue<dim> &, const double /*t*/) const
     {}
 
-    /** What is called so, and how deep a place (µm) is in it, µm; negative: not
-     *  in it. */
+    /** What is called so, and the shortest way (µm) from a place (µm) out of
+     * it; zero if it is not in it. */
     using Forbidden =
-      std::pair<std::string, std::function<double(const Point<dim> &)>>;
+      std::pair<std::string, std::function<Tensor<1, dim>(const Point<dim> &)>>;
 
     /** Where no cell may be at @p t (day); what is given keeps references. */
     virtual std::vector<Forbidden>

@@ -308,7 +308,8 @@ namespace Morula
         if (of_step.begins_anew)
           at_t0 = F_g;
         errors.flow_shares.push_back(of_step.share);
-        errors.relaxed.add(of_step);
+        errors.relaxed.exponent += of_step.exponent;
+        errors.relaxed.kept *= of_step.kept;
       }
     return F_g;
   }

@@ -445,9 +445,7 @@ namespace Morula
 
     /** F_g after all flows, what has flowed written to @p after.
      *  @param F_g    of the other effects at t1
-     *  @param errors gets FlowOfStep::share of each flow, and how far it
-     * relaxes
-     */
+     *  @param errors gets the shares of the flows, and how far it relaxes */
     Tensor<2, dim>
     flow(const PresentCell<dim>      &before,
          const CellView<dim, double> &after,

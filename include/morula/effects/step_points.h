@@ -34,8 +34,8 @@ namespace Morula
   cell_positions(const Tissue<dim> &tissue, const SplineSpace<dim> &space);
 
   /** Classes of this rank's cells by their stiffness and relaxation, in the
-   *  order of Tissue::cells(); cells of one class are alike. The list is empty
-   * if all cells of all ranks are alike. Collective. */
+   *  order of Tissue::cells(); cells of one class are alike. Empty if all cells
+   *  of all ranks are. Collective. */
   template <int dim>
   std::vector<unsigned int>
   phases_of_cells(const Tissue<dim>            &tissue,

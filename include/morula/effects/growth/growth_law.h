@@ -163,15 +163,6 @@ namespace Morula
   {
     /** The sum of FlowOfStep::exponent, and the product of FlowOfStep::kept. */
     double exponent = 0., kept = 1.;
-
-    /** Takes a flow into account. */
-    template <int dim>
-    void
-    add(const FlowOfStep<dim> &flow)
-    {
-      exponent += flow.exponent;
-      kept *= flow.kept;
-    }
   };
 
   /**

@@ -164,7 +164,7 @@ namespace Morula
     {}
 
     /** What is called so, and the shortest way (µm) from a place (µm) out of
-     * it; zero if it is not in it. */
+     *  it; zero outside of it. */
     using Forbidden =
       std::pair<std::string, std::function<Tensor<1, dim>(const Point<dim> &)>>;
 

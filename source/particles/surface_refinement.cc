@@ -3,6 +3,7 @@
 
 #include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_refinement.h>
 
@@ -10,6 +11,7 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
@@ -53,6 +55,69 @@ namespace Morula
      *  left the tissue. */
     constexpr double longest_split = 64.;
 
+    /** Cosine of the largest angle between the normals of patches that merge,
+     *  or that tell each other's curvature. Sides of a box differ by a right
+     *  angle, so no patch reaches across an edge of the body. */
+    constexpr double least_cosine = 0.5;
+
+    /** Largest angle by which the parts of a patch that is split turn. */
+    constexpr double largest_bend = 0.25;
+
+
+    /** φ of doc/theory.md (4.12a): the angle by which the normal turns from the
+     *  middle of a patch at @p x towards that of its half at the end of @p edge
+     *  (µm).
+     *  @param all patches of all ranks, by id, that @p tree finds */
+    template <int dim>
+    double
+    bend_of(const BoundaryView<dim>    &point,
+            const Point<dim>           &x,
+            const Tensor<1, dim>       &edge,
+            const PointList<dim>       &all,
+            const BoundaryColumns<dim> &columns,
+            const NearTree<dim>        &tree)
+    {
+      // The nearest patches of the same face on both sides tell the curvature
+      // along the edge. The smaller one counts: none at the edge of a face, and
+      // where the surface is curved to and fro. What is held keeps the shape of
+      // its wall.
+      if (point.condition() == SurfaceCondition::fixed ||
+          point.condition() == SurfaceCondition::slip)
+        return 0.;
+      const Tensor<1, dim>  area   = point.area_vector();
+      const double          length = edge.norm();
+      std::array<double, 2> bends{}, nearest{{2. * length, 2. * length}};
+      for (const unsigned int j : tree.within(x, 2. * length))
+        {
+          const Tensor<1, dim> other =
+            BoundaryView<dim>(all.row(j), columns).area_vector();
+          const Tensor<1, dim> away = all.positions[j] - x;
+          const double         s    = away * edge / length;
+          if (area * other < least_cosine * area.norm() * other.norm() ||
+              std::abs(s) < std::max(0.25 * length, 0.7 * away.norm()) ||
+              away.norm() >= nearest[s > 0.])
+            continue;
+          nearest[s > 0.] = away.norm();
+          bends[s > 0.]   = 0.25 * (other * edge) / (other.norm() * s);
+        }
+      if (bends[0] * bends[1] <= 0.)
+        return 0.;
+      return std::clamp(std::abs(bends[0]) < std::abs(bends[1]) ? bends[0] :
+                                                                  bends[1],
+                        -largest_bend,
+                        largest_bend);
+    }
+
+    /** f of doc/theory.md (4.12a). */
+    template <int dim>
+    Tensor<2, dim>
+    bend(const Tensor<1, dim> &n, const Tensor<1, dim> &t, const double angle)
+    {
+      return Tensor<2, dim>(unit_symmetric_tensor<dim>()) +
+             outer_product(std::sin(angle) * t + (std::cos(angle) - 1.) * n,
+                           n) -
+             std::tan(angle) * outer_product(n, t);
+    }
   } // namespace
 
 
@@ -88,8 +153,8 @@ namespace Morula
     // order by id, which gives the new points their ids, the same for any
     // number of ranks. A patch is halved across its longest edge, doc/theory.md
     // (4.12): the new point takes the half at the end of the edge, the old one
-    // the other half. Halves that are still too large are split in the next
-    // round.
+    // the other half. Both are bent as the surface was before the round. Halves
+    // that are still too large are split in the next round.
     std::vector<bool> leave;
     for (const Point<dim> &x : points.positions)
       leave.push_back(crowded(x));
@@ -111,22 +176,38 @@ namespace Morula
         if (order.n_keys == 0)
           return any;
 
+        const PointList<dim> all = of_all_ranks(points, comm);
+        const NearTree<dim>  tree(all.positions);
         for (std::size_t s = 0; s < split.size(); ++s)
           {
-            const std::size_t    i       = split[s];
-            const unsigned int   k       = longest<dim>(view(i)).first;
-            const Tensor<1, dim> quarter = // of the present edge
-              0.25 * (view(i).F() * view(i).initial_edge(k));
+            const std::size_t    i    = split[s];
+            const unsigned int   k    = longest<dim>(view(i)).first;
+            const Tensor<1, dim> edge = view(i).F() * view(i).initial_edge(k),
+                                 area = view(i).area_vector(),
+                                 n = area / area.norm(), quarter = 0.25 * edge;
+            const double angle = bend_of<dim>(
+              view(i), points.positions[i], edge, all, columns, tree);
+            const Tensor<1, dim> drop = quarter.norm() * std::tan(angle) * n;
             const std::vector<double> row(points.row(i).begin(),
                                           points.row(i).end());
             // A new point is in the surroundings of one that was not crowded.
             leave.push_back(false);
             points.add(next_id + order.places[s],
-                       points.positions[i] + quarter,
+                       points.positions[i] + quarter - drop,
                        make_array_view(row));
-            points.positions[i] -= quarter;
-            view(i).halve(k, -1.);
-            view(points.size() - 1).halve(k, 1.);
+            points.positions[i] -= quarter + drop;
+            for (const auto &[part, sign] :
+                 {std::make_pair(i, -1.),
+                  std::make_pair(points.size() - 1, 1.)})
+              {
+                view(part).halve(k, sign);
+                if (angle != 0.)
+                  view(part).deform(bend(n, edge / edge.norm(), sign * angle));
+                if (const auto &p = columns.contact_pressure; p.exists())
+                  view(part).set(p,
+                                 view(part).get(p) * 0.5 * area.norm() /
+                                   view(part).area_vector().norm());
+              }
           }
         next_id += order.n_keys;
       }
@@ -144,11 +225,6 @@ namespace Morula
      *  give none above the second. The second is below two, at which refinement
      *  would split the result again. */
     constexpr double too_small = 0.5, largest_merged = 1.6;
-
-    /** Cosine of the largest angle between the normals of patches that merge.
-     *  Sides of a box differ by a right angle, so no patch reaches across an
-     *  edge of the body. */
-    constexpr double least_cosine = 0.5;
 
     /** The shift of doc/theory.md (4.12d) of the patch that two become, along
      *  its normal, from their area vectors and the way from one to the other.
@@ -296,6 +372,11 @@ namespace Morula
         if (columns.force.exists())
           merged.set(columns.force,
                      view(i).get(columns.force) + view(j).get(columns.force));
+        if (const auto &p = columns.contact_pressure; p.exists())
+          merged.set(p,
+                     (areas[i].norm() * view(i).get(p) +
+                      areas[j].norm() * view(j).get(p)) /
+                       area.norm());
         columns.set_square_patch(make_array_view(row), F, area);
         if (area_of_wall != Tensor<1, dim>())
           merged.set(columns.initial_normal,

@@ -205,12 +205,54 @@ TEST_2D_3D(SurfaceRefinement, ConservesAreaNormalAndMoments)
   EXPECT_NEAR(after.volume / before.volume, 1., 1e-11);
   EXPECT_LT((after.initial_vector - before.initial_vector).norm(), 1e-10);
   EXPECT_LT((after.vector - before.vector).norm(), 1e-9);
-  EXPECT_LT((after.moment - before.moment).norm() / before.moment.norm(),
-            1e-11);
+  // Halves that are bent are a little longer than flat ones.
+  EXPECT_LT((after.moment - before.moment).norm() / before.moment.norm(), 1e-2);
   for (std::size_t i = 0; i < points.size(); ++i)
     for (unsigned int k = 0; k < dim - 1; ++k)
       EXPECT_LE((view(points, i).F() * view(points, i).initial_edge(k)).norm(),
                 6.);
+}
+
+
+// Parts of a circle's patches lie on one, with its normals; those of a box at
+// whose corners patches meet stay where they are.
+TEST(SurfaceRefinement, PartsAreCurvedAsTheSurface)
+{
+  constexpr unsigned int n = 24;
+  constexpr double       R = 50., length = 2. * numbers::PI * R / n;
+  PointList<2>           circle(columns<2>.n_numbers());
+  for (unsigned int i = 0; i < n; ++i)
+    {
+      const double       angle = 2. * numbers::PI * i / n;
+      const Tensor<1, 2> N({std::cos(angle), std::sin(angle)});
+      add_point<2>(circle, i, Point<2>(R * N), N, length, unit_tensor<2>());
+    }
+  PointList<2>          points = dealt(circle);
+  types::particle_index next   = n;
+  refine_surface<2>(
+    points, columns<2>, 0.3 * length, nowhere<2>, next, MPI_COMM_WORLD);
+  EXPECT_EQ(next, 4 * n);
+  const double sagitta = length * length / (8. * R);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      const Tensor<1, 2> x(points.positions[i]),
+        area = view(points, i).area_vector();
+      EXPECT_NEAR(x.norm(), R - 5. / 16. * sagitta, 0.01 * sagitta);
+      EXPECT_GT(area * x, (1. - 1e-6) * area.norm() * x.norm());
+    }
+
+  PointList<2> box(columns<2>.n_numbers());
+  for (unsigned int i = 0; i < 4; ++i)
+    {
+      Tensor<1, 2> N;
+      N[i / 2] = i % 2 ? 1. : -1.;
+      add_point<2>(box, i, Point<2>(5. * N), N, 10., unit_tensor<2>());
+    }
+  next = 4;
+  refine_surface<2>(box, columns<2>, 6., nowhere<2>, next, MPI_COMM_SELF);
+  EXPECT_EQ(box.size(), 8u);
+  for (const Point<2> &x : box.positions)
+    EXPECT_EQ(linfty<2>(x), 5.);
 }
 
 

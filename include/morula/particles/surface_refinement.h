@@ -29,10 +29,10 @@ namespace Morula
    * Splits every boundary point whose patch has an edge F E, doc/theory.md
    * (4.11), longer than @p longest_edge (µm) in two along its longest edge,
    * until none is left. Each new point takes half of the area and sits in the
-   * middle of its half, X ∓ E/4 and x ∓ F E/4, with the same N, F and
-   * condition: doc/theory.md (4.12). If the surface is coarsened, points with
-   * more than twice the area of (4.12b) are split, too. Σ a n, Σ a n·x and Σ a⁰
-   * do not change, and points move only tangentially.
+   * middle of its half, with the same N and condition: doc/theory.md (4.12).
+   * On a curved surface the halves are bent as it is: (4.12a). If the surface
+   * is coarsened, points with more than twice the area of (4.12b) are split,
+   * too. Σ a n, Σ a n·x and Σ a⁰ do not change.
    *
    * The point on the -E side keeps its id, the other one gets a new id. The new
    * ids of one round of splitting are in the order of the split points' ids,

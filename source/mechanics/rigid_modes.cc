@@ -188,7 +188,7 @@ namespace Morula
     std::vector<double> sums(pieces.size() * (dim + 1), 0.);
     for (const Mass &mass : masses)
       {
-        double *const sum = &sums[mass.piece * (dim + 1)];
+        double *const sum = &sums[entry(mass.piece) * (dim + 1)];
         sum[dim] += mass.V0;
         for (unsigned int d = 0; d < dim; ++d)
           sum[d] += mass.V0 * mass.x[d];
@@ -219,7 +219,8 @@ namespace Morula
     std::vector<double> sums(pieces.size() * n * n, 0.);
     for (const Support &support : supports)
       {
-        const Tensor<1, dim> z = support.x - pieces[support.piece].center;
+        const unsigned int   p = entry(support.piece);
+        const Tensor<1, dim> z = support.x - pieces[p].center;
         // The part of each elementary motion that this support holds.
         Tensor<1, dim> held[n];
         for (unsigned int k = 0; k < n; ++k)
@@ -229,8 +230,7 @@ namespace Morula
           }
         for (unsigned int k = 0; k < n; ++k)
           for (unsigned int l = 0; l < n; ++l)
-            sums[(support.piece * n + k) * n + l] +=
-              support.area * (held[k] * held[l]);
+            sums[(p * n + k) * n + l] += support.area * (held[k] * held[l]);
       }
     Utilities::MPI::sum(sums, comm, sums);
 
@@ -275,11 +275,11 @@ namespace Morula
       first.back(), std::vector<double>(unknowns.relevant().n_elements(), 0.));
     for (auto mass = masses.begin(); mass != masses.end();)
       {
-        const unsigned int p         = mass->piece;
-        const auto        &grid_cell = grid_cell_at(space, mass->x, p);
+        const unsigned int piece = mass->piece, p = entry(piece);
+        const auto        &grid_cell = grid_cell_at(space, mass->x, piece);
         // The constructor advances `mass` to the next grid cell.
         const FirstMoments<dim> moments(
-          space, grid_cell.number, p, pieces[p].center, mass, masses.end());
+          space, grid_cell.number, piece, pieces[p].center, mass, masses.end());
         const Condensation<dim> condensation(grid_cell);
         const unsigned int      m = condensation.m();
         for (unsigned int k = 0; k < pieces[p].free.size(); ++k)
@@ -293,17 +293,19 @@ namespace Morula
           }
       }
 
-    const std::vector<Equilibrium::Vector> motions = null_space();
-    std::vector<Equilibrium::Vector>       basis;
+    std::vector<Equilibrium::Vector> motions, basis;
+    if (!as_one)
+      motions = null_space();
     for (unsigned int p = 0; p < pieces.size(); ++p)
       for (unsigned int k = first[p]; k < first[p + 1]; ++k)
         // A rotation without inertia (of a single particle, or of a row about
         // its line) would leave a vector of rounding errors. It keeps its
         // coefficient vector, as the motion still has to stay out of the
-        // solution.
+        // solution. Several pieces have inertia.
         if (!add_orthonormal(unknowns.sum(sums[k]),
                              basis,
-                             inertia_tolerance * pieces[p].volume))
+                             inertia_tolerance * pieces[p].volume) &&
+            !as_one)
           add_orthonormal(motions[k], basis);
     return basis;
   }

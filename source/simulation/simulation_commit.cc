@@ -199,8 +199,7 @@ namespace Morula
       if (surface.motions[p].f.norm() <= limit.f &&
           determinant(surface.motions[p].f) > 0.)
         tissue.boundary_point(p).deform(surface.motions[p].f);
-    set_forces(solution.forces, tissue);
-    forces = solution.forces.rows;
+    forces = set_forces(solution.forces, tissue);
     for (const auto &[name, number] : solution.kept)
       run_state.kept[name] = number;
     events         = std::move(growth_of_step.events);

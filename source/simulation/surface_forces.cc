@@ -2,10 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/base/near_tree.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/particles/nearest.h>
 #include <morula/simulation/step_equilibrium.h>
 
 #include <deal.II/base/mpi.h>
@@ -55,89 +53,6 @@ namespace Morula
       return centers;
     }
 
-    /** See SurfaceForces::contact_pressures. Collective. */
-    template <int dim>
-    std::vector<double>
-    pressures_between(const Tissue<dim>                    &tissue,
-                      const std::vector<ForceBetween<dim>> &forces)
-    {
-      // Every point tells its area and the normal force on it. A tree finds
-      // those around a point, which are summed by id, so that nothing depends
-      // on ranks. The areas are those at t, which a step of growth changes:
-      // what the point's own patch has become since then stands for its
-      // surroundings.
-      const BoundaryPoints<dim> &store = tissue.boundary_points();
-      std::vector<double>        of_points(store.size(), 0.);
-      for (const ForceBetween<dim> &one : forces)
-        of_points[one.p] -= one.force * one.area / one.area.norm();
-      std::vector<Point<dim>>   queries;
-      std::vector<unsigned int> loaded;
-      std::vector<double>       widening;
-      for (const ForceBetween<dim> &one : forces)
-        if (loaded.empty() || loaded.back() != one.p)
-          {
-            loaded.push_back(one.p);
-            widening.push_back(one.area.norm() /
-                               store.area_vector(one.p).norm());
-            queries.push_back(store.position(one.p));
-          }
-      const auto numbers = [&](const unsigned int   p,
-                               std::vector<double> &list) {
-        list.push_back(of_points[p]);
-        append_flat(list, store.area_vector(p));
-        list.push_back(store.body(p));
-      };
-      const PointList<dim> near = near_points(
-        queries, store, {2 + dim, numbers, Ties::lowest_id}, tissue.grid(), 1);
-      const NearTree<dim> tree(near.positions);
-      const double        radius = 0.5 * tissue.grid().box().spacing();
-
-      std::vector<double> pressures(store.size(), 0.);
-      for (std::size_t k = 0; k < loaded.size(); ++k)
-        {
-          std::vector<unsigned int> around = tree.within(queries[k], radius);
-          std::sort(around.begin(),
-                    around.end(),
-                    [&](const unsigned int i, const unsigned int j) {
-                      return near.ids[i] < near.ids[j];
-                    });
-          double force = 0., area = 0.;
-          for (const unsigned int i : around)
-            if (const auto around = Flat<Tensor<1, dim>>::read(&near.row(i)[1]);
-                near.row(i)[1 + dim] == store.body(loaded[k]) &&
-                (!store.has_parts() ||
-                 around * store.area_vector(loaded[k]) > 0.))
-              {
-                force += near.row(i)[0];
-                area += around.norm();
-              }
-          pressures[loaded[k]] = force / (area * widening[k]);
-        }
-      return pressures;
-    }
-  } // namespace
-
-
-  template <int dim>
-  void
-  set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue)
-  {
-    const auto &column = tissue.boundary_points().columns().force;
-    if (column.exists())
-      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
-        tissue.boundary_point(p).set(column, forces.of_points[p]);
-    const auto pressure = tissue.boundary_points().columns().contact_pressure;
-    if (pressure.exists())
-      for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
-        tissue.boundary_point(p).set(pressure,
-                                     forces.contact_pressures.empty() ?
-                                       0. :
-                                       forces.contact_pressures[p]);
-  }
-
-
-  namespace
-  {
     /**
      * Adds up the forces at the end of a step with this displacement, point by
      * point. They are those of the terms in whose sum Newton's method has found
@@ -279,8 +194,8 @@ namespace Morula
       }
 
       /** Adds a row of this kind for each two bodies that touch, with the force
-       *  of the one with the lower number on the other, and the pressure at all
-       *  points. Collective. */
+       *  of the one with the lower number on the other. set_forces() adds where
+       *  they touch. Collective. */
       void
       add_between(const std::string                    &kind,
                   const std::vector<ForceBetween<dim>> &forces)
@@ -291,7 +206,7 @@ namespace Morula
         std::set<Bodies>          touching;
         std::vector<unsigned int> numbers;
         for (const ForceBetween<dim> &one : forces)
-          if (one.touches && one.other <= one.body)
+          if (one.other <= one.body)
             touching.emplace(one.other, one.body);
         for (const Bodies &bodies : touching)
           {
@@ -301,8 +216,6 @@ namespace Morula
         for (const auto &list : Utilities::MPI::all_gather(comm, numbers))
           for (std::size_t k = 0; k < list.size(); k += 2)
             touching.emplace(list[k], list[k + 1]);
-        if (touching.empty())
-          return;
         for (const Bodies &bodies : touching)
           {
             ForceRow row;
@@ -315,19 +228,31 @@ namespace Morula
             for (const ForceBetween<dim> &one : forces)
               if (Bodies(one.other, one.body) == bodies)
                 {
-                  row.points += one.touches ? 1 : 0;
-                  row.area += one.area.norm();
                   row.force += in_space(one.force);
                   row.moment +=
                     cross_product_3d(in_space(Tensor<1, dim>(one.place)),
                                      in_space(one.force));
-                  row.inward -= one.force * one.area / one.area.norm();
+                  row.inward += one.normal;
                 }
+            mine.touching[bodies] = mine.rows.size();
             mine.rows.push_back(row);
           }
+        // What all pairs together leave, motions that nothing else holds have
+        // borne: doc/theory.md (4.10a). Pairs' forces cancel, and their moments
+        // do but for what points of a pair are beside each other.
+        ForceRow held;
+        held.kind        = "held";
+        held.name        = kind;
+        held.is_internal = true;
         for (const ForceBetween<dim> &one : forces)
-          mine.of_points[one.p] += one.force;
-        mine.contact_pressures = pressures_between(tissue, forces);
+          {
+            mine.of_points[one.p] += one.force;
+            held.force -= in_space(one.force);
+            held.moment -= cross_product_3d(in_space(Tensor<1, dim>(one.place)),
+                                            in_space(one.force));
+          }
+        mine.rows.push_back(held);
+        mine.between = forces;
       }
 
       /** The rows as sums over all ranks, and this rank's forces of points.
@@ -473,6 +398,5 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(set_forces);
   MORULA_INSTANTIATE(surface_forces);
 } // namespace Morula

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Scenes of bodies in contact: blocks, discs, rings."""
 import math
+import re
 
 SCENE = {"Dimension": 2, "Time/End time": 0.4, "Time/Step": 0.1, "Tissue/Shape": "points",
          "Grid/Spacing": 10, "Cell types/Names": "a, b", "Contact/Between": "bodies",
@@ -75,7 +76,24 @@ def press(top, way):
             "Boundary conditions/Displacement": f"0; -({way})", "Tissue/Boundary points": 144}
 
 
+def assert_pressure_adds_up(run):
+    """The integral of the pressure over each body is the normal force on it, and
+    the area of a contact that of its points which are pressed, but for patches that
+    were split since, whose halves are bent."""
+    rows = run.forces[run.forces["kind"] == "contact"]
+    for time, at_once in rows.groupby("time"):
+        points = run.at("surface", time).query("contact_pressure > 0")
+        bodies = [[int(n) for n in re.findall(r"body (\d+)", name)] for name in at_once["name"]]
+        for body, of_body in points.groupby("body"):
+            force = sum(f for f, of in zip(at_once["force_inward"], bodies) if body in of)
+            pressure = (of_body["contact_pressure"] * of_body["area"]).sum()
+            assert abs(pressure / force - 1) <= 1e-6
+            if body == bodies[0][-1] and len(at_once) == 1:
+                assert abs(at_once["area"].iloc[0] / of_body["area"].sum() - 1) <= 1e-3
+
+
 def contact_rows(run, name=None):
     """Rows of forces.csv of bodies on bodies, or those of a name."""
     rows = run.forces
+    assert_pressure_adds_up(run)
     return rows[rows["kind"] == "contact"] if name is None else rows[rows["name"] == name]

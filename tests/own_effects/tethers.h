@@ -122,10 +122,9 @@ namespace Own
         list.push_back({b,
                         points[b].body,
                         points[c].body,
-                        true,
                         force,
-                        points[b].x,
-                        points[b].area});
+                        -force * points[b].area / points[b].area.norm(),
+                        points[b].x});
       };
       for (std::size_t k = 0; k < springs.size(); ++k)
         {

@@ -19,13 +19,12 @@ namespace Morula
   template <int dim>
   struct ForceBetween
   {
-    unsigned int   p;       // number of the point
-    unsigned int   body;    // of the point
-    unsigned int   other;   // body
-    bool           touches; // or only all but does, without a force
-    Tensor<1, dim> force;   // on the point, kPa µm^(dim-1)
-    Point<dim>     place;   // where it acts, µm
-    Tensor<1, dim> area;    // a n there, µm^(dim-1)
+    unsigned int   p;      // number of the point
+    unsigned int   body;   // of the point
+    unsigned int   other;  // body
+    Tensor<1, dim> force;  // on the point, kPa µm^(dim-1)
+    double         normal; // its part that presses, kPa µm^(dim-1)
+    Point<dim>     place;  // where it acts, µm
   };
 
   /** An interaction in an attempt at a step. */

@@ -45,14 +45,18 @@ namespace Morula
       double         area;       // µm^(dim-1)
     };
 
-    /** Collective. */
+    /** Collective. @param as_one whether all pieces together are one body, as
+     *         they may touch: then only motions are free that all of them make
+     *         together */
     RigidModes(const SplineSpace<dim>     &space,
                const std::vector<Mass>    &masses,
                const std::vector<Support> &supports,
-               const MPI_Comm              comm)
+               const MPI_Comm              comm,
+               const bool                  as_one = false)
       : space(space)
       , comm(comm)
-      , pieces(space.n_pieces())
+      , as_one(as_one)
+      , pieces(as_one ? 1 : space.n_pieces())
     {
       find_centers(masses);
       find_free_modes(supports);
@@ -147,8 +151,16 @@ namespace Morula
     void
     find_free_modes(const std::vector<Support> &supports);
 
+    /** The entry of @p pieces for a piece of the space. */
+    unsigned int
+    entry(const unsigned int piece) const
+    {
+      return as_one ? 0 : piece;
+    }
+
     const SplineSpace<dim> &space;
     const MPI_Comm          comm;
+    const bool              as_one;
     std::vector<Piece>      pieces;
   };
 

@@ -19,10 +19,13 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -36,17 +39,17 @@ namespace Morula
     /** The sum of all conditions' forces on each of this rank's boundary
      * points, in the order of the store, kPa µm^(dim-1). */
     std::vector<Tensor<1, dim>> of_points;
-    /** The pressure there of what touches, kPa: the normal force on the points
-     *  of their body within half a grid spacing over the area of these. The
-     *  pressure of single points is no measure of accuracy, as facets of two
-     *  surfaces do not match. Empty where nothing touches. */
-    std::vector<double> contact_pressures;
+    /** What other sides do to them. */
+    std::vector<ForceBetween<dim>> between;
+    /** The numbers of the rows of bodies that touch, by both of them. */
+    std::map<std::pair<unsigned int, unsigned int>, std::size_t> touching;
   };
 
-  /** Gives the boundary points their forces and the pressure of contact, if
-   * they have columns for them. */
+  /** Gives the boundary points, which have their new areas and stand where they
+   *  stood at t, their forces and the pressure of contact, if they have columns
+   *  for them. Collective. @return the rows, with the area of each contact */
   template <int dim>
-  void
+  std::vector<ForceRow>
   set_forces(const SurfaceForces<dim> &forces, Tissue<dim> &tissue);
 
   /**
@@ -87,7 +90,7 @@ namespace Morula
       /** Whether half the step is to be tried, before a proximal path, where
        *  the step is plainly too long. */
       bool halve_first = true;
-      /** The drag that holds the tissue back: hold_back(). */
+      /** The drag that holds the tissue back: TimeSteps::hold_back(). */
       double drag = 1.;
     };
 

@@ -310,9 +310,11 @@ namespace Morula
         if (const auto last = slides.find({pair.b, pair.c});
             last != slides.end() && last->second.norm() > 0.)
           result.onward += drag * (slide * last->second) / last->second.norm();
-        if (p > 0.)
+        // Also of a pair that has lost its pressure by sliding.
+        if (p > 0. || pair.gap < 0.)
           result.slid =
-            std::max(result.slid, (ways[pair.b] - ways[pair.c]).norm());
+            std::max(result.slid,
+                     along(pair, ways[pair.b] - ways[pair.c]).norm());
         seen_slides.emplace(ContactPair{pair.b, pair.c}, slide);
       }
     seen       = pairs_at(now, false);
@@ -341,41 +343,39 @@ namespace Morula
   {
     // Each pair that touches adds its force to both points, apart for each body
     // that touches a point. What the drag of the last turn has left counts: it
-    // is part of the equilibrium. Pairs that all but touch add none, but tell
-    // how far the contact reaches.
+    // is part of the equilibrium. The part that presses is the same on both.
     const std::vector<State>    now = states(u);
     std::vector<Tensor<1, dim>> ways;
     for (const State &state : now)
       ways.push_back(state.u);
-    struct Sum
-    {
-      Tensor<1, dim> force;
-      bool           touches = false;
-    };
-    std::map<std::pair<unsigned int, unsigned int>, Sum> sums;
+    std::map<std::pair<unsigned int, unsigned int>, ForceBetween<dim>> sums;
     for (const Pair &pair : pairs)
       {
-        const double g = gap(pair, ways);
-        if (g >= ContactPairs<dim>::reach * law.h && pair.slow == 0.)
-          continue;
-        Sum &of_b = sums[{pair.b, points.points()[pair.c].body}];
-        Sum &of_c = sums[{pair.c, points.points()[pair.b].body}];
-        if (g >= 0. && pair.slow == 0.)
+        const double g = std::min(gap(pair, ways), 0.);
+        if (g == 0. && pair.slow == 0.)
           continue;
         const Tensor<1, dim> t = force(pair, ways);
-        of_b.force += t;
-        of_c.force -= t;
-        of_b.touches = of_c.touches = true;
+        const double         normal =
+          -pair.weight * law.kappa * g * pair.across.norm_square();
+        const auto add = [&](const unsigned int    k,
+                             const unsigned int    other,
+                             const Tensor<1, dim> &force) {
+          const unsigned int body = points.points()[other].body;
+          ForceBetween<dim> &sum =
+            sums
+              .emplace(std::make_pair(k, body),
+                       ForceBetween<dim>{
+                         k, points.points()[k].body, body, {}, 0., now[k].x})
+              .first->second;
+          sum.force += force;
+          sum.normal += normal;
+        };
+        add(pair.b, pair.c, t);
+        add(pair.c, pair.b, -t);
       }
     std::vector<ForceBetween<dim>> list;
     for (const auto &[key, sum] : sums)
-      list.push_back({key.first,
-                      points.points()[key.first].body,
-                      key.second,
-                      sum.touches,
-                      sum.force,
-                      now[key.first].x,
-                      now[key.first].a * now[key.first].n});
+      list.push_back(sum);
     return list;
   }
 

@@ -333,7 +333,7 @@ namespace Morula
           if (!is_new)
             {
               sum->second.force += one.force;
-              sum->second.touches |= one.touches;
+              sum->second.normal += one.normal;
             }
         }
     std::vector<ForceBetween<dim>> result;

@@ -40,11 +40,6 @@ namespace Morula
   class ContactPairs : public PairTerm
   {
   public:
-    /** Points are in contact up to this gap, in grid spacings: facets of two
-     *  surfaces do not match, so that within a contact some have a little gap.
-     */
-    static constexpr double reach = 0.005;
-
     /** Freezes the configuration at t. Keeps a reference to the points. */
     ContactPairs(const ContactPoints<dim> &points, const ContactLaw &law);
 

@@ -138,7 +138,7 @@ namespace Morula
 
   /**
    * The forces of pairs on this rank's boundary points, also of pairs of other
-   * ranks: one for each point and body that touches it, or all but does, in the
+   * ranks: one for each point and body that touches it, in the
    * order of the store; p is the position there. Collective.
    * @param of_pairs on points with these numbers in @p points
    */

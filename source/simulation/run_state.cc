@@ -15,6 +15,22 @@
 
 namespace Morula
 {
+  namespace
+  {
+    /** The most steps before a longer one is tried again. */
+    constexpr unsigned int most_patience = 32;
+
+    /** The drag that tissue is first held back with, and at most: it resists a
+     *  motion by h with a stress of a tenth of E, or a hundred times E. */
+    constexpr double first_drag = 1e3, strongest_drag = 1e6;
+
+    /** How much stronger it becomes at a time, or weaker. */
+    constexpr double change_of_drag = 4.;
+
+    /** Steps that are held back are Step/4 or shorter. In longer ones tissue
+     *  would grow far under the drag, which then chooses how it folds. */
+    constexpr unsigned int level_of_drag = 2;
+  } // namespace
 
 
   template <int dim>
@@ -71,7 +87,10 @@ namespace Morula
               0,
               0,
               state.past,
-              state.anew};
+              state.anew,
+              state.patience,
+              state.good,
+              state.drag};
   }
 
   void
@@ -93,7 +112,7 @@ namespace Morula
                                     1.;
     constexpr double hysteresis = 2.; // this is √2 in the length
     double           error      = mu / (ratio * ratio);
-    if (!anew && state_.level > 0 && state_.part % 2 == 0 &&
+    if (!anew && state_.level > 0 && state_.part % 2 == 0 && may_grow() &&
         4. * hysteresis * error <= parameters.tolerance)
       {
         state_.part /= 2;
@@ -119,15 +138,48 @@ namespace Morula
   }
 
   void
-  TimeSteps::accept(const bool is_slow)
+  TimeSteps::learn()
+  {
+    // A step that fails several times is one failure.
+    if (state_.good > 0)
+      state_.patience = std::min(2 * state_.patience, most_patience);
+    state_.good = 0;
+  }
+
+  bool
+  TimeSteps::hold_back(const bool is_too_long)
+  {
+    if (state_.drag >= strongest_drag)
+      return false;
+    learn();
+    if (!is_too_long || state_.level >= level_of_drag || !can_halve())
+      state_.drag =
+        state_.drag == 1. ? first_drag : change_of_drag * state_.drag;
+    while (state_.level < level_of_drag && can_halve())
+      halve();
+    return true;
+  }
+
+  void
+  TimeSteps::accept()
   {
     // Three things can follow a step. Its interval is done: the next one
     // begins, with steps as long as before if Tolerance chooses them, else with
     // Step. Or two halves are done, and the next step is twice as long again.
     // Or the next step is as long as this one. With Tolerance adapt() decides,
-    // and not this function. Slow steps stay short.
+    // and not this function. Longer steps are not tried before as many have
+    // succeeded as failures have taught. When three times as many have, they
+    // have taught half as much. A drag goes first, little by little.
     state_.past = time();
     ++state_.part;
+    if (++state_.good >= 3 * state_.patience && state_.patience > 1)
+      {
+        state_.patience /= 2;
+        state_.good = state_.patience;
+      }
+    const bool grows = parameters.tolerance <= 0. && may_grow();
+    if (state_.good >= state_.patience)
+      state_.drag = std::max(1., state_.drag / change_of_drag);
     if (state_.part == 1u << state_.level)
       {
         // An interval that End time has cut is not finished: a resumed run with
@@ -137,11 +189,10 @@ namespace Morula
           ++state_.interval;
         state_.begin = end;
         state_.part  = 0;
-        if (parameters.tolerance <= 0. && !is_slow)
+        if (grows)
           state_.level = 0;
       }
-    else if (parameters.tolerance <= 0. && !is_slow && state_.level > 0 &&
-             state_.part % 2 == 0)
+    else if (grows && state_.level > 0 && state_.part % 2 == 0)
       {
         state_.part /= 2;
         --state_.level;
@@ -175,6 +226,11 @@ namespace Morula
                             {"step_level", double(time_steps.level)},
                             {"last_step_begin", time_steps.past},
                             {"step_anew", double(time_steps.anew)}};
+    if (time_steps.patience > 1)
+      {
+        data.numbers["step_patience"] = time_steps.patience;
+        data.numbers["good_steps"]    = time_steps.good;
+      }
     if (state.error.total() > 0. || state.error.flow > 0.)
       {
         data.numbers["missed_flow"]      = state.error.flow;
@@ -186,8 +242,8 @@ namespace Morula
     data.numbers.insert(state.kept.begin(), state.kept.end());
     if (state.enclosed_share)
       data.numbers["enclosed_share"] = *state.enclosed_share;
-    if (state.drag > 1.)
-      data.numbers["drag"] = state.drag;
+    if (time_steps.drag > 1.)
+      data.numbers["drag"] = time_steps.drag;
     if (state.surface_way > 0.)
       data.numbers["surface_way"] = state.surface_way;
     if (!state.walls.empty())
@@ -242,19 +298,22 @@ namespace Morula
   TimeSteps::State
   saved_time_steps(const SnapshotData<dim> &data)
   {
+    // What snapshots of older versions do not have is as at t = 0; without the
+    // last step's begin, the first step compares nothing with the step before.
+    const auto optional = [&](const std::string &name, const double otherwise) {
+      return data.numbers.count(name) > 0 ? data.number(name) : otherwise;
+    };
     return {data.time,
             data.number("step_length"),
             static_cast<unsigned int>(data.number("step_interval")),
             data.number("step_begin"),
             static_cast<unsigned int>(data.number("step_part")),
             static_cast<unsigned int>(data.number("step_level")),
-            // Snapshots of older versions do not have this. Without it the
-            // first step compares nothing with the step before.
-            data.numbers.count("last_step_begin") > 0 ?
-              data.number("last_step_begin") :
-              data.time,
-            data.numbers.count("step_anew") > 0 &&
-              data.number("step_anew") != 0.};
+            optional("last_step_begin", data.time),
+            optional("step_anew", 0.) != 0.,
+            static_cast<unsigned int>(optional("step_patience", 1.)),
+            static_cast<unsigned int>(optional("good_steps", 1.)),
+            optional("drag", 1.)};
   }
 
 
@@ -283,8 +342,6 @@ namespace Morula
       state.surface_way = data.number("surface_way");
     if (data.tables.count("walls") > 0)
       state.walls = data.table("walls");
-    if (data.numbers.count("drag") > 0)
-      state.drag = data.number("drag");
     if (data.numbers.count("step_error") > 0)
       state.error = {data.number("missed_flow"),
                      data.number("step_error"),

@@ -133,10 +133,7 @@ namespace Morula
                         const typename StepEquilibrium<dim>::Solution &solution)
   {
     const DisplacementField<dim> displacement(space, solution.u, comm);
-    const bool                   is_slow = run_state.drag > 1.;
     warn_of_turn(displacement);
-    if (is_slow)
-      let_go(tissue, displacement, run_state.drag);
     // commit() empties growth_of_step and sets the missed flow of this step, so
     // the error of the step before is read here.
     const double mu = error_of_step(growth_of_step.missed_growth);
@@ -155,7 +152,7 @@ namespace Morula
         pull_back_detached_points(tissue);
       }
     row.dt = time_steps.next() - time_steps.time();
-    time_steps.accept(is_slow);
+    time_steps.accept();
   }
 
 
@@ -216,6 +213,19 @@ namespace Morula
     // around (doc/theory.md, section 2.4).
     return tissue.splines(model.material.volumetric_form() !=
                           VolumetricStrain::pointwise);
+  }
+
+  template <int dim>
+  double
+  Simulation<dim>::friction_over_stiffness() const
+  {
+    const double t       = time_steps.time();
+    double       largest = 0.;
+    for (const auto &force : model.forces)
+      for (const double zeta :
+           force.effect->friction(tissue, model.development.reader(t), t))
+        largest = std::max(largest, zeta);
+    return Utilities::MPI::max(largest, comm) / typical_stiffness;
   }
 
   template <int dim>
@@ -281,10 +291,8 @@ namespace Morula
               ++row.rejected_steps;
               ++run_state.n_rejected;
               ++newton_report.place.attempt;
-              // However short it is, a step through a snap moves the tissue
-              // far. So where folds have contact it is held back.
-              if (time_steps.state().level >= most_plain_halves &&
-                  tissue.cells().has_parts() && hold_back(run_state.drag))
+              if (tissue.cells().has_parts() &&
+                  time_steps.hold_back(failure.is_too_long))
                 continue;
               if (!time_steps.reject())
                 give_up_step(failure.what());
@@ -323,7 +331,7 @@ namespace Morula
                               run_state.kept,
                               time_steps.can_halve() &&
                                 time_steps.state().level < most_plain_halves,
-                              run_state.drag},
+                              time_steps.state().drag},
                              newton_report,
                              condition);
   }

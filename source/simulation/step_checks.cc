@@ -108,14 +108,6 @@ namespace Morula
 
   namespace
   {
-    /** The drag that tissue is first held back with, and at most: it resists a
-     *  motion by h with a stress of about E, or a hundred times that. */
-    constexpr double first_drag = 1e4, strongest_drag = 1e6;
-
-    /** How much stronger it is after a step that has failed, and weaker after
-     *  one in which cells move by less than the short way, in units of h. */
-    constexpr double stronger = 2., weaker = 0.3, short_way = 0.1;
-
     /** The cosine of the largest turn of tissue, 36°: two points that did not
      *  face each other, whose normals' product was above -0.3, do not look at
      *  each other straight after both have turned by less. */
@@ -136,31 +128,6 @@ namespace Morula
       return dim == 2 ? 0.5 * trace : 0.5 * (trace - 1.);
     }
   } // namespace
-
-
-  bool
-  hold_back(double &drag)
-  {
-    if (drag >= strongest_drag)
-      return false;
-    drag = drag == 1. ? first_drag : std::min(strongest_drag, stronger * drag);
-    return true;
-  }
-
-
-  template <int dim>
-  void
-  let_go(const Tissue<dim>            &tissue,
-         const DisplacementField<dim> &displacement,
-         double                       &drag)
-  {
-    double longest = 0.;
-    for (const Tensor<1, dim> &way : displacement.values_at(tissue.cells()))
-      longest = std::max(longest, way.norm());
-    if (Utilities::MPI::max(longest, tissue.communicator()) <=
-        short_way * tissue.grid().box().spacing())
-      drag = std::max(1., weaker * drag);
-  }
 
 
   template <int dim>
@@ -207,8 +174,19 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(let_go);
+  template <int dim>
+  void
+  check_turn(const Tissue<dim>            &tissue,
+             const DisplacementField<dim> &displacement)
+  {
+    if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
+      throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
+                       "so that the step is too long for its contact");
+  }
+
+
   MORULA_INSTANTIATE(turns_too_far);
+  MORULA_INSTANTIATE(check_turn);
 
 
   namespace

@@ -17,26 +17,6 @@
 
 namespace Morula
 {
-  namespace
-  {
-    /** Makes the extremes of the states from number @p begin on those of all
-     *  ranks. Collective. */
-    template <int dim>
-    void
-    share_extremes(const MomentumBalance<dim> &balance,
-                   const std::size_t           begin,
-                   NewtonReport               &report)
-    {
-      // An evaluation has the extremes of its rank only, as Newton's method
-      // needs no others. The states of the trace get those of all ranks here,
-      // when the iterations are over.
-      for (std::size_t i = begin; i < report.trace.size(); ++i)
-        report.trace[i].evaluation.smallest_J =
-          balance.smallest_J(report.trace[i].evaluation);
-    }
-  } // namespace
-
-
   /** The work of a StepEquilibrium. */
   template <int dim>
   class StepEquilibrium<dim>::Work
@@ -54,6 +34,7 @@ namespace Morula
       , space(space)
       , timer(timer)
       , comm(comm)
+      , supports(supports)
       , rigid_modes(space, masses(), supports, comm)
       , encounters(encounters)
     {}
@@ -133,10 +114,6 @@ namespace Morula
       const DisplacementField<dim> displacement(space, solution.u, comm);
       if (encounters != nullptr && !encounters->any())
         encounters->check(displacement);
-      if (tissue.cells().has_parts() && turns_too_far(tissue, displacement))
-        throw StepFailed(
-          "a strand of the tissue turns by more than 36 degrees, "
-          "so that the step is too long for its contact");
       report.proximal_paths += attempt.drag > 1.;
       read_out(of_parts, list, parts, solution);
       if (model.boundary_conditions.has_dirichlet())
@@ -207,30 +184,43 @@ namespace Morula
           part->begin(balance, u);
           participants.push_back(part.get());
         }
-      const std::size_t n_traced = report.trace.size();
+      // States of the trace get the extremes of all ranks in the end, as
+      // Newton's method needs none.
+      const std::size_t n_traced       = report.trace.size();
+      const auto        share_extremes = [&]() {
+        for (std::size_t i = n_traced; i < report.trace.size(); ++i)
+          report.trace[i].evaluation.smallest_J =
+            balance.smallest_J(report.trace[i].evaluation);
+      };
+      bool is_solved = false;
       try
         {
           const Equilibrium::Evaluation evaluation = balance_in_turns(
             balance,
             participants,
             [&]() {
-              return find_in_turn(
+              is_solved                           = false;
+              const Equilibrium::Evaluation found = find_in_turn(
                 attempt, parts.is_exact, balance, linear, u, report);
+              check_turn(tissue, DisplacementField<dim>(space, u, comm));
+              is_solved = true;
+              return found;
             },
             u,
             report);
-          share_extremes(balance, n_traced, report);
+          share_extremes();
           return evaluation;
         }
       catch (const StepFailed &failure)
         {
-          share_extremes(balance, n_traced, report);
+          share_extremes();
           // The failed state is evaluated once more: its energy and smallest
           // J_e are signs of what went wrong.
           Equilibrium::Vector R(u);
           report.failed_at            = balance.residual(u, R);
           report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
-          throw StepFailed(failure.what() + (". " + balance.describe(u)));
+          throw StepFailed(failure.what() + (". " + balance.describe(u)),
+                           is_solved);
         }
     }
 
@@ -257,10 +247,19 @@ namespace Morula
       if (report.place.turn > 1 && !is_exact)
         scales.small_force =
           std::max(scales.small_force, report.first_residual);
+      // Where folds have contact, a turn of many iterations fails, as held back
+      // it is easier; and forces need to be known to half a per cent only.
+      SolverParameters parameters = model.scene.solver;
+      if (tissue.cells().has_parts())
+        {
+          scales.length *= 100.;
+          parameters.newton_iterations =
+            std::min(50u, parameters.newton_iterations.value());
+        }
       try
         {
           return Morula::solve(
-            balance, linear, scales, model.scene.solver, timer, u, report);
+            balance, linear, scales, parameters, timer, u, report);
         }
       catch (const StepFailed &)
         {
@@ -316,13 +315,17 @@ namespace Morula
     std::vector<Equilibrium::Vector>
     inertia() const
     {
-      // Obstacles and other bodies may hold motions that no support is known of
-      // before the step. With them nothing is projected out, and the weak drag
-      // (4.8f) decides instead of (4.10).
-      if (!rigid_modes.any() || model.boundary_conditions.has_pushing() ||
-          may_meet())
+      // Obstacles may hold motions that no support is known of before the step.
+      // With them nothing is projected out, and the weak drag (4.8f) decides
+      // instead of (4.10). Other bodies may hold all motions but those that
+      // all bodies make together, doc/theory.md (4.10a). Those have to be held:
+      // with frozen normals a common rotation has a negative stiffness.
+      if (!rigid_modes.any() || model.boundary_conditions.has_pushing())
         return {};
       const TimerOutput::Scope section(timer, "rigid motion");
+      if (may_meet())
+        return RigidModes<dim>(space, masses(), supports, comm, true)
+          .inertia(masses());
       return rigid_modes.inertia(masses());
     }
 
@@ -458,6 +461,7 @@ namespace Morula
     const SplineSpace<dim> &space;
     TimerOutput            &timer;
     const MPI_Comm          comm;
+    const Supports         &supports;
     const RigidModes<dim>   rigid_modes;
 
     const Encounters<dim> *const encounters;

@@ -55,7 +55,10 @@ namespace Morula
     ++report.proximal_paths;
     Equilibrium::Vector R(u);
     if (!std::isfinite(problem.residual(u, R).energy))
-      throw StepFailed("there is no state to start a proximal path from");
+      throw StepFailed(
+        "where the step begins, the growth, loads and held places "
+        "of its end invert a cell or a boundary point, so that "
+        "there is no energy to start from");
     // The residual at the start is the force that the path has to work off: a
     // part counts as solved relative to it.
     remove_parts(R, linear_problem.null_space);

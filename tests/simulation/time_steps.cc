@@ -62,7 +62,7 @@ TEST(TimeSteps, EndTimeCutsTheLast)
     // 3 * 0.1 > 0.3: no fourth step of rounding's length.
     TimeSteps steps(times(0.3, 0.1));
     EXPECT_EQ(all_ends(steps).size(), 3u);
-    EXPECT_EQ(steps.time(), 0.3);
+    EXPECT_EQ(steps.time(), 3 * 0.1);
   }
   {
     TimeSteps steps(times(0.02, 0.05));
@@ -88,23 +88,79 @@ TEST(TimeSteps, ARejectedStepIsHalvedAndCoarsenedOneLevelAtATime)
   EXPECT_EQ(steps.next(), 1.5); // the second quarter
   EXPECT_TRUE(steps.reject());
   EXPECT_EQ(steps.next(), 1.375);
-  // Eighths, then quarters: no step is more than twice as long as the last.
-  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.375, 1.5, 1.75, 2., 3.}));
+  // Four eighths, as this is the second failure, then quarters: no step is more
+  // than twice as long as the last.
+  EXPECT_EQ(all_ends(steps),
+            (std::vector<double>{1.375, 1.5, 1.625, 1.75, 2., 3.}));
 }
 
 
-TEST(TimeSteps, SlowStepsStayShort)
+/** Steps that succeed until the next one is as long as @p length. */
+unsigned int
+steps_until(TimeSteps &steps, const double length)
 {
-  TimeSteps steps(times(3., 1., 0.1));
-  EXPECT_TRUE(steps.reject());
-  EXPECT_TRUE(steps.reject()); // [0, 0.25]
-  for (unsigned int i = 1; i <= 6; ++i)
+  unsigned int n = 0;
+  for (; n < 1000 && steps.next() - steps.time() < length; ++n)
+    steps.accept();
+  return n;
+}
+
+
+TEST(TimeSteps, LearnWhenALongerStepIsWorthATry)
+{
+  // Each failure doubles the wait, up to 32 steps; in halves of a step the
+  // longer one comes at a multiple of two.
+  TimeSteps steps(times(1000., 1.));
+  for (const unsigned int wait : {2, 4, 8, 16, 32, 32})
     {
-      steps.accept(true);
-      EXPECT_EQ(steps.time(), 0.25 * i);
-      EXPECT_EQ(steps.next(), 0.25 * (i + 1)); // also in the next interval
+      EXPECT_TRUE(steps.reject());
+      EXPECT_EQ(steps_until(steps, 1.), wait);
     }
-  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.75, 2., 3.}));
+  // Another failure of the same step teaches nothing.
+  EXPECT_TRUE(steps.reject());
+  EXPECT_TRUE(steps.reject());
+  EXPECT_EQ(steps.state().patience, 32u);
+  // What has been learned is forgotten again, and outlives a run.
+  for (unsigned int i = 0; i < 96; ++i)
+    steps.accept();
+  EXPECT_EQ(steps.state().patience, 16u);
+  TimeSteps again(times(1000., 1.));
+  again.restore(steps.state());
+  EXPECT_EQ(steps.next() - steps.time(), 1.);
+  EXPECT_TRUE(steps.reject());
+  EXPECT_TRUE(again.reject());
+  EXPECT_EQ(steps_until(steps, 1.), 32u);
+  EXPECT_EQ(steps_until(again, 1.), 32u);
+}
+
+
+TEST(TimeSteps, HeldBackStepsStayShort)
+{
+  // The drag goes first, by a quarter a step after two steps; then steps become
+  // longer.
+  TimeSteps steps(times(4., 1., 0.1));
+  EXPECT_TRUE(steps.hold_back(false)); // [0, 0.25]
+  std::vector<double> drags;
+  while (steps.state().drag > 1.)
+    {
+      EXPECT_EQ(steps.next() - steps.time(), 0.25); // also in later intervals
+      drags.push_back(steps.state().drag);
+      steps.accept();
+    }
+  EXPECT_EQ(drags,
+            (std::vector<double>{1000., 1000., 250., 62.5, 15.625, 3.90625}));
+  EXPECT_EQ(all_ends(steps), (std::vector<double>{1.75, 2., 3., 4.}));
+  // A step that has gone too far is made shorter before it is held back.
+  TimeSteps far(times(4., 1., 0.1));
+  EXPECT_TRUE(far.hold_back(true));
+  EXPECT_EQ(far.next(), 0.25);
+  EXPECT_EQ(far.state().drag, 1.);
+  EXPECT_TRUE(far.hold_back(true));
+  EXPECT_EQ(far.state().drag, 1000.);
+  // At last only halving is left.
+  while (far.hold_back(true))
+    EXPECT_LT(far.state().drag, 1e7);
+  EXPECT_EQ(far.next(), 0.25);
 }
 
 
@@ -159,9 +215,10 @@ TEST(TimeSteps, ALaterEndTimeContinuesTheMultiples)
   EXPECT_EQ(again.time(), 0.13);
   expect_times(all_ends(again), {0.15, 0.2, 0.21});
 
-  // Exactly at a multiple.
+  // At a multiple, which is that of the longer run to the bit.
   TimeSteps whole(times(0.3, 0.1));
   all_ends(whole);
+  EXPECT_EQ(whole.time(), 3 * 0.1);
   TimeSteps longer(times(0.5, 0.1));
   longer.restore(whole.state());
   expect_times(all_ends(longer), {0.4, 0.5});

@@ -5,6 +5,7 @@
 #define morula_base_step_failed_h
 
 #include <stdexcept>
+#include <string>
 
 namespace Morula
 {
@@ -17,7 +18,14 @@ namespace Morula
   class StepFailed : public std::runtime_error
   {
   public:
-    using std::runtime_error::runtime_error;
+    /** @param is_too_long whether it has been solved, and goes too far */
+    explicit StepFailed(const std::string &reason,
+                        const bool         is_too_long = false)
+      : std::runtime_error(reason)
+      , is_too_long(is_too_long)
+    {}
+
+    const bool is_too_long;
   };
 } // namespace Morula
 

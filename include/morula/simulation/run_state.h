@@ -62,9 +62,11 @@ namespace Morula
   /**
    * The time steps. Each step ends at a multiple of Step; the last one ends at
    * End time. A rejected step is halved inside its interval. After two halves
-   * the next step is twice as long again. With Tolerance steps are Step/2^k, as
-   * long as adapt() finds: doc/theory.md, section 5.11. Times are computed as
-   * multiples and never as sums, so that they do not drift.
+   * the next step is twice as long again; where longer steps go on failing,
+   * after more of them, up to 32, as failed ones cost most. With Tolerance
+   * steps are Step/2^k, as long as adapt() finds: doc/theory.md, section 5.11.
+   * Times are computed as multiples and never as sums, so that they do not
+   * drift.
    */
   class TimeSteps
   {
@@ -74,14 +76,17 @@ namespace Morula
     /** The place of the run in the sequence of steps, for a snapshot. */
     struct State
     {
-      double       time;         // present time, day
-      double       step;         // Step, day
-      unsigned int interval;     // the interval ends at (interval + 1) Step
-      double       begin;        // of the interval, day
-      unsigned int part;         // steps of this level that are done
-      unsigned int level;        // the interval is cut into 2^level steps
-      double       past = 0.;    // when the last step began, day
-      bool         anew = false; // the next step does not follow that one
+      double       time;             // present time, day
+      double       step;             // Step, day
+      unsigned int interval;         // the interval ends at (interval + 1) Step
+      double       begin;            // of the interval, day
+      unsigned int part;             // steps of this level that are done
+      unsigned int level;            // the interval is cut into 2^level steps
+      double       past     = 0.;    // when the last step began, day
+      bool         anew     = false; // the next step does not follow that one
+      unsigned int patience = 1;     // steps before a longer one is tried
+      unsigned int good     = 1;     // steps since one has failed
+      double       drag     = 1.;    // that holds the tissue back: hold_back()
     };
 
     State
@@ -132,10 +137,9 @@ namespace Morula
       return time() >= parameters.end_time - time_slack * parameters.step;
     }
 
-    /** Records that the step has succeeded. @param is_slow whether the next one
-     *  shall be no longer */
+    /** Records that the step has succeeded. */
     void
-    accept(const bool is_slow = false);
+    accept();
 
     /** Whether half the next step is at least Smallest step. */
     bool
@@ -157,17 +161,44 @@ namespace Morula
     {
       if (!can_halve())
         return false;
+      learn();
       halve();
       return true;
     }
 
+    /**
+     * Records that a step has failed in which folds have contact. A fold that
+     * snaps moves far however short the step is, and surfaces that were far
+     * apart may meet on the way: doc/theory.md, section 4.3a. So the next steps
+     * are short, and a drag holds the tissue back in them. It is given in units
+     * of the weak drag of contact, and is 1 in all other steps.
+     * @param is_too_long whether the step has only gone too far, so that it is
+     *        made shorter without a drag, if it can be
+     * @return whether the tissue can be held back more than it was
+     */
+    bool
+    hold_back(const bool is_too_long);
+
   private:
+    /** Takes a failure into account. */
+    void
+    learn();
+
+    /** Whether a longer step may be tried. */
+    bool
+    may_grow() const
+    {
+      return state_.good >= state_.patience && state_.drag == 1.;
+    }
+
     double
     end_of_interval() const
     {
-      // A last step within rounding of End time would be too short to solve.
+      // A last step within rounding of End time would be too short to solve. A
+      // multiple of Step within rounding of End time stays what it is in a
+      // longer run, so that a resumed run has the same bits.
       const double end = (state_.interval + 1) * parameters.step;
-      return end > parameters.end_time - time_slack * parameters.step ?
+      return end > parameters.end_time + time_slack * parameters.step ?
                parameters.end_time :
                end;
     }
@@ -214,8 +245,6 @@ namespace Morula
     /** How far the surface has moved at most since it was made from the cells,
      *  µm. */
     double surface_way = 0.;
-    /** The drag of tissue that goes slowly: slow_steps.h. */
-    double drag = 1.;
     /** The estimated error of the steps so far. */
     ErrorInTime error = {};
   };

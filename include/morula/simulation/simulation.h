@@ -99,6 +99,11 @@ namespace Morula
     double
     mixed_share();
 
+    /** The largest friction ζ of cells over the typical stiffness, day/µm², for
+     *  --explain. Collective. */
+    double
+    friction_over_stiffness() const;
+
   private:
     Simulation(const Scene &scene, const MPI_Comm comm);
     void

@@ -44,24 +44,6 @@ namespace Morula
                       const GridBox<dim>            &box,
                       const MPI_Comm                 comm);
 
-  // Where folds have contact a snap has to be gone through in several steps, as
-  // surfaces which were far apart at t meet on the way: doc/theory.md, section
-  // 4.3a. In these steps a drag holds the tissue back. It is given in units of
-  // the weak drag of contact, and is 1 in all other steps.
-
-  /** Makes the drag stronger, after a step has failed. Returns whether that is
-   *  possible. */
-  bool
-  hold_back(double &drag);
-
-  /** Makes the drag weaker after a step in which no cell has moved by more than
-   *  a small part of the grid spacing. Collective. */
-  template <int dim>
-  void
-  let_go(const Tissue<dim>            &tissue,
-         const DisplacementField<dim> &displacement,
-         double                       &drag);
-
   /** Whether a strand of tissue turns so far in a step, by 36°, that its
    *  surface may have passed through one which it did not face at t.
    *  Collective. */
@@ -69,6 +51,13 @@ namespace Morula
   bool
   turns_too_far(const Tissue<dim>            &tissue,
                 const DisplacementField<dim> &displacement);
+
+  /** Refuses a step in which contact of folds does not see what meets: no
+   *  further turn makes it better. Collective. @throws StepFailed */
+  template <int dim>
+  void
+  check_turn(const Tissue<dim>            &tissue,
+             const DisplacementField<dim> &displacement);
 
   /** What is known of a step that no attempt has solved. */
   struct FailedStep

@@ -21,13 +21,17 @@ namespace Morula
     struct GroupAfter
     {
       unsigned int number, part; // of the grid cell in the grid's box
-      unsigned int phase     = 0;
-      double       J_e       = 1.;
-      double       smoothing = 1.;
-      double       volume    = 0.; // µm^dim
+      unsigned int phase  = 0;
+      double       J_e    = 1.;
+      double       volume = 0.; // µm^dim
       /** ρ(ξ) of the pool, as 1 and ξ - ξ̄ have parts in it. */
       std::array<double, dim + 1> growth = {};
       Point<dim>                  centre = {};
+      /** The mean place of the pool's points in the grid cell, the smoothed J_e
+       *  there, and its slope. */
+      Point<dim>     middle   = {};
+      double         smoothed = 1.;
+      Tensor<1, dim> slope    = {};
       /** The part of the exchange of volume within the pool that takes place.
        */
       double exchanged = 1.;
@@ -138,6 +142,8 @@ namespace Morula
         return std::exp(theta[g]);
       };
       after.growth[0] = 1.;
+      for (unsigned int p = pool.first; p < pool.last; ++p)
+        after.middle += points.xi[p] / double(pool.last - pool.first);
       if (!points.previous.empty())
         {
           fit_growth(points, pool, J_e, after);
@@ -266,37 +272,92 @@ namespace Morula
         return groups[k];
       }
 
-      /** J_e of each group becomes the mean with those of its phase around, by
-       *  ¼, ½, ¼ in each direction and by volume: doc/theory.md (2.10). */
+      /** A weighted mean of J_e, and of the place in grid cells. */
+      struct Mean
+      {
+        double     J_e = 0., weights = 0.;
+        Point<dim> place = {};
+      };
+
+      /** Calls visit(i, w) for the groups of the phase of @p k around it, with
+       *  their weights by ¼, ½, ¼ in each direction and by volume. */
+      template <typename Visit>
+      void
+      for_like_groups(const unsigned int    k,
+                      const GridIndex<dim> &center,
+                      const Visit          &visit) const
+      {
+        occupancy.window().for_neighbors(
+          center,
+          1,
+          [&](const unsigned int other, const GridIndex<dim> &index) {
+            double weight = 1.;
+            for (unsigned int d = 0; d < dim; ++d)
+              weight *= index[d] == center[d] ? 0.5 : 0.25;
+            for (unsigned int i = offsets[other]; i < offsets[other + 1]; ++i)
+              if (groups[i].phase == groups[k].phase)
+                visit(i, weight * groups[i].volume, index);
+          });
+      }
+
+      /** Finds the smoothed J_e, the mean with the groups of its phase around,
+       * and its slope: doc/theory.md (2.10). */
       void
       smooth()
       {
         // What is left of pressure at rest alternates from grid cell to grid
-        // cell, as such stripes push nobody. Parts of a grid cell that folds
-        // part further stay as they are.
+        // cell, as such stripes push nobody. Beside a surface the mean is that
+        // of a place further inside, so that the slope of the means around
+        // brings it back; and cells are beside the middle of their grid cell.
+        // Parts of a grid cell that folds part further stay as
+        // they are.
         const GridWindow<dim> &window = occupancy.window();
-        for (unsigned int number = 0; number < window.size(); ++number)
-          for (unsigned int k = offsets[number]; k < offsets[number + 1]; ++k)
-            {
-              const GridIndex<dim> center = window.index(number);
-              double               sum = 0., weights = 0.;
-              window.for_neighbors(
-                center,
-                1,
-                [&](const unsigned int other, const GridIndex<dim> &index) {
-                  double weight = 1.;
-                  for (unsigned int d = 0; d < dim; ++d)
-                    weight *= index[d] == center[d] ? 2. : 1.;
-                  for (unsigned int i = offsets[other]; i < offsets[other + 1];
-                       ++i)
-                    if (groups[i].phase == groups[k].phase)
-                      {
-                        sum += weight * groups[i].volume * groups[i].J_e;
-                        weights += weight * groups[i].volume;
-                      }
-                });
-              groups[k].smoothing = sum / weights / groups[k].J_e;
-            }
+        std::vector<Mean>      means(groups.size());
+        const auto             place = [this](const unsigned int    i,
+                                  const GridIndex<dim> &index) {
+          Point<dim> x = groups[i].middle;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] += index[d];
+          return x;
+        };
+        const auto for_all = [&](const auto &visit) {
+          for (unsigned int number = 0; number < window.size(); ++number)
+            for (unsigned int k = offsets[number]; k < offsets[number + 1]; ++k)
+              visit(k, window.index(number));
+        };
+        for_all([&](const unsigned int k, const GridIndex<dim> &center) {
+          Mean &mean = means[k];
+          for_like_groups(k,
+                          center,
+                          [&](const unsigned int    i,
+                              const double          w,
+                              const GridIndex<dim> &index) {
+                            mean.J_e += w * groups[i].J_e;
+                            mean.place += w * place(i, index);
+                            mean.weights += w;
+                          });
+          mean.J_e /= mean.weights;
+          mean.place /= mean.weights;
+        });
+        for_all([&](const unsigned int k, const GridIndex<dim> &center) {
+          // The small term is for directions in which there is no neighbour.
+          constexpr double     none    = 1e-3;
+          const Tensor<1, dim> to_self = place(k, center) - means[k].place;
+          Tensor<2, dim>       moments;
+          Tensor<1, dim>       right;
+          for_like_groups(
+            k,
+            center,
+            [&](const unsigned int i, const double w, const GridIndex<dim> &) {
+              const Tensor<1, dim> d = means[i].place - means[k].place;
+              moments += w * outer_product(d, d);
+              right += w * (means[i].J_e - means[k].J_e) * d;
+            });
+          for (unsigned int d = 0; d < dim; ++d)
+            moments[d][d] += none * means[k].weights;
+          groups[k].slope    = invert(moments) * right;
+          groups[k].smoothed = means[k].J_e + groups[k].slope * to_self;
+        });
       }
 
       const Occupancy<dim>        &occupancy;
@@ -359,7 +420,8 @@ namespace Morula
               const double           det_f,
               const double           part) {
             volumes[p].J_e += part * group.J_e;
-            smoothed += part * group.J_e * group.smoothing;
+            smoothed +=
+              part * (group.smoothed + group.slope * (xi - group.middle));
             volumes[p].carried +=
               part *
               (c * det_f + group.exchanged * group.J_e *

@@ -166,9 +166,10 @@ namespace Morula
     CrowdedCells<dim>::find_pairs()
     {
       // Most cells have no patch near them, so that patches look for cells.
-      // They are sorted by id, as the motion of a cell depends on their order.
-      // Each pair is listed once. A place where folds touch is looked at from
-      // both of them, so that patches are known as far as pairs reach there.
+      // The motion of a cell depends on their order, so that the nearest come
+      // first: ids would tell a surface from its mirror image. Each pair is
+      // listed once. A place where folds touch is looked at from both of them,
+      // so that patches are known as far as pairs reach there.
       const bool           has_folds = tissue.cells().has_parts();
       const GridBox<dim>   box       = box_around(x, pair_reach * width);
       const PointBins<dim> bins(box, x);
@@ -184,10 +185,18 @@ namespace Morula
                                 near_patches[p].push_back(b);
                             });
         }
-      for (auto &list : near_patches)
-        std::sort(list.begin(), list.end(), [&](const auto a, const auto b) {
-          return patches.ids[a] < patches.ids[b];
-        });
+      const auto by_distance_from = [this](const Point<dim> &from) {
+        return [this, from](const unsigned int a, const unsigned int b) {
+          const double to_a = from.distance_square(patches.positions[a]),
+                       to_b = from.distance_square(patches.positions[b]);
+          return std::tie(to_a, patches.ids[a]) <
+                 std::tie(to_b, patches.ids[b]);
+        };
+      };
+      for (unsigned int p = 0; p < n_own; ++p)
+        std::sort(near_patches[p].begin(),
+                  near_patches[p].end(),
+                  by_distance_from(x[p]));
       for (unsigned int p = 0; p < n_own; ++p)
         bins.visit_within(
           x[p], 0.5 * pair_reach * (l[p] + width), [&](const unsigned int q) {

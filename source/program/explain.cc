@@ -277,6 +277,27 @@ namespace Morula
              "finer grid, or make them bodies with a section Contact.\n"});
     }
 
+    /** In what time a layer folds that friction holds back: doc/theory.md
+     * (4.7c).
+     *  @param zeta over the stiffness, day/µm^2 @param h grid spacing, µm */
+    void
+    add_fold_time(EffectRows &rows, const double zeta, const double h)
+    {
+      constexpr double waves = 10.; // thicknesses
+      const double     H = 2. * h, wavelength = waves * H,
+                   time = 12. * zeta *
+                          std::pow(wavelength / (2. * numbers::PI), 4) /
+                          (H * H);
+      for (EffectRow &row : rows)
+        if (row.name == "friction" && zeta > 0.)
+          row.further +=
+            "    a layer of " + as_text(H) +
+            " um, two grid spacings, folds in " + as_text(time) +
+            " day at a wavelength of " + as_text(wavelength) +
+            " um, and in 16 times that at twice the wavelength; where growth "
+            "brings it to its fold in less, friction chooses the wavelength\n";
+    }
+
     template <int dim>
     Explanation<dim>
     explanation_of(const Scene &scene, const MPI_Comm comm)
@@ -309,6 +330,9 @@ namespace Morula
       add_bodies(result.effects, model, tissue, comm);
       if (scene.material.volumetric_form() == VolumetricStrain::pooled)
         add_pools(result.effects, simulation.mixed_share());
+      add_fold_time(result.effects,
+                    simulation.friction_over_stiffness(),
+                    scene.grid.spacing);
       std::string pieces;
       for (const std::string &text : tissue.pieces)
         pieces += "    " + text + '\n';

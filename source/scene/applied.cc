@@ -181,6 +181,17 @@ namespace Morula
 
 
   std::string
+  method_text(const Scene &scene)
+  {
+    std::string but;
+    for (const AnyKey *key : scene.list())
+      if (!key->texts_by_method().empty() && !key->is_default())
+        but += (but.empty() ? ", but for " : ", ") + key->path() + " = " +
+               key->text();
+    return scene.method.value() + but;
+  }
+
+  std::string
   material_text(const Scene &scene)
   {
     const MaterialParameters &material = scene.material;

@@ -89,13 +89,14 @@ namespace Morula
 
   Scene::Scene(const Catalogue &catalogue)
     : SceneKeys(catalogue)
-    , method("Method",
-             "consistent",
-             "Defaults of the keys that say 'With Method'; those that "
-             "the scene sets keep their values. consistent: held points "
-             "whose energy has a lower bound, much more exact beside the "
-             "edge of a fixed surface. paper: the paper's.",
-             {"paper|consistent"})
+    , method(
+        "Method",
+        "consistent",
+        "Defaults of the keys that say 'With Method'; those that the scene "
+        "sets keep their values. consistent: the most exact for tissue "
+        "that grows, divides and is held, as --explain lists them. paper: "
+        "the paper's.",
+        {"paper|consistent"})
     , output_directory(
         "Output directory",
         "",
@@ -273,9 +274,7 @@ namespace Morula
           }
       }
     for (AnyKey *key : scene.list())
-      for (const auto &[method, text] : key->texts_by_method())
-        if (scene.method == method && !scene.has_set(*key))
-          key->assign(text);
+      key->take_default_of(scene.method, scene.has_set(*key));
     scene.apply_types();
     scene.file = file;
     find_files(scene);

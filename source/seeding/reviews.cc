@@ -91,19 +91,15 @@ namespace Morula
     const double      L     = cell_length(founders, comm);
     const std::string path  = grid.spacing.path();
     const std::string value = as_text(h) + " um";
-    if (h < (3. - rounding) * L)
-      review.warn(
-        path,
-        value,
-        "that is " + as_text(h / L) + " cells of " + as_text(L) + " um; " +
-          (h < (2. - rounding) * L ?
-             "below 2 energies are wrong by up to 10 %, and compressed "
-             "tissue goes unstable (doc/hard-cases.md, classification)." :
-             "fewer than 3 roughen the surface and spoil the energy, and "
-             "one run in eight of proliferating tissue has failed "
-             "(doc/accuracy-and-cost.md, advice)."),
-        "Choose 4 to 7 cells per grid spacing: raise Grid/Spacing, or "
-        "lower Tissue/Cell spacing.");
+    if (h * grid.points_per_cell < (2.5 - rounding) * L)
+      review.warn(path,
+                  value,
+                  "that is " + as_text(h / L) + " cells of " + as_text(L) +
+                    " um; below 2.5 energies are wrong by 4 to 10 %, and "
+                    "compressed tissue crumples (doc/hard-cases.md, "
+                    "classification).",
+                  "Choose 3 or more cells per grid spacing: raise "
+                  "Grid/Spacing, or lower Tissue/Cell spacing.");
 
     const double thickness = smallest_extent(tissue, founders, surface, comm);
     if (thickness < (1. - rounding) * h)

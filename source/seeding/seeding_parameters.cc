@@ -21,6 +21,8 @@ namespace Morula
 {
   TissueParameters::TissueParameters()
   {
+    surface_cells.with("paper", "whole");
+    refine_surface.with("paper", "false");
     surface.with("paper", "tracked");
     redistribution.with("paper", "false");
     // These keys name files, which are looked for beside the scene as well.
@@ -159,11 +161,6 @@ namespace Morula
         tissue.boundary_points.refuse(
           "0, as Tissue/Points surface = none",
           "Set Boundary points = 0, or Points surface = "
-          "automatic.");
-      if (tissue.has_no_surface() && tissue.refine_surface)
-        tissue.refine_surface.refuse(
-          "false, as Tissue/Points surface = none",
-          "Set Refine surface = false, or Points surface = "
           "automatic.");
       if (tissue.closed_gap != 2.)
         tissue.closed_gap.refuse("2",

@@ -129,19 +129,17 @@ namespace Morula
       // (doc/theory.md, section 2.1).
       const auto        &place = row.lengths.place;
       std::ostringstream text;
-      text << "Warning: from t = " << row.time << " day on, fewer than "
-           << CellLengths::fewest
-           << " cells fill Grid/Spacing = " << grid_spacing
-           << " um where the tissue is stretched: " << row.lengths.n_too_long
-           << (row.lengths.n_too_long == 1 ? " cell is" : " cells are")
-           << " too long, the longest, at (" << place[0] << ' ' << place[1];
+      text << "Warning: from t = " << row.time << " day on, "
+           << row.lengths.n_too_long << " of " << row.cells
+           << " cells are longer than half of Grid/Spacing = " << grid_spacing
+           << " um, the longest, at (" << place[0] << ' ' << place[1];
       if (dim == 3)
         text << ' ' << place[2];
       text
         << ") um, " << grid_spacing / row.lengths.min_cells_per_spacing
-        << " um. Do not rely on positions and stresses there, and if it gets "
-           "worse the run may fail. Start anew with a smaller Tissue/Cell "
-           "spacing or a larger Grid/Spacing"
+        << " um. Stresses there may be a tenth too low, and if it gets worse "
+           "the run may fail; other cells are hardly affected. Start anew with "
+           "a smaller Tissue/Cell spacing or a larger Grid/Spacing"
         << (grows_undivided ? ", or with cells that divide when they have "
                               "grown: Division by size/Volume" :
                               "")
@@ -189,7 +187,7 @@ namespace Morula
         if (!row.is_internal)
           {
             sum += row.force;
-            magnitude += row.force.norm();
+            magnitude += std::max(row.force.norm(), std::abs(row.inward));
           }
       if (!(sum.norm() > std::max(least, largest_rest * magnitude)))
         return {};
@@ -275,7 +273,7 @@ namespace Morula
         told_of_path = true;
         files->message(path_message(time_steps.time()));
       }
-    if (row.lengths.n_too_long > 0 && !warned_of_long_cells)
+    if (row.has_long_cells() && !warned_of_long_cells)
       {
         warned_of_long_cells = true;
         files->message(long_cells_warning<dim>(row,

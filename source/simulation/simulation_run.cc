@@ -159,7 +159,8 @@ namespace Morula
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
     births   = std::move(points.births);
-    warnings = {"Material: " + material_text(model.scene)};
+    warnings = {"Method: " + method_text(model.scene),
+                "Material: " + material_text(model.scene)};
     for (const auto &[name, text] : seeded.applied)
       warnings.push_back("Applied: " + name + " at " + text);
     if (!seeded.bodies.empty())
@@ -324,7 +325,7 @@ namespace Morula
       watches.look_at_conditions(tissue, time_steps.time());
     // What holds at the beginning already needs no message from a step on: the
     // user was told of it before the run, or by the run before.
-    warned_of_long_cells = row.lengths.n_too_long > 0;
+    warned_of_long_cells = row.has_long_cells();
     warned_of_misfit     = surface_misfits();
   }
 

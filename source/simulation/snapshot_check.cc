@@ -27,6 +27,15 @@ namespace Morula
         paths.insert(key->path());
       for (const AnyKey *key : scene.output.list())
         paths.insert(key->path());
+      // What is off stays off, as the key that switches it on is compared.
+      for (const EffectKeys *const keys : scene.effect_keys())
+        if (const AnyKey *const on = keys->facts().switch_key; !keys->is_on())
+          for (const AnyKey *key : keys->list())
+            if (key != on)
+              paths.insert(key->path());
+      if (!scene.cells_divide())
+        for (const AnyKey *key : scene.division.list())
+          paths.insert(key->path());
       return paths;
     }
 
@@ -48,12 +57,14 @@ namespace Morula
   check_resumable(const Scene &scene, const std::string &parameters)
   {
     // Both scenes become maps from key to value. The program that wrote the
-    // snapshot may not have had a key yet. Then the key's default counts, as
-    // the default of a new key is what was done before. Keys that are gone are
+    // snapshot may not have had a key yet. Then its default with the paper's
+    // method counts, which is what was done before. Keys that are gone are
     // looked for first: they have no value to be compared with.
-    auto before = values(parameters, "the snapshot's scene");
-    before.merge(
-      values(scene.with_defaults().parameters(), "the default scene"));
+    auto  before  = values(parameters, "the snapshot's scene");
+    Scene without = scene.with_defaults();
+    for (AnyKey *const key : without.list())
+      key->take_default_of("paper");
+    before.merge(values(without.parameters(), "the default scene"));
     const auto now = values(scene.parameters(), "the scene");
     for (const auto &[path, value] : before)
       if (now.count(path) == 0)

@@ -95,7 +95,7 @@ namespace Step2
     scene.output_directory += "/" + std::to_string(std::lround(refinement));
     scene.grid.spacing /= refinement;
     scene.tissue.cell_spacing /= refinement;
-    scene.tissue.surface_cells                      = "trimmed";
+    scene.material.volumetric_strain                = "pointwise";
     scene.keys<FixedParameters>().where             = "1";
     scene.keys<FixedParameters>().displacement      = displacement.str();
     scene.keys<BodyForceParameters>().force_density = force.str();

@@ -16,6 +16,10 @@ TESTS = Path(__file__).resolve().parents[1]
 ROOT = TESTS.parent
 SCENES = TESTS / "scenes"
 
+# Closed forms per initial volume, and balances of the stress at each point.
+POINTWISE = {"Material/Energy per": "initial volume", "Material/Volumetric strain": "pointwise"}
+WHOLE = {**POINTWISE, "Tissue/Surface cells": "whole", "Tissue/Refine surface": "false"}
+
 
 def without_wall_time(run):
     """The rows of a run's statistics.csv without the column that differs from

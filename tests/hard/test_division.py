@@ -113,7 +113,8 @@ def test_surface(case):
     stand where the tissue is: half a cell beyond its surface, which is where a
     founder's own half ends."""
     trial = run(case, "surface", {
-        "Tissue/Shape": "sphere", "Tissue/Center": "0, 0, 0", "Tissue/Radius": "32"})
+        "Tissue/Shape": "sphere", "Tissue/Center": "0, 0, 0", "Tissue/Radius": "32",
+        "Tissue/Surface cells": "whole"})
     judge_uniform(case, "surface", trial)
     r = families(trial)[1].reshape(-1, 3)
     r = r - r.mean(axis=0)

@@ -33,6 +33,10 @@ subsection Grid
   set Spacing = 50
   set Offset = 3, 5
 end
+subsection Material
+  set Energy per        = initial volume
+  set Volumetric strain = pointwise
+end
 subsection Growth
   set Law = isotropic
   subsection Isotropic

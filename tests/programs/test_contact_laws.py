@@ -14,7 +14,7 @@ from tests.verification import pressed_ball
 
 FIXED, MOVES = "Boundary conditions/Fixed where", "Boundary conditions/Displacement"
 BALLS = {"Time/End time": 9, "Time/Step": 1, "Tissue/Shape": "mesh", "Tissue/Cell spacing": 5,
-         "Tissue/Surface cells": "trimmed", "Tissue/Boundary points": 6000, "Grid/Spacing": 10,
+         "Tissue/Boundary points": 6000, "Grid/Spacing": 10,
          "Grid/Offset": "3, 7, 4", "Contact/Between": "bodies", "Material/Young's modulus": 1,
          "Material/Poisson's ratio": 0.4, "Obstacles/Names": "upper, lower",
          "Obstacles/upper/Shape": "plane", "Obstacles/upper/Center": "0, 0, 122.5",

@@ -42,7 +42,7 @@ DEFAULTS = {"Dimension": "3", "Output directory": "", "Random seed": "1", "Time/
             "Tissue/Boundary points": "0", "Grid/Spacing": "50", "Grid/Offset": "0, 0, 0",
             "Grid/Occupation parameter": "0.85", "Grid/Extension": "true",
             "Material/Young's modulus": "1.0", "Material/Poisson's ratio": "0.4",
-            "Material/Energy per": "initial volume", "Growth/Law": "none",
+            "Material/Energy per": "grown volume", "Growth/Law": "none",
             "Growth/Isotropic/Stretch": "1", "Proliferation/Law": "none",
             "Proliferation/Cell cycle/Start": "waiting", "Proliferation/Cell cycle/Duration": "1",
             "Proliferation/Cell cycle/G0 exit rate": "1",

@@ -10,7 +10,7 @@ from tests.common.program import TESTS
 EXAMPLES = TESTS.parent / "prm/examples"
 DISC = {"Dimension": 2, "Time/End time": 1, "Time/Step": 0.125, "Tissue/Shape": "sphere",
         "Tissue/Radius": 60, "Tissue/Cell spacing": 10, "Grid/Spacing": 30,
-        "Material/Energy per": "grown volume", "Output/Formats": "csv", "Output/Interval": 0.25}
+        "Output/Formats": "csv", "Output/Interval": 0.25}
 DIVIDING = {"Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/Duration": 0.5,
             "Proliferation/Cell cycle/G0 exit rate": 4}
 DYING = {"Death/Rate": 1.5, "Death/Shrinking time": 0.25}
@@ -137,7 +137,7 @@ def test_with_obstacles_and_coarsening(runs):
     under little stress: what was left of its dead neighbours has stretched
     it beside them. Its surface is closed where they were."""
     run = runs.run("plate", DISC, {
-        "Tissue/Shape": "box", "Tissue/Size": "120, 60", "Tissue/Refine surface": "true",
+        "Tissue/Shape": "box", "Tissue/Size": "120, 60",
         "Material/Relaxation time": 0.05, "Obstacles/Names": "plate",
         "Obstacles/plate/Shape": "plane", "Obstacles/plate/Center": "0, -29.5, 0",
         "Obstacles/plate/Normal": "0, 1, 0", "Time/End time": 1.5,

@@ -6,14 +6,14 @@ import numpy
 from scipy.spatial import KDTree
 from scipy.stats import chisquare
 
-from tests.common.program import TESTS
+from tests.common.program import TESTS, WHOLE
 from tests.verification.material import lame
 
 CYCLE = "Proliferation/Cell cycle/"
 AXIS = CYCLE + "Division axis"
 TOGETHER = {"Time/End time": 0.5, "Time/Step": 0.5, "Proliferation/Law": "cell cycle",
             CYCLE + "Start": "together", "Output/Formats": "csv", "Output/Interval": 0}
-BALL = {**TOGETHER, "Tissue/Radius": 60, "Tissue/Center": "100, 0, 0", "Tissue/Cell spacing": 10,
+BALL = {**TOGETHER, **WHOLE, "Tissue/Radius": 60, "Tissue/Center": "100, 0, 0", "Tissue/Cell spacing": 10,
         "Grid/Spacing": 50, "Boundary conditions/Fixed where": 1}
 SLAB = {"Dimension": 2, "Method": "paper", "Time/End time": 1.1, "Time/Step": 0.1,
         "Tissue/Shape": "box", "Tissue/Size": "160, 80", "Tissue/Cell spacing": 5,

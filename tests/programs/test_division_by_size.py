@@ -8,10 +8,10 @@ from tests.common.program import TESTS
 
 SCENE = TESTS.parent / "prm/examples/elongating-axis.prm"
 SHORT = {"Time/End time": 1.2, "Time/Step": 0.1, "Output/Formats": "csv", "Output/Interval": 0}
-TOO_LONG = "fewer than 2 cells fill Grid/Spacing"
+TOO_LONG = "cells are longer than half of Grid/Spacing"
 PLATE = {"Time/End time": 1, "Time/Step": 0.25, "Tissue/Shape": "box", "Tissue/Size": "60, 60, 30",
          "Tissue/Cell spacing": 10, "Grid/Spacing": 30, "Grid/Points per cell": 2,
-         "Material/Energy per": "grown volume", "Material/Relaxation time": 0.1,
+         "Material/Relaxation time": 0.1,
          "Growth/Law": "rate", "Growth/Rate/Rate": "normal(1, 0.1)", "Growth/Rate/Share along": 0,
          "Growth/Rate/Direction": "0; 0; 1", "Division by size/Volume": 1440,
          "Division by size/Noise": 0.1, "Output/Formats": "none"}

@@ -9,9 +9,9 @@ from scipy.spatial import cKDTree
 
 from tests.common.program import assert_same_file
 
-SCENE = {"Time/End time": 1.5, "Time/Step": 0.05, "Tissue/Refine surface": "true",
-         "Material/Relaxation time": 0.05, "Material/Energy per": "grown volume",
-         "Material/Volumetric strain": "pooled", "Cell types/Names": "A, B",
+SCENE = {"Time/End time": 1.5, "Time/Step": 0.05,
+         "Material/Relaxation time": 0.05,
+         "Cell types/Names": "A, B",
          "Cell types/A/Tension/With surface": 2, "Cell types/B/Where": "X > 0",
          "Rearrangement/Diffusion": 100, "Output/Formats": "csv", "Output/Interval": 0.5}
 SIZES = {2: {"Dimension": 2, "Tissue/Radius": 70, "Tissue/Cell spacing": 5,

@@ -9,8 +9,8 @@ from scipy.spatial import Voronoi
 EDGE = 120  # of a half, um
 SCENE = {"Dimension": 2, "Time/End time": 12, "Time/Step": 0.1, "Tissue/Shape": "points",
          "Tissue/Points file": "cells.csv", "Tissue/Points surface": "outline.wkt",
-         "Grid/Spacing": 30, "Material/Energy per": "grown volume",
-         "Material/Volumetric strain": "pooled", "Boundary conditions/Slip where": 1,
+         "Grid/Spacing": 30,
+         "Boundary conditions/Slip where": 1,
          "Cell types/Names": "small, large", "Rearrangement/Diffusion": 100,
          "Output/Formats": "csv", "Output/Interval": 0}
 

@@ -27,7 +27,7 @@ DYING = {"Time/End time": 0.9, "Time/Step": 0.1, "Tissue/Radius": 50,
          "Cell types/stem/Where": "X > 0", "Cell types/stem/Transitions/To other": 1,
          "Proliferation/Cell cycle/Duration": 0.25,
          "Proliferation/Cell cycle/G0 exit rate": 10, "Death/Rate": 0.8,
-         "Death/Shrinking time": 0.2, "Material/Energy per": "grown volume",
+         "Death/Shrinking time": 0.2,
          "Boundary conditions/Fixed where": "Y < -40", "Output/Formats": "csv",
          "Output/Interval": 0.3}
 

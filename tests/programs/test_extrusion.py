@@ -7,15 +7,13 @@ import pytest
 
 BOX = {"Dimension": 2, "Time/End time": 4, "Time/Step": 0.1, "Tissue/Shape": "box",
        "Tissue/Size": "320, 320", "Tissue/Cell spacing": 8, "Grid/Spacing": 32,
-       "Material/Energy per": "grown volume", "Material/Volumetric strain": "pooled",
        "Material/Relaxation time": 0.1, "Growth/Law": "rate", "Growth/Rate/Rate": 0.5,
        "Division by size/Volume": 92, "Division by size/Noise": 0.2,
        "Extrusion/Rate": "max(0, pressure)", "Boundary conditions/Slip where": 1,
        "Output/Formats": "csv", "Output/Interval": 0.5}
 RIM = {"Time/End time": 2, "Tissue/Shape": "sphere", "Tissue/Radius": 100,
-       "Tissue/Surface cells": "trimmed", "Tissue/Refine surface": "true",
-       "Tissue/Coarsen surface": "true", "Material/Energy per": "grown volume",
-       "Material/Volumetric strain": "pooled", "Material/Relaxation time": 0.05,
+       "Tissue/Coarsen surface": "true",
+       "Material/Relaxation time": 0.05,
        "Growth/Law": "rate", "Output/Formats": "none"}
 
 

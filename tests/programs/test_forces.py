@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 PLATES = {"Dimension": 2, "Time/End time": 1, "Time/Step": 0.25, "Tissue/Shape": "box",
           "Tissue/Size": "100, 100", "Tissue/Cell spacing": 5, "Grid/Spacing": 20,
-          "Material/Poisson's ratio": 0.3, "Material/Energy per": "grown volume",
+          "Material/Poisson's ratio": 0.3,
           "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.2*t",
           "Boundary conditions/Slip where": "abs(Y) > 49.9", "Output/Formats": "csv",
           "Output/Interval": 0.5}
@@ -75,7 +75,7 @@ def test_loads_and_reactions_balance(runs, keys, has_moments):
 
 def test_refined_surface(runs):
     """Patches that are split share their force."""
-    run = runs.run("refined", PLATES, {"Tissue/Refine surface": "true", "Time/End time": 1.5,
+    run = runs.run("refined", PLATES, {"Time/End time": 1.5,
                                        "Tissue/Boundary points": 40})
     for number, inward in enumerate(run.forces["force_inward"]):
         surface = run.surface(number + 1)

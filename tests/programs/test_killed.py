@@ -24,7 +24,7 @@ SCENE = TESTS / "programs/small-cube.prm"
 STEP, INTERVAL = 1 / 32, 1 / 8
 FINE = {"Time/Step": STEP, "Output/Snapshot interval": INTERVAL}
 SEED = 20261
-DYING = {"Material/Energy per": "grown volume", "Death/Rate": "oxygen > 0.3",
+DYING = {"Death/Rate": "oxygen > 0.3",
          "Death/Shrinking time": 0.2, "Fields/Names": "oxygen",
          "Fields/oxygen/Time": "transient", "Fields/oxygen/Diffusion": 2e4,
          "Fields/oxygen/Consumption": 20, "Fields/oxygen/Initial": 1,

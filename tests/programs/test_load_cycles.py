@@ -7,7 +7,7 @@ import numpy
 CYCLES = 5
 SCENE = {"Dimension": 2, "Time/End time": CYCLES, "Tissue/Shape": "box",
          "Tissue/Size": "200, 100", "Tissue/Center": "0, 50", "Tissue/Cell spacing": 10,
-         "Grid/Spacing": 37, "Grid/Offset": "3, 5",
+         "Grid/Spacing": 37, "Grid/Offset": "3, 5", "Material/Volumetric strain": "pointwise",
          "Boundary conditions/Fixed where": "Y < 1 || Y > 99",
          "Boundary conditions/Displacement": f"if(Y > 50, 20*sin(2*{numpy.pi!r}*t), 0); 0",
          "Output/Interval": 1, "Output/Formats": "csv"}

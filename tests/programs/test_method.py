@@ -12,12 +12,21 @@ from tests.common.program import assert_same_run, without_wall_time
 
 FORM = "Boundary conditions/Nitsche form"
 PENALTY = "Boundary conditions/Nitsche penalty"
-CONSISTENT, PAPER = {FORM: "bounded", PENALTY: "20"}, {FORM: "symmetric", PENALTY: "1000"}
+CONSISTENT = {FORM: "bounded", PENALTY: "20", "Tissue/Surface cells": "trimmed",
+              "Tissue/Refine surface": "true", "Material/Energy per": "grown volume",
+              "Material/Volumetric strain": "pooled"}
+PAPER = {FORM: "symmetric", PENALTY: "1000", "Tissue/Surface cells": "whole",
+         "Tissue/Refine surface": "false", "Material/Energy per": "initial volume",
+         "Material/Volumetric strain": "pointwise"}
 DISC = {"Dimension": "2", "Time/End time": "2", "Time/Step": "1", "Tissue/Radius": "100",
         "Tissue/Cell spacing": "10", "Grid/Spacing": "40", "Growth/Law": "isotropic",
         "Growth/Isotropic/Stretch": "1 + 0.1*t", "Boundary conditions/Fixed where": "Y <= 0",
         "Output/Interval": "0", "Output/Formats": "csv"}
 HALF = {"Time/End time": "1"}
+
+
+def first_line(run):
+    return (run.directory / "log.txt").read_text().splitlines()[0]
 
 
 @pytest.fixture(scope="module")
@@ -62,6 +71,14 @@ def test_explain_lists_its_keys(runs):
     text = runs.explain(DISC, {"Method": "consistent", PENALTY: "35"})
     assert f"    {PENALTY} = 35 (set by the scene)\n" in text
     assert f"    {FORM} = bounded\n" in text
+
+
+def test_the_first_line_says_what_differs(runs, discs):
+    run = runs.run("but", DISC, {PENALTY: "35", "Material/Energy per": "initial volume", **HALF})
+    assert first_line(run) == (f"Method: consistent, but for Material/Energy per = "
+                                       f"initial volume, {PENALTY} = 35")
+    for name in ("paper", "consistent", "spelt"):
+        assert first_line(discs[name]) == "Method: " + name.replace("spelt", "consistent")
 
 
 @pytest.mark.parametrize("chosen", [

@@ -5,9 +5,8 @@ and of mixtures, at any step."""
 import numpy
 import pytest
 
-BALL = {"Dimension": 2, "Tissue/Shape": "sphere", "Tissue/Surface cells": "trimmed",
-        "Tissue/Refine surface": "true", "Material/Volumetric strain": "pooled",
-        "Material/Energy per": "grown volume", "Growth/Law": "rate",
+BALL = {"Dimension": 2, "Tissue/Shape": "sphere",
+        "Growth/Law": "rate",
         "Cell types/Names": "soft, hard", "Output/Formats": "csv"}
 HARD = "Cell types/hard/Material/Young's modulus"
 CAPSULE = {**BALL, "Time/End time": 2, "Tissue/Radius": 80, "Tissue/Cell spacing": 2,

@@ -45,7 +45,7 @@ def test_bodies_near_each_other(runs):
 def test_hole_that_closes(runs, offset):
     run = runs.run("hole", {
         "Dimension": 2, "Time/End time": 0.9, "Time/Step": 0.025, "Tissue/Radius": 200,
-        "Tissue/Inner radius": 80, "Tissue/Cell spacing": 4, "Tissue/Surface cells": "trimmed",
+        "Tissue/Inner radius": 80, "Tissue/Cell spacing": 4,
         "Grid/Spacing": 20, "Grid/Offset": offset, "Material/Poisson's ratio": 0.3,
         WHERE + "Fixed where": "X^2 + Y^2 > 190^2",
         WHERE + "Surface tension where": "X^2 + Y^2 < 90^2", WHERE + "Surface tension": "100*t",
@@ -135,9 +135,9 @@ def test_axes_along_a_gradient_at_the_start(runs, field):
 def test_drop_keeps_its_surface(runs, offset):
     run = runs.run("drop", {
         "Dimension": 2, "Time/End time": 5, "Time/Step": 0.05, "Tissue/Shape": "ellipsoid",
-        "Tissue/Size": "240, 120", "Tissue/Cell spacing": 5, "Tissue/Refine surface": "true",
+        "Tissue/Size": "240, 120", "Tissue/Cell spacing": 5,
         "Grid/Spacing": 20, "Grid/Offset": offset, "Material/Relaxation time": 0.1,
-        "Material/Volumetric strain": "pooled", WHERE + "Surface tension": 6,
+        WHERE + "Surface tension": 6,
         "Output/Formats": "none"})
     share = run.statistics["enclosed_volume"] / run.statistics["total_volume"]
     np.testing.assert_allclose(share / share[0], 1, atol=0.02)

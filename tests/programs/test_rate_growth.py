@@ -12,7 +12,7 @@ from tests.verification.material import lame
 
 EXAMPLES = TESTS.parent / "prm/examples"
 BOX = {"Tissue/Shape": "box", "Tissue/Center": "0, 0, 20", "Tissue/Size": "40, 40, 40",
-       "Tissue/Cell spacing": 10, "Grid/Spacing": 20, "Material/Energy per": "grown volume",
+       "Tissue/Cell spacing": 10, "Grid/Spacing": 20,
        "Growth/Law": "rate", "Solver/Newton tolerance": 1e-10, "Output/Formats": "csv"}
 HELD = {"Boundary conditions/Fixed where": 1}
 WALLS = {"Boundary conditions/Slip where": "Z < 39"}

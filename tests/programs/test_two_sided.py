@@ -7,7 +7,7 @@ from tests.common.program import assert_same_run
 
 BASE = "Obstacles/base/"
 BLOCK = {"Dimension": 2, "Time/End time": 0.6, "Time/Step": 0.1, "Tissue/Shape": "box",
-         "Tissue/Size": "80, 60", "Tissue/Cell spacing": 5, "Tissue/Refine surface": "true",
+         "Tissue/Size": "80, 60", "Tissue/Cell spacing": 5,
          "Grid/Spacing": 15, "Grid/Offset": "3, 5, 7", "Obstacles/Names": "base",
          BASE + "Shape": "plane", BASE + "Center": "0, -30", BASE + "Normal": "0, 1",
          BASE + "Two-sided": "true", "Output/Formats": "csv", "Output/Interval": 0.1}
@@ -54,7 +54,7 @@ def test_a_one_sided_one_lets_go(runs):
 def test_it_is_resumed(runs):
     keys = {"Time/Step": 0.125, "Time/End time": 0.75, "Output/Interval": 0.125,
             "Growth/Law": "rate", "Growth/Rate/Rate": "0.5*(x > 0)", "Death/Rate": "0.3*(y > 0)",
-            "Material/Energy per": "grown volume", "Material/Relaxation time": 0.1}
+            "Material/Relaxation time": 0.1}
     assert_same_run(runs.run("whole", PULLED, keys),
                     runs.resumed("resumed", PULLED, keys, 0.375))
 
@@ -70,8 +70,7 @@ def test_cells_behind_a_wall(runs):
     run = runs.run("behind", {
         "Dimension": 2, "Time/End time": 2, "Time/Step": 0.1, "Tissue/Shape": "box",
         "Tissue/Size": "80, 80", "Tissue/Cell spacing": 8, "Grid/Spacing": 24,
-        "Tissue/Refine surface": "true", "Tissue/Coarsen surface": "true",
-        "Material/Energy per": "grown volume", "Material/Volumetric strain": "pooled",
+        "Tissue/Coarsen surface": "true",
         "Growth/Law": "rate", "Growth/Rate/Rate": 0.7, "Division by size/Volume": 90,
         "Boundary conditions/Fixed where": "Y < -39.9",
         "Boundary conditions/Slip where": "abs(X) > 39.9", "Output/Formats": "csv"}, code=2)

@@ -9,14 +9,13 @@ SPACING = 55.0  # um
 RADIUS, WIDTH = 300.0, 60.0  # um
 GROWTH, LOSS = 0.4, 0.15  # 1/day
 SCENE = {"Dimension": 2, "Time/End time": 6, "Time/Step": 0.125, "Tissue/Shape": "sphere",
-         "Tissue/Radius": RADIUS, "Tissue/Cell spacing": 18, "Tissue/Surface cells": "trimmed",
-         "Tissue/Refine surface": "true", "Tissue/Coarsen surface": "true",
+         "Tissue/Radius": RADIUS, "Tissue/Cell spacing": 18,
+         "Tissue/Coarsen surface": "true",
          "Grid/Spacing": SPACING, "Growth/Law": "rate",
          "Growth/Rate/Rate": f"if(present_depth < {WIDTH}, {GROWTH}, -{LOSS})",
          "Division by size/Volume": 324, "Division by size/Noise": 0.2,
          "Death/When": "volume < 32", "Death/Shrinking time": 1,
          "Boundary conditions/Surface tension": 2, "Material/Poisson's ratio": 0.48,
-         "Material/Energy per": "grown volume", "Material/Volumetric strain": "pooled",
          "Material/Relaxation time": 0.1, "Output/Formats": "none"}
 
 

@@ -61,9 +61,12 @@ TEST(SceneWarnings, OfCellsPerGridSpacing)
   Scene scene        = good_scene();
   scene.grid.spacing = 30.;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.grid.spacing = 25.;
-  expect_warning(scene, "2.5 cells of 10 um");
-  scene.grid.spacing = 15.;
+  scene.grid.spacing = 24.;
+  expect_warning(scene, "2.4 cells of 10 um");
+  scene.grid.points_per_cell = 2;
+  EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.grid.points_per_cell = 1;
+  scene.grid.spacing         = 15.;
   expect_warning(scene, "1.5 cells");
 }
 
@@ -167,6 +170,7 @@ TEST(SceneWarnings, OfBoundaryPointsFarApart)
 {
   Scene scene                  = good_scene();
   scene.tissue.boundary_points = 96; // 4 x 4 a face: 25 um apart
+  scene.tissue.refine_surface  = false;
   EXPECT_TRUE(warnings_of<3>(scene).empty());
   set_condition(scene, "Slip where", "X < -49");
   expect_warning(scene, "25 um apart");
@@ -225,18 +229,19 @@ TEST(SceneWarnings, OfTheMaterial)
 {
   Scene scene                   = good_scene();
   scene.material.poissons_ratio = 0.49;
-  expect_warning(scene, "Material/Poisson's ratio = '0.49'");
-  scene.material.volumetric_strain = "pooled";
   EXPECT_TRUE(warnings_of<3>(scene).empty());
+  scene.material.volumetric_strain = "pointwise";
+  expect_warning(scene, "Material/Poisson's ratio = '0.49'");
 }
 
 
 TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
 {
   // 20 (1 - nu) / ((1 + nu) (1 - 2 nu)) = 42.857 at nu = 0.4
-  Scene scene           = good_scene();
-  scene.nitsche.form    = "symmetric";
-  scene.nitsche.penalty = 42.;
+  Scene scene                      = good_scene();
+  scene.material.volumetric_strain = "pointwise";
+  scene.nitsche.form               = "symmetric";
+  scene.nitsche.penalty            = 42.;
   EXPECT_TRUE(warnings_of<3>(scene).empty()); // the default's value: not chosen
   scene.as_written["Boundary conditions/Nitsche penalty"] = "42";
   expect_warning(scene, "42.8571 E/h");

@@ -5,6 +5,7 @@ drift, and friction with a medium."""
 import numpy
 import pytest
 
+from tests.common.program import POINTWISE, WHOLE
 from tests.common.results import (agree, initial_positions, positions, read_csv,
                                   stresses)
 
@@ -86,13 +87,12 @@ def balance(results, support, tolerance):
 
 
 BALL = {"Tissue/Radius": 60, "Tissue/Cell spacing": 10, "Grid/Spacing": 35,
-        "Grid/Offset": "4, 9, 15"}
+        "Grid/Offset": "4, 9, 15", "Material/Volumetric strain": "pointwise"}
 GRADED = {"Growth/Law": "isotropic", "Growth/Isotropic/Stretch":
           "1 + 0.2*t*((X/60)^2 + (Y/60 - 0.3)^2 + Z/60)"}
 BALANCED = {
     "free-disc": ({"keys": {
-        **BALL, "Dimension": 2, "Tissue/Radius": 100, "Grid/Offset": "4, 9",
-        "Material/Energy per": "grown volume", **GRADED, "Growth/Isotropic/Stretch":
+        **BALL, "Dimension": 2, "Tissue/Radius": 100, "Grid/Offset": "4, 9", **GRADED, "Growth/Isotropic/Stretch":
             "1 + 0.2*t*((X/100)^2 + (Y/100 - 0.3)^2 + X/100)"}}, "free", 1e-8),
     "free-sphere": ({"keys": {**BALL, **GRADED, "Time/Step": 0.5}}, "free", 1e-8),
     # Up to the small part of the pressure that the surface's points leave
@@ -158,7 +158,7 @@ def test_friction_of_a_column(scene):
         "Tissue/Cell spacing": 5, "Grid/Spacing": 20,
         "Boundary conditions/Slip where": "Y < 199", "Material/Poisson's ratio": 0,
         "Body force/Force density": f"0; -{weight}; 0",
-        "Friction/Coefficient": friction, "Output/Interval": 1})
+        "Friction/Coefficient": friction, "Output/Interval": 1, **POINTWISE})
     lame_lambda, mu = results.lame()
     k = (numpy.arange(200)[:, None] + 0.5) * numpy.pi / length
     rate = (lame_lambda + 2 * mu) * k**2 / friction
@@ -181,7 +181,7 @@ def test_surface_ahead(scene):
     ones, which is extrapolated as well, does not count (else the run fails)."""
     h = 40
     results = scene({
-        "Dimension": 2, "Tissue/Shape": "ellipsoid", "Tissue/Size": "400, 22",
+        **WHOLE, "Dimension": 2, "Tissue/Shape": "ellipsoid", "Tissue/Size": "400, 22",
         "Tissue/Cell spacing": 20, "Tissue/Boundary points": 200, "Grid/Spacing": h,
         "Grid/Offset": "3.3, 8.1", "Growth/Law": "isotropic",
         "Growth/Isotropic/Stretch": "1 + 0.3*t*sin(X/30)",

@@ -49,8 +49,8 @@ def test_exchange_shear(scene):
 h = 12.5  # grid spacing, um
 LIQUID = {"Dimension": 2, "Time/Step": 0.05, "Tissue/Radius": 100,
           "Tissue/Cell spacing": 5, "Grid/Spacing": h, "Grid/Offset": "3, 7",
-          "Material/Relaxation time": 0.05, "Material/Energy per": "grown volume",
-          "Material/Volumetric strain": "pooled", "Solver/Newton tolerance": 1e-6}
+          "Material/Relaxation time": 0.05,
+          "Solver/Newton tolerance": 1e-6}
 DROP = {**LIQUID, "Cell types/Names": "around, drop",
         "Cell types/drop/Tension/With around": 1, "Boundary conditions/Slip where": 1}
 
@@ -138,7 +138,7 @@ def test_angle_between_types(scene):
     have the angle 180 - arccos(gamma_i / (2 gamma)) degrees where the three meet
     (Neumann), and keep it."""
     results = scene({
-        **LIQUID, "Time/End time": 8, "Tissue/Refine surface": "true",
+        **LIQUID, "Time/End time": 8,
         "Tissue/Coarsen surface": "true", "Cell types/Names": "left, right",
         "Cell types/left/Tension/With surface": 3, "Cell types/right/Where": "X > 0",
         "Cell types/right/Tension/With left": 3,

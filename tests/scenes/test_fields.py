@@ -14,7 +14,7 @@ ONCE = {"Time/End time": 0.1, "Time/Step": 0.1, "Solver/Newton tolerance": 1e-6}
 def ball(name, radius, spacing, points, h, **field):
     """A ball with one field, as keys; those of the field without its name."""
     return {**ONCE, "Tissue/Shape": "sphere", "Tissue/Radius": radius,
-            "Tissue/Cell spacing": spacing, "Tissue/Surface cells": "trimmed",
+            "Tissue/Cell spacing": spacing,
             "Tissue/Boundary points": points, "Grid/Spacing": h, "Fields/Names": name,
             **{f"Fields/{name}/{key}": value for key, value in field.items()}}
 
@@ -125,6 +125,7 @@ def test_tiny(scene):
     up, so that the field is the value everywhere."""
     results = scene({
         **ONCE, "Tissue/Radius": 10, "Tissue/Cell spacing": 2, "Grid/Spacing": 250,
+        "Tissue/Surface cells": "whole",
         "Fields/Names": "oxygen", "Fields/oxygen/Diffusion": 1e8,
         "Fields/oxygen/Consumption": 1, "Fields/oxygen/Fixed where": 1,
         "Fields/oxygen/Value": 160, "Fields/oxygen/Initial": 10})

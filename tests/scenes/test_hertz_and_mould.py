@@ -58,7 +58,7 @@ def test_hertz(scene):
 def test_mould(scene):
     """Growth of a ball of radius R in a rigid sphere of radius R_c: F = f I, free
     (f = theta) up to theta = R_c/R. Then the pressure
-    p = -(mu (f^2/theta^2 - 1) + lambda ln J_e)/f^3, per initial volume, is that of the
+    p = -(mu (f^2/theta^2 - 1) + lambda ln J_e)/J_e, per grown volume, is that of the
     mould, alpha E/h (f R - R_c)."""
     results = scene(file="mould.prm")
     lame_lambda, mu = results.lame()
@@ -76,7 +76,7 @@ def test_mould(scene):
 
         def inside(f):
             return -(mu * ((f / theta) ** 2 - 1)
-                     + lame_lambda * 3 * numpy.log(f / theta)) / f**3
+                     + lame_lambda * 3 * numpy.log(f / theta)) * (theta / f)**3
 
         free = theta * R < R_c * (1 - 1e-12)
         f = theta if free else root(lambda f: inside(f) - kappa * (f * R - R_c),

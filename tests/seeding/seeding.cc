@@ -4,11 +4,12 @@
 
 #include "seeding/room.h"
 
-/** All ranks' founders in id order; checks the ids. */
+/** All ranks' founders, as whole cells, in id order; checks the ids. */
 template <int dim>
 std::vector<Point<dim>>
-seed_and_gather(const TissueParameters &parameters)
+seed_and_gather(TissueParameters &parameters)
 {
+  parameters.surface_cells = "whole";
   parameters.check(dim);
   const auto mine = seed_founders<dim>(parameters, MPI_COMM_WORLD);
   EXPECT_EQ(mine.volumes.size(), mine.positions.size());

@@ -254,6 +254,7 @@ TEST(MeshSeeding, IsTheSameForAnyNumberOfRanks)
   parameters.surface_mesh    = file.path;
   parameters.center          = {0., 0., 2.};
   parameters.boundary_points = 600;
+  parameters.surface_cells   = "whole";
   parameters.check(3);
 
   const auto mine  = seed_founders<3>(parameters, MPI_COMM_WORLD);

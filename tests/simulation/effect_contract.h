@@ -384,7 +384,8 @@ namespace Morula
       return settings;
     }
 
-    /** A ball of cells of 1 µm, in four steps, with these settings. */
+    /** A ball of cells of 1 µm, in four steps, with these settings. The tangent
+     *  of pooled volumes is exact at an equilibrium only. */
     Scene
     scene(Settings settings, const std::string &name) const
     {
@@ -395,6 +396,7 @@ namespace Morula
                                   "Output/Snapshot interval=0.2",
                                   "Tissue/Radius=3",
                                   "Tissue/Cell spacing=1",
+                                  "Material/Volumetric strain=pointwise",
                                   "Grid/Spacing=2",
                                   "Time/Step=0.1",
                                   "Time/End time=0.4",

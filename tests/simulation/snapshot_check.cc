@@ -25,11 +25,13 @@ TEST(SnapshotCheck, AcceptsTheSameSceneAndAnotherEndButNoOtherTissue)
 }
 
 
-TEST(SnapshotCheck, TakesAKeyThatTheSnapshotLacksForItsDefault)
+TEST(SnapshotCheck, TakesAKeyThatTheSnapshotLacksForThePapers)
 {
   Scene             scene;
   const std::string older = without("Surface cells", scene);
   ASSERT_NE(older, scene.parameters());
+  EXPECT_THROW(check_resumable(scene, older), InputError);
+  scene.tissue.surface_cells = "whole";
   check_resumable(scene, older);
   scene.tissue.surface_cells = "trimmed";
   EXPECT_THROW(check_resumable(scene, older), InputError);

@@ -16,7 +16,8 @@ LAW = "Growth/Crowding limited/"
 MEMORY = "Proliferation/Cell cycle/Long axis/Memory"
 
 # A rigid box: all of its surface is held, and all cells grow alike. So F = I.
-BOX = {"Tissue/Size": "100, 100", "Boundary conditions/Nitsche form": "symmetric",
+BOX = {"Tissue/Size": "100, 100", "Material/Volumetric strain": "pointwise",
+       "Boundary conditions/Nitsche form": "symmetric",
        "Boundary conditions/Nitsche penalty": "1e3",
        "Boundary conditions/Fixed where": "1",
        "Boundary conditions/Displacement": "0; 0; 0", "Proliferation/Law": "none",

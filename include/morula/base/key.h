@@ -136,6 +136,17 @@ namespace Morula
       return with_method;
     }
 
+    /** Takes the default of @p method, and the value unless @p is_set. */
+    void
+    take_default_of(const std::string &method, const bool is_set = false)
+    {
+      const auto text = with_method.find(method);
+      if (text != with_method.end())
+        default_text_ = text->second;
+      if (text != with_method.end() && !is_set)
+        assign(default_text_);
+    }
+
     /** Adds a sentence about what a program adds to the key. */
     void
     add_documentation(const std::string &text)

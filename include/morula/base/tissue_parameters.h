@@ -116,7 +116,7 @@ namespace Morula
 
     Key<std::string> surface_cells{
       {this, "Tissue/Surface cells"},
-      "whole",
+      "trimmed",
       "Cells at a surface that cuts through the lattice. whole: each has the "
       "volume L_p^3 at its place on the lattice, the paper's. trimmed: each "
       "has the volume and the centroid of its part of the shape, so that the "
@@ -135,10 +135,9 @@ namespace Morula
 
     Key<bool> refine_surface{
       {this, "Tissue/Refine surface"},
-      false,
+      true,
       "Split boundary points whose patch has become longer than half a grid "
-      "cell, for tissue that grows to several times its size. Area and "
-      "normal are kept; false is the paper's method."};
+      "cell, as where tissue grows. Area and normal are kept."};
 
     Key<bool> coarsen_surface{
       {this, "Tissue/Coarsen surface"},

@@ -27,6 +27,8 @@ namespace Morula
       // words.
       for (const std::string &name : materials.names())
         law.add_word(name);
+      energy_per.with("paper", "initial volume");
+      volumetric_strain.with("paper", "pointwise");
     }
 
     ExpressionKey youngs_modulus{
@@ -49,20 +51,20 @@ namespace Morula
 
     Key<std::string> energy_per{
       {this, "Material/Energy per"},
-      "initial volume",
-      "The volume that the elastic energy is counted per: the "
-      "initial volume, halved at every division, or the volume "
-      "grown without stress.",
+      "grown volume",
+      "The volume that the elastic energy is counted per: the volume grown "
+      "without stress, so that tissue keeps its stiffness as it grows, or the "
+      "initial volume, halved at every division.",
       {"initial volume|grown volume"}};
 
     Key<std::string> volumetric_strain{
       {this, "Material/Volumetric strain"},
-      "pointwise",
+      "pooled",
       "The elastic volume change in the volumetric part of the energy (that "
       "with lambda, or kappa): each cell's own, or that of the sum of the "
       "volumes of like cells in a grid cell. Pooled, tissue does not lock as "
-      "Poisson's ratio approaches 0.5, choose it above about 0.47; and cells "
-      "that grow or shrink do not press those beside them in their grid cell. "
+      "Poisson's ratio approaches 0.5; and cells that grow or shrink do not "
+      "press those beside them in their grid cell. "
       "Projected is another word for pooled.",
       {"pointwise|projected|pooled"}};
 

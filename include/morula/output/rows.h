@@ -279,6 +279,14 @@ namespace Morula
      *  only where they follow the state. */
     std::optional<double> step_error = {};
 
+    /** Whether so many cells are too long that this changes the energy by more
+     *  than a usual grid does, 3 %. */
+    bool
+    has_long_cells() const
+    {
+      return 20 * lengths.n_too_long >= cells && lengths.n_too_long > 0;
+    }
+
     /** A column of the effects. @throws std::out_of_range */
     double &
     of_effect(const std::string &name)

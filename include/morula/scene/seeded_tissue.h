@@ -36,6 +36,10 @@ namespace Morula
   std::string
   material_text(const Scene &scene);
 
+  /** `Method`, and which of the keys that it stands for have other values. */
+  std::string
+  method_text(const Scene &scene);
+
   /** The boundary points of this rank that conditions load at t = 0, before
    *  there is a grid. @param patches gets their numbers as patches */
   template <int dim>

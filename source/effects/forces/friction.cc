@@ -18,15 +18,29 @@ namespace Morula
     /** Section "Friction". */
     struct FrictionParameters : public EffectKeys
     {
+      FrictionParameters()
+      {
+        per.needs({coefficient.path()});
+        per.with("paper", "initial volume");
+      }
+
       ExpressionKey coefficient{
         {this, "Friction/Coefficient"},
         "0",
         "Friction of cells, also inside of the tissue, with "
         "surroundings that stand still: the force on a cell per "
-        "initial volume is minus this times its velocity; >= 0. An "
+        "volume (see Per) is minus this times its velocity; >= 0. An "
         "expression. Units: kPa day/um^2.",
         Evaluated::step,
         not_negative("kPa day/um^2", "0 is no friction.")};
+
+      Key<std::string> per{
+        {this, "Friction/Per"},
+        "current volume",
+        "The volume that Coefficient is counted per: that of the cell at the "
+        "beginning of the step, so that tissue that has grown is held by more "
+        "of its surroundings, or the initial one, halved at every division.",
+        {"current volume|initial volume"}};
 
       bool
       is_on() const override
@@ -54,6 +68,7 @@ namespace Morula
       /** @throws InputError for an expression that cannot be parsed */
       Friction(const Parameters &parameters, const EffectSetting<dim> &setting)
         : coefficient(setting.state.use(parameters.coefficient))
+        , per_current_volume(parameters.per == "current volume")
       {}
 
       std::unique_ptr<Term<dim>>
@@ -64,11 +79,14 @@ namespace Morula
            const double              t1) const override
       {
         // The velocity of backward Euler's method is u/Δt, so that friction
-        // acts as a spring of stiffness V⁰ ζ/Δt from where the cell is at the
+        // acts as a spring of stiffness V ζ/Δt from where the cell is at the
         // beginning of the step: doc/theory.md (4.7a).
         std::vector<double> stiffnesses = friction(tissue, reader, t0);
         for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-          stiffnesses[p] *= tissue.cells().initial_volume(p) / (t1 - t0);
+          stiffnesses[p] *=
+            (per_current_volume ? tissue.cells()[p].carried_volume() :
+                                  tissue.cells().initial_volume(p)) /
+            (t1 - t0);
         return std::make_unique<Drag<dim>>(positions, std::move(stiffnesses));
       }
 
@@ -110,6 +128,7 @@ namespace Morula
 
     private:
       const Expression coefficient;
+      const bool       per_current_volume;
     };
   } // namespace
 

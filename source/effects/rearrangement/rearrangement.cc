@@ -402,6 +402,7 @@ namespace Morula
   add_rearrangement(Catalogue &catalogue)
   {
     catalogue.add_own<Rearrangement>("rearrangement",
-                                     {"Rearrangement/Diffusion=1"});
+                                     {"Rearrangement/Diffusion=1",
+                                      "Material/Volumetric strain=pooled"});
   }
 } // namespace Morula

@@ -16,6 +16,7 @@ namespace
   growing_to(const std::string &k, const std::string &volume)
   {
     return {"Dimension = 2",
+            "Tissue/Surface cells = whole",
             "Growth/Law = rate",
             "Growth/Rate/Rate = " + k,
             "Division by size/Volume = " + volume};

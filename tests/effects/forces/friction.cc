@@ -41,13 +41,25 @@ namespace
             TermOnOneCell<2>(*term, GrowthAt::current).energy(field) / 2.};
   }
 
+  /** V, µm², of one of the cells at the beginning of the step. */
+  double
+  volume(const unsigned int i)
+  {
+    return V0[i] * determinant(some_deformation<2>(positions[i]));
+  }
+
   void
-  expect(const Found &found, const double first, const double second)
+  expect(const Found &found,
+         const double first,
+         const double second,
+         const bool   per_current = true)
   {
     ASSERT_EQ(found.coefficients.size(), 2u);
     EXPECT_NEAR(found.coefficients[0], first, 1e-14);
     EXPECT_NEAR(found.coefficients[1], second, 1e-14);
-    const double sum = (V0[0] * first + V0[1] * second) / 0.25;
+    const double sum = per_current ?
+                         (volume(0) * first + volume(1) * second) / 0.25 :
+                         (V0[0] * first + V0[1] * second) / 0.25;
     EXPECT_NEAR(found.stiffness, sum, 1e-13 * sum);
   }
 } // namespace
@@ -55,12 +67,11 @@ namespace
 
 TEST(Friction, IsThatOfTheCellsStateAtTheBeginningOfTheStep)
 {
-  const auto volume = [](const unsigned int i) {
-    return V0[i] * determinant(some_deformation<2>(positions[i]));
-  };
-  expect(friction({"Dimension=2", "Friction/Coefficient=1e-6*t*volume"}),
-         1e-6 * volume(0),
-         1e-6 * volume(1));
+  std::vector<std::string> settings = {"Dimension=2",
+                                       "Friction/Coefficient=1e-6*t*volume"};
+  expect(friction(settings), 1e-6 * volume(0), 1e-6 * volume(1));
+  settings.push_back("Friction/Per=initial volume");
+  expect(friction(settings), 1e-6 * volume(0), 1e-6 * volume(1), false);
 }
 
 

@@ -74,7 +74,7 @@ TEST(PresentCell, KnowsItsVariables)
     cell_quantities<3>(CellView<3, const double>(cell.view()),
                        cell.material.material(),
                        lame(1., 0.4),
-                       false);
+                       true);
   const auto   principal = eigenvalues(q.stress);
   const double von_mises =
     std::sqrt(0.5 * (std::pow(principal[0] - principal[1], 2) +

@@ -117,11 +117,8 @@ def scene_keys(dimension, length, surface, types):
             "Tissue/Shape": "points", "Tissue/Points file": "cells.csv",
             "Tissue/Points surface": surface,
             "Tissue/Cell spacing": f"{length:.4g}",
-            "Tissue/Boundary points": 0, "Tissue/Refine surface": "true",
+            "Tissue/Boundary points": 0,
             "Grid/Spacing": f"{2.02 * length:.4g}", "Grid/Points per cell": 2,
-            # for cells that grow unequally (doc/modelling.md, Folds)
-            "Material/Energy per": "grown volume",
-            "Material/Volumetric strain": "pooled",
             "Proliferation/Law": "cell cycle",
             "Proliferation/Cell cycle/Duration": 1,
             "Proliferation/Cell cycle/G0 exit rate": 0.2,

@@ -25,6 +25,11 @@ namespace Morula
    *  divide, and where daughters are placed: with a cycle and without. */
   struct DivisionParameters : public EffectKeys
   {
+    DivisionParameters()
+    {
+      stay_inside.with("paper", "false");
+    }
+
     Key<std::string> axis{
       {this, "Proliferation/Cell cycle/Division axis"},
       "random",
@@ -74,9 +79,9 @@ namespace Morula
 
     Key<bool> stay_inside{
       {this, "Proliferation/Cell cycle/Stay inside surface"},
-      false,
+      true,
       "true: daughters are placed inside the whole surface; false: only "
-      "inside what is held of it, as in the paper."};
+      "inside what is held of it."};
   };
 
   /** Key of `Division axis = fixed`. */

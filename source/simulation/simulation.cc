@@ -219,13 +219,18 @@ namespace Morula
   double
   Simulation<dim>::friction_over_stiffness() const
   {
-    const double t       = time_steps.time();
-    double       largest = 0.;
+    // A stiffness that depends on the state of cells is known of a step.
+    double largest = 0.;
     for (const auto &force : model.forces)
       for (const double zeta :
-           force.effect->friction(tissue, model.development.reader(t), t))
+           force.effect->friction(tissue, model.development.reader(0.), 0.))
         largest = std::max(largest, zeta);
-    return Utilities::MPI::max(largest, comm) / typical_stiffness;
+    return Utilities::MPI::max(largest, comm) /
+           model.typical_stiffness(
+             tissue,
+             model.development.of_step(
+               tissue, 0., model.scene.time.step, PastStep()),
+             comm);
   }
 
   template <int dim>

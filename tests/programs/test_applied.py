@@ -2,6 +2,8 @@
 # Copyright (C) 2026 by the Morula authors
 """What the program says before and in a run that a user may not have meant:
 pieces that nothing holds, keys that do nothing, times between steps."""
+import math
+
 import h5py
 import numpy as np
 import pytest
@@ -270,3 +272,11 @@ def test_a_plate_that_must_not_pass(runs):
     plate = obstacle("box", Size="200, 8, 8", Center="0, -60, 0", Velocity="0; 100; 0")
     run = runs.run("plate", plate, {FIXED: "Y > 49.9", "Output/Formats": "csv"})
     assert run.surface(1)["y"].min() > -37
+
+
+@pytest.mark.parametrize("E", ["2", "if(X > 0, 1, 2)*(1 + 0*age)"])
+def test_a_fold_against_friction(runs, E):
+    """12 zeta/(E H^2) (lambda/2 pi)^4 with H = 80 um, lambda = 10 H."""
+    text = runs.explain(BOX, {"Friction/Coefficient": 1e-5, "Material/Young's modulus": E})
+    time = 12e-5 / (2 * 80**2) * (800 / (2 * math.pi))**4
+    assert f"folds in {time:.6g} day at a wavelength of 800 um" in text

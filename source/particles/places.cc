@@ -185,18 +185,17 @@ namespace Morula
                                 near_patches[p].push_back(b);
                             });
         }
-      const auto by_distance_from = [this](const Point<dim> &from) {
-        return [this, from](const unsigned int a, const unsigned int b) {
-          const double to_a = from.distance_square(patches.positions[a]),
-                       to_b = from.distance_square(patches.positions[b]);
-          return std::tie(to_a, patches.ids[a]) <
-                 std::tie(to_b, patches.ids[b]);
-        };
-      };
       for (unsigned int p = 0; p < n_own; ++p)
         std::sort(near_patches[p].begin(),
                   near_patches[p].end(),
-                  by_distance_from(x[p]));
+                  [&](const auto a, const auto b) {
+                    const double to_a =
+                                   x[p].distance_square(patches.positions[a]),
+                                 to_b =
+                                   x[p].distance_square(patches.positions[b]);
+                    return std::tie(to_a, patches.ids[a]) <
+                           std::tie(to_b, patches.ids[b]);
+                  });
       for (unsigned int p = 0; p < n_own; ++p)
         bins.visit_within(
           x[p], 0.5 * pair_reach * (l[p] + width), [&](const unsigned int q) {

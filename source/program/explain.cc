@@ -277,25 +277,23 @@ namespace Morula
              "finer grid, or make them bodies with a section Contact.\n"});
     }
 
-    /** In what time a layer folds that friction holds back: doc/theory.md
-     * (4.7c).
+    /** In what time a layer folds against friction: doc/theory.md (4.7c).
      *  @param zeta over the stiffness, day/µm^2 @param h grid spacing, µm */
     void
     add_fold_time(EffectRows &rows, const double zeta, const double h)
     {
-      constexpr double waves = 10.; // thicknesses
-      const double     H = 2. * h, wavelength = waves * H,
+      if (zeta == 0.)
+        return;
+      const double H = 2. * h, wavelength = 10. * H,
                    time = 12. * zeta *
                           std::pow(wavelength / (2. * numbers::PI), 4) /
                           (H * H);
-      for (EffectRow &row : rows)
-        if (row.name == "friction" && zeta > 0.)
-          row.further +=
-            "    a layer of " + as_text(H) +
-            " um, two grid spacings, folds in " + as_text(time) +
-            " day at a wavelength of " + as_text(wavelength) +
-            " um, and in 16 times that at twice the wavelength; where growth "
-            "brings it to its fold in less, friction chooses the wavelength\n";
+      rows.push_back(
+        {"folds",
+         "a layer of " + as_text(H) + " um, two grid spacings, folds in " +
+           as_text(time) + " day at a wavelength of " + as_text(wavelength) +
+           " um, and in 16 times that at twice the wavelength; where growth "
+           "brings it to its fold in less, friction chooses the wavelength"});
     }
 
     template <int dim>

@@ -45,7 +45,8 @@ namespace Morula
       const NearTree<dim>                    tree(points.positions);
       std::vector<std::vector<unsigned int>> around(points.size());
       std::vector<bool> reached(points.size()), pressed(points.size());
-      const auto        find = [&](const std::size_t i) {
+      const auto        find =
+        [&](const std::size_t i) -> const std::vector<unsigned int> & {
         const auto &[normal, other, body, area] = patches[i];
         if (around[i].empty())
           for (const unsigned int j : tree.within(points.positions[i], radius))
@@ -62,8 +63,8 @@ namespace Morula
       for (std::size_t i = 0; i < points.size(); ++i)
         if (reached[i])
           {
-            const auto list = find(i);
-            pressed[i]      = std::all_of(list.begin(),
+            const auto &list = find(i);
+            pressed[i]       = std::all_of(list.begin(),
                                      list.end(),
                                      [&](const auto j) { return reached[j]; });
           }

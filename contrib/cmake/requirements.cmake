@@ -28,15 +28,6 @@ foreach(feature MPI P4EST TRILINOS HDF5 MUPARSER LAPACK UMFPACK)
   endif()
 endforeach()
 
-# Amesos and EpetraExt are used through Epetra's interface for int.
-if(DEAL_II_WITH_64BIT_INDICES)
-  message(FATAL_ERROR
-    "Morula needs a deal.II with 32-bit indices "
-    "(DEAL_II_WITH_64BIT_INDICES=OFF); the one in ${DEAL_II_PATH} has 64-bit "
-    "indices, which Morula's linear solver does not know. 32 bits are enough "
-    "for 700 million splines in 3-D. ${cure}")
-endif()
-
 # The programs are linked with deal.II's own flags, which may ask for a linker
 # that deal.II's packages do not bring with them (mold, in Debian 13).
 set(flags "${DEAL_II_LINKER_FLAGS}")
@@ -57,8 +48,7 @@ if(NOT MORULA_LINKS_WITH_FLAGS_OF_DEAL_II)
     "with, by -DCMAKE_CXX_COMPILER=..., in an empty build directory.")
 endif()
 
-# A Trilinos that satisfies deal.II may lack packages that Morula needs, even
-# Epetra with all that rests on it. The headers alone are looked for.
+# A Trilinos that satisfies deal.II may lack NOX. The header alone is looked for.
 include(${DEAL_II_TARGET_CONFIG})
 set(DEAL_II_TARGET_CONFIG_INCLUDED TRUE)
 set(CMAKE_REQUIRED_INCLUDES ${DEAL_II_INCLUDE_DIRS})
@@ -68,18 +58,14 @@ foreach(target dealii::interface_trilinos dealii::interface_mpi)
   endif()
 endforeach()
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
-foreach(header Epetra_CrsMatrix.h EpetraExt_MatrixMatrix.h NOX_Solver_Generic.H
-               Amesos.h)
-  string(REGEX MATCH "^[A-Za-z]+" package ${header})
-  morula_check("#if !__has_include(<${header}>)\n#error missing\n#endif\n"
-    MORULA_HAS_${package})
-  if(NOT MORULA_HAS_${package})
-    message(FATAL_ERROR
-      "Morula needs Trilinos with its package ${package}; deal.II in "
-      "${DEAL_II_PATH} was built with one that lacks it (there is no "
-      "${header}). ${cure}")
-  endif()
-endforeach()
+morula_check("#if !__has_include(<NOX_Solver_Generic.H>)\n#error missing\n#endif\n"
+  MORULA_HAS_NOX)
+if(NOT MORULA_HAS_NOX)
+  message(FATAL_ERROR
+    "Morula needs Trilinos with its package NOX; deal.II in ${DEAL_II_PATH} "
+    "was built with one that lacks it (there is no NOX_Solver_Generic.H). "
+    "${cure}")
+endif()
 unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
 unset(CMAKE_REQUIRED_INCLUDES)
 unset(CMAKE_REQUIRED_LIBRARIES)
@@ -107,6 +93,14 @@ if(NOT RANDOM123_INCLUDE_DIR)
   message(FATAL_ERROR
     "Random123 is missing (Debian: librandom123-dev; contrib/setup installs "
     "it). If it stands elsewhere, set RANDOM123_INCLUDE_DIR.")
+endif()
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+find_library(CHOLMOD_LIBRARY cholmod)
+if(NOT CHOLMOD_INCLUDE_DIR OR NOT CHOLMOD_LIBRARY)
+  message(FATAL_ERROR
+    "CHOLMOD of SuiteSparse is missing (Debian: libsuitesparse-dev; "
+    "contrib/setup installs it). If it stands elsewhere, set "
+    "CHOLMOD_INCLUDE_DIR and CHOLMOD_LIBRARY.")
 endif()
 find_package(CGAL 5.5 QUIET)
 if(NOT CGAL_FOUND)

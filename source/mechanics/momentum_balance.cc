@@ -138,7 +138,7 @@ namespace Morula
   }
 
   template <int dim>
-  const TrilinosWrappers::SparseMatrix &
+  const BlockMatrix &
   MomentumBalance<dim>::tangent(const Vector &u, const GrowthAt growth)
   {
     // The first call of a step makes the sparsity pattern. A lumen comes first,
@@ -154,9 +154,9 @@ namespace Morula
       {
         const TimerOutput::Scope section(timer, "sparsity pattern");
         if (pairs != nullptr)
-          assembly.make_pattern(pairs->links());
+          assembly.make_pattern(has_energy(), pairs->links());
         else
-          assembly.make_pattern();
+          assembly.make_pattern(has_energy());
         has_new_links = false;
       }
     // A later turn of the step starts in equilibrium with the new growth.
@@ -231,11 +231,7 @@ namespace Morula
     // with a kept tangent these drift.
     constexpr double least_cells_a_spline = dim == 2 ? 20. : 2.;
     LinearProblem    result;
-    // The solver takes conjugate gradients only if all terms have an energy.
-    result.symmetric =
-      std::all_of(terms.begin(), terms.end(), [](const auto &term) {
-        return term->is_conservative();
-      });
+    result.symmetric    = has_energy();
     result.null_space   = std::move(null_space);
     result.n_components = dim;
     // E h^(dim-2) is the size of an entry of the tangent, doc/theory.md (2.5):

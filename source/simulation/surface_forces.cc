@@ -65,10 +65,10 @@ namespace Morula
     public:
       /** @param tissue at the beginning of the step, as @p space. Collective.
        */
-      ForceSums(const Tissue<dim>                   &tissue,
-                const SplineSpace<dim>              &space,
-                const TrilinosWrappers::MPI::Vector &u,
-                const MPI_Comm                       comm)
+      ForceSums(const Tissue<dim>         &tissue,
+                const SplineSpace<dim>    &space,
+                const Equilibrium::Vector &u,
+                const MPI_Comm             comm)
         : tissue(tissue)
         , space(space)
         , displacement(space, u, comm)

@@ -97,28 +97,32 @@ namespace Morula
   BlockCholesky<n>::scale(const Rows &rows, const Parameters &parameters)
   {
     // One pass over all rows finds the raised diagonal, whose inverse roots
-    // scale the matrix to a unit diagonal, and counts the entries of the upper
-    // blocks. Their mean per block column is what the fill counts in: it does
+    // scale the matrix to a unit diagonal, and counts the upper blocks. Their
+    // mean per column is what the fill counts in: it does
     // not depend on how evenly the matrix is filled.
     Row         row;
-    std::size_t n_entries = 0; // above the diagonal's blocks
-    for (int r = 0; r < n * n_blocks; ++r)
+    std::size_t n_above = 0; // blocks
+    for (int k = 0; k < n_blocks; ++k)
       {
-        rows(r, row);
-        double entry = 0.;
-        for (std::size_t e = 0; e < row.columns.size(); ++e)
-          if (row.columns[e] == r)
-            entry = row.values[e];
+        double diagonal[n] = {};
+        rows(k, row);
+        for (std::size_t b = 0; b < row.columns.size(); ++b)
+          if (row.columns[b] == k)
+            for (int i = 0; i < n; ++i)
+              diagonal[i] = row.values[(n * b + i) * n + i];
           else
-            n_entries += row.columns[e] / n > r / n;
+            n_above += row.columns[b] > k;
         // The diagonal is raised so that the incomplete factor stays positive.
-        entry =
-          parameters.relative_diagonal * entry + parameters.absolute_diagonal;
-        positive_ = positive_ && entry > 0.;
-        scales[r] = entry > 0. ? 1. / std::sqrt(entry) : 1.;
+        for (int i = 0; i < n; ++i)
+          {
+            const double entry = parameters.relative_diagonal * diagonal[i] +
+                                 parameters.absolute_diagonal;
+            positive_         = positive_ && entry > 0.;
+            scales[n * k + i] = entry > 0. ? 1. / std::sqrt(entry) : 1.;
+          }
       }
-    const double mean = parameters.mean_blocks.value_or(
-      n_entries / (n * n * std::max(1., 1. * n_blocks)));
+    const double mean =
+      parameters.mean_blocks.value_or(n_above / std::max(1., 1. * n_blocks));
     const auto at_most = [&](const double fill) {
       return std::min(std::ceil(fill * mean), 1. * n_blocks);
     };

@@ -41,19 +41,14 @@ namespace Morula
                     const Matrix        &K,
                     const Vector        &layout)
         : K(K)
-        , symmetric(problem.symmetric)
-        , scale(layout)
+        , scale(K.diagonal(layout))
         , x(layout)
         , part(layout)
       {
         // A diagonal without stiffness is left as it is; the estimate then
         // shows an eigenvalue of 0.
-        for (const auto row : scale.locally_owned_elements())
-          {
-            const double diagonal = std::abs(K.diag_element(row));
-            scale(row) = diagonal > 0. ? 1. / std::sqrt(diagonal) : 1.;
-          }
-        scale.compress(VectorOperation::insert);
+        for (double &entry : scale)
+          entry = entry != 0. ? 1. / std::sqrt(std::abs(entry)) : 1.;
         // What the tangent does not feel are motions n; of the scaled tangent
         // they are D^(1/2) n. They are made orthonormal, as remove_parts() asks
         // for it.
@@ -61,9 +56,8 @@ namespace Morula
           {
             // D^(1/2) n, orthonormal
             Vector scaled(direction);
-            for (const auto row : scaled.locally_owned_elements())
-              scaled(row) = direction(row) / scale(row);
-            scaled.compress(VectorOperation::insert);
+            for (unsigned int k = 0; k < scaled.locally_owned_size(); ++k)
+              scaled.local_element(k) /= scale.local_element(k);
             remove_parts(scaled, null_space);
             scaled /= scaled.l2_norm();
             null_space.push_back(scaled);
@@ -83,11 +77,6 @@ namespace Morula
         remove_parts(x, null_space);
         x.scale(scale);
         K.vmult(y, x);
-        if (!symmetric)
-          {
-            K.Tvmult(part, x);
-            y.sadd(0.5, 0.5, part);
-          }
         y.scale(scale);
         remove_parts(y, null_space);
         part = in;
@@ -98,7 +87,6 @@ namespace Morula
 
     private:
       const Matrix       &K;
-      const bool          symmetric;
       Vector              scale; // D^(-1/2)
       std::vector<Vector> null_space;
       double              mean;
@@ -161,9 +149,8 @@ namespace Morula
       std::mt19937_64 generator(
         owned.n_elements() > 0 ? 1 + owned.nth_index_in_set(0) : 0);
       std::normal_distribution<double> normal;
-      for (const auto row : owned)
-        result(row) = normal(generator);
-      result.compress(VectorOperation::insert);
+      for (double &entry : result)
+        entry = normal(generator);
       return result;
     }
   } // namespace
@@ -179,8 +166,9 @@ namespace Morula
     // make Lanczos' matrix, whose extreme eigenvalues tend to those of the
     // tangent, doc/theory.md (5.5). A breakdown tells of a direction without
     // stiffness.
-    const Matrix       &K = problem.tangent(rest, GrowthAt::previous);
-    const ScaledTangent A(linear_problem, K, rest);
+    const Matrix       &K    = problem.tangent(rest, GrowthAt::previous);
+    const Matrix        part = K.is_symmetric() ? Matrix() : K.symmetric_part();
+    const ScaledTangent A(linear_problem, K.is_symmetric() ? K : part, rest);
     Vector              x(rest), b = random_vector(rest);
 
     // Only the coefficients of the iteration count: it does not matter whether

@@ -5,8 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <EpetraExt_MatrixMatrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,29 +14,22 @@ namespace Morula
 {
   namespace
   {
-    /** The columns of lower ranks that this rank's rows couple with, as
-     *  unknowns. */
+    /** The columns of lower ranks that this rank's rows couple with. */
     IndexSet
-    lower_columns(const Epetra_CrsMatrix &K, const IndexSet &own)
+    lower_columns(const BlockMatrix &K)
     {
-      std::vector<types::global_dof_index> columns;
-      for (int k = 0; k < K.NumMyCols(); ++k)
-        // A rank without rows has no lower columns.
-        if (const types::global_dof_index column = K.GCID(k);
-            own.n_elements() > 0 && column < own.nth_index_in_set(0))
-          columns.push_back(column);
-      std::sort(columns.begin(), columns.end());
-      IndexSet result(own.size());
-      result.add_indices(columns.begin(), columns.end());
-      result.compress();
-      return result;
+      // A rank without rows has no lower columns.
+      IndexSet result(K.own().size());
+      if (K.own().n_elements() > 0)
+        result.add_range(0, K.own().nth_index_in_set(0));
+      return result & K.others();
     }
 
-    /** An entry of a row on its way to another rank. In front of a row's
-     *  entries stands one with their number. */
+    /** An entry of a block on its way to another rank, with the spline of its
+     *  column. In front of the blocks of a row stands one with their number. */
     struct Entry
     {
-      int   column;
+      int   spline;
       float value;
     };
 
@@ -53,7 +44,6 @@ namespace Morula
                 const IncompleteCholesky::Rows       &rows,
                 const IncompleteCholesky::Parameters &parameters)
     {
-      AssertThrow(n_rows % n_components == 0, ExcInternalError());
       switch (n_components)
         {
           case 2:
@@ -72,123 +62,115 @@ namespace Morula
   struct OverlappingCholesky::ReceivedRows
   {
     std::vector<std::size_t> begins;
-    std::vector<int>         columns; // in the block
+    std::vector<int>         columns; // in the rank's block
     std::vector<float>       values;
   };
 
-  OverlappingCholesky::OverlappingCholesky(const Matrix      &K,
-                                           const unsigned int n_components,
+  OverlappingCholesky::OverlappingCholesky(const BlockMatrix &K,
                                            const Parameters  &parameters)
-    : own(K.locally_owned_range_indices())
     // The block consists of the own rows and those of lower ranks in front of
     // them. The latter come by one exchange; then every rank factorises its
     // block alone.
-    , others(lower_columns(K.trilinos_matrix(), own))
-    , gathered(own.n_elements() + others.n_elements())
+    : others(lower_columns(K))
+    , n_own(K.n_components() * K.own().n_elements())
+    , n_others(K.n_components() * others.n_elements())
+    , gathered(n_own + n_others)
   {
-    if (Utilities::MPI::n_mpi_processes(K.get_mpi_communicator()) > 1)
-      halo.emplace(own, others, K.get_mpi_communicator());
-    factorize(K.trilinos_matrix(),
-              receive(K.trilinos_matrix(), n_components),
-              n_components,
-              parameters);
+    if (Utilities::MPI::n_mpi_processes(K.communicator()) > 1)
+      halo.emplace(unknowns_of(K.own(), K.n_components()),
+                   unknowns_of(others, K.n_components()),
+                   K.communicator());
+    factorize(K, receive(K), parameters);
   }
 
   OverlappingCholesky::ReceivedRows
-  OverlappingCholesky::receive(const Epetra_CrsMatrix &K,
-                               const unsigned int      n_components) const
+  OverlappingCholesky::receive(const BlockMatrix &K) const
   {
     // Lower ranks send the rows that this rank's block begins with, and this
-    // rank sends its own to higher ones; both happen in fetch_lists(). A row
-    // travels from its diagonal on, as global columns and single precision
-    // values, behind an entry with its length. What arrives is translated into
-    // numbers of the block at once, and columns outside of the block are left
-    // out.
+    // rank sends its own to higher ones; both happen in fetch_lists(), which
+    // asks for each unknown: a spline's row goes with its first one. A row
+    // travels from its diagonal on, as splines and single precision values,
+    // behind an entry with the number of its blocks. What arrives is translated
+    // into numbers of the block at once, and columns outside of the block are
+    // left out.
     ReceivedRows received;
     received.begins.push_back(0);
     if (!halo)
       return received;
-    const std::size_t length_of_row = K.MaxNumEntries() / 2; // at most, about
-    received.columns.reserve(others.n_elements() * length_of_row);
-    received.values.reserve(others.n_elements() * length_of_row);
-    const int *const global_columns = K.ColMap().MyGlobalElements();
-    const auto append = [&](const unsigned int row, std::vector<Entry> &rows) {
-      int     length, *ids;
-      double *entries;
-      K.ExtractMyRowView(row, length, entries, ids);
-      const int         first = K.GRID(row);
-      const std::size_t head  = rows.size();
+    const unsigned int n = K.n_components(), size = n * n;
+    const auto         append = [&](const unsigned int  unknown,
+                            std::vector<Entry> &rows) {
+      if (unknown % n != 0)
+        return;
+      const unsigned int row     = unknown / n;
+      const auto         columns = K.columns(row);
+      const double      *value   = K.blocks(row);
+      const std::size_t  head    = rows.size();
       rows.push_back({0, 0.f});
-      for (int k = 0; k < length; ++k)
-        if (const int column = global_columns[ids[k]]; column >= first)
-          rows.push_back({column, static_cast<float>(entries[k])});
-      rows[head].column = rows.size() - head - 1;
+      for (const int column : columns)
+        {
+          const int spline = K.spline_of(column);
+          if (spline < int(K.spline_of(row)))
+            value += size;
+          else
+            for (unsigned int k = 0; k < size; ++k)
+              rows.push_back({spline, static_cast<float>(*value++)});
+        }
+      rows[head].spline = (rows.size() - head - 1) / size;
     };
     const auto take = [&](const std::vector<Entry> &rows) {
       for (auto entry = rows.begin(); entry != rows.end();)
         {
-          const auto end  = entry + 1 + entry->column;
-          int        last = -1, column = -1; // the same one, in the block
-          for (++entry; entry != end; last = (entry++)->column)
+          const auto end = entry + 1 + entry->spline * size;
+          for (++entry; entry != end; entry += size)
             {
-              // All unknowns of a spline are in the block, or none of them is.
-              // So the search is made for the first one, and the others follow
-              // it.
-              if (entry->column != last + 1 ||
-                  entry->column % n_components == 0)
-                column = number_of(entry->column);
-              else if (column >= 0)
-                ++column;
-              if (column < 0)
+              const bool is_own = K.own().is_element(entry->spline);
+              if (!is_own && !others.is_element(entry->spline))
                 continue;
-              received.columns.push_back(column);
-              received.values.push_back(entry->value);
+              received.columns.push_back(
+                is_own ? others.n_elements() +
+                           K.own().index_within_set(entry->spline) :
+                         others.index_within_set(entry->spline));
+              for (unsigned int k = 0; k < size; ++k)
+                received.values.push_back(entry[k].value);
             }
           received.begins.push_back(received.columns.size());
         }
     };
-    halo->fetch_lists<Entry>(append, length_of_row, take);
+    halo->fetch_lists<Entry>(append, n * K.mean_blocks() / 2, take);
     return received;
   }
 
   void
-  OverlappingCholesky::factorize(const Epetra_CrsMatrix &K,
-                                 const ReceivedRows     &received,
-                                 const unsigned int      n_components,
-                                 const Parameters       &parameters)
+  OverlappingCholesky::factorize(const BlockMatrix  &K,
+                                 const ReceivedRows &received,
+                                 const Parameters   &parameters)
   {
-    // The factorisation reads rows through a function. Rows of lower ranks were
-    // received, own ones are in the matrix. Both are symmetric, and are given
-    // from the diagonal's block on. The rows in front are those to be dropped
-    // in the solution: D_r of doc/theory.md (7.2).
-    const int        n_others = others.n_elements();
-    std::vector<int> numbers(K.NumMyCols()); // of the matrix's columns
-    for (int k = 0; k < K.NumMyCols(); ++k)
-      numbers[k] = number_of(K.GCID(k));
-
+    // The factorisation reads rows of blocks through a function. Those of lower
+    // ranks were received; of own ones, which are in the matrix, the columns of
+    // higher ranks are not in the block, and those of lower ranks come before
+    // the diagonal. The rows in front are those to be dropped in the solution:
+    // D_r of doc/theory.md (7.2).
+    const int  size   = K.n_components() * K.n_components();
+    const int  first  = others.n_elements(); // own one
     const auto row_of = [&](const int row, IncompleteCholesky::Row &result) {
-      result.columns.clear();
-      result.values.clear();
-      if (row < n_others)
+      if (row < first)
         {
           const auto begin = received.begins[row],
                      end   = received.begins[row + 1];
           result.columns.assign(received.columns.begin() + begin,
                                 received.columns.begin() + end);
-          result.values.assign(received.values.begin() + begin,
-                               received.values.begin() + end);
+          result.values.assign(received.values.begin() + size * begin,
+                               received.values.begin() + size * end);
           return;
         }
-      const int first = row - row % n_components; // of the diagonal's block
-      int       length, *ids;
-      double   *entries;
-      K.ExtractMyRowView(row - n_others, length, entries, ids);
-      for (int k = 0; k < length; ++k)
-        if (const int column = numbers[ids[k]]; column >= first)
-          {
-            result.columns.push_back(column);
-            result.values.push_back(entries[k]);
-          }
+      const unsigned int n_columns = K.n_own_columns(row - first);
+      const auto         columns   = K.columns(row - first);
+      const double      *values    = K.blocks(row - first);
+      result.columns.assign(columns.begin(), columns.begin() + n_columns);
+      result.values.assign(values, values + size * n_columns);
+      for (int &column : result.columns)
+        column += first;
     };
     // The first rows of a block lack what lies outside of it. Counted from
     // these the factor of own rows would have so few blocks that it is barely
@@ -197,10 +179,9 @@ namespace Morula
     Parameters of_block      = parameters;
     of_block.n_dropped       = n_others;
     of_block.fill_of_dropped = fill_of_others;
-    if (halo && own.n_elements() > 0)
-      of_block.mean_blocks =
-        0.5 * (1. * K.NumMyNonzeros() / (n_components * own.n_elements()) - 1.);
-    factor = make_factor(n_components, gathered.size(), row_of, of_block);
+    if (halo && n_own > 0)
+      of_block.mean_blocks = 0.5 * (K.mean_blocks() - 1.);
+    factor = make_factor(K.n_components(), gathered.size(), row_of, of_block);
   }
 
   void
@@ -209,21 +190,18 @@ namespace Morula
     if (!halo)
       {
         y = x;
-        factor->solve(y.trilinos_vector()[0]);
+        factor->solve(y.begin());
         return;
       }
     // An exchange before brings the entries of lower ranks, one after it adds
     // to them what this rank's part of the inverse has for them: R_rᵀ L_r⁻ᵀ D_r
     // L_r⁻¹ R_r of doc/theory.md (7.2).
-    const std::size_t n_own    = own.n_elements();
-    const std::size_t n_others = others.n_elements();
-    double *const     of_own   = gathered.data() + n_others;
-    double *const     result   = y.trilinos_vector()[0];
+    double *const of_own = gathered.data() + n_others;
     std::copy_n(x.begin(), n_own, of_own);
     halo->fetch(of_own, gathered.data());
     factor->solve(gathered.data());
-    std::copy_n(of_own, n_own, result);
-    halo->add_back(gathered.data(), result);
+    std::copy_n(of_own, n_own, y.begin());
+    halo->add_back(gathered.data(), y.begin());
   }
 
 
@@ -248,18 +226,6 @@ namespace Morula
     constexpr std::size_t first_of_vectors  = 1;
     constexpr std::size_t n_of_free_bodies  = 5;
     constexpr double      absolute_diagonal = 2e-5; // of a typical entry
-
-    /** Makes @p result (K + Kᵀ)/2. */
-    void
-    symmetrize(const Equilibrium::Matrix &K, Equilibrium::Matrix &result)
-    {
-      Epetra_CrsMatrix *sum   = nullptr; // made by the next line
-      const int         error = EpetraExt::MatrixMatrix::Add(
-        K.trilinos_matrix(), false, 0.5, K.trilinos_matrix(), true, 0.5, sum);
-      const std::unique_ptr<Epetra_CrsMatrix> owner(sum);
-      AssertThrow(error == 0 && sum->FillComplete() == 0, ExcInternalError());
-      result.reinit(*sum);
-    }
   } // namespace
 
   Preconditioner::Preconditioner(const LinearProblem &problem)
@@ -270,9 +236,9 @@ namespace Morula
   void
   Preconditioner::make_next(const Matrix &K)
   {
-    if (!problem.symmetric)
-      symmetrize(K, symmetric_part);
-    const Matrix &A = problem.symmetric ? K : symmetric_part;
+    const BlockMatrix part =
+      K.is_symmetric() ? BlockMatrix() : K.symmetric_part();
+    const BlockMatrix &A = K.is_symmetric() ? K : part;
     factorisation_.reset();
     // Free bodies leave the last factorisation out (see attempts).
     const std::size_t n_usable =
@@ -284,13 +250,11 @@ namespace Morula
         parameters.relative_diagonal = attempts[n_tried].relative_diagonal;
         parameters.absolute_diagonal =
           absolute_diagonal * problem.typical_entry;
-        auto made = std::make_unique<OverlappingCholesky>(A,
-                                                          problem.n_components,
-                                                          parameters);
+        auto made = std::make_unique<OverlappingCholesky>(A, parameters);
         // Each rank knows of its own block only. All of them use the
         // factorisation, or none does.
         const bool failed = !made->is_positive(); // on this rank
-        if (!Utilities::MPI::logical_or(failed, K.get_mpi_communicator()))
+        if (!Utilities::MPI::logical_or(failed, K.communicator()))
           factorisation_ = std::move(made);
       }
   }
@@ -299,12 +263,9 @@ namespace Morula
   diagonal_magnitude(const Equilibrium::Matrix &K,
                      const Equilibrium::Vector &like)
   {
-    Equilibrium::Vector diagonal(like);
-    for (const auto row : diagonal.locally_owned_elements())
-      diagonal(row) = std::abs(K.diag_element(row));
-    diagonal.compress(VectorOperation::insert);
+    Equilibrium::Vector diagonal = K.diagonal(like);
+    for (double &entry : diagonal)
+      entry = std::abs(entry);
     return diagonal;
   }
-
-
 } // namespace Morula

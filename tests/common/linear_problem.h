@@ -9,11 +9,12 @@
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <functional>
 #include <limits>
 #include <vector>
+
+#include "common/coupled_rows.h"
 
 namespace Morula
 {
@@ -65,14 +66,6 @@ namespace Morula
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
       owned = IndexSet(n);
       owned.add_range(n * rank / n_ranks, n * (rank + 1) / n_ranks);
-      TrilinosWrappers::SparsityPattern pattern(owned, MPI_COMM_WORLD);
-      for (const auto row : owned)
-        for (unsigned int column = row == 0 ? 0 : row - 1;
-             column < std::min<unsigned int>(row + 2, n);
-             ++column)
-          pattern.add(row, column);
-      pattern.compress();
-      K.reinit(pattern);
     }
 
     Vector
@@ -91,7 +84,6 @@ namespace Morula
       R = zero();
       for (const auto i : owned)
         R(i) = force(i, values);
-      R.compress(VectorOperation::insert);
       residual_norms.push_back(R.l2_norm());
       return evaluation(e, std::abs(e));
     }
@@ -106,13 +98,19 @@ namespace Morula
     tangent(const Vector &u, const GrowthAt growth) override
     {
       tangents.push_back(growth);
-      const auto values = gathered(u);
-      for (const auto i : owned)
-        for (unsigned int j = i == 0 ? 0 : i - 1;
-             j < std::min<unsigned int>(i + 2, n);
-             ++j)
-          K.set(i, j, stiffness(i, j, values));
-      K.compress(VectorOperation::insert);
+      const auto                        values = gathered(u);
+      std::vector<BlockMatrix::Columns> columns;
+      for (const auto row : owned)
+        {
+          columns.push_back({row});
+          if (row > 0)
+            columns.back().push_back(row - 1);
+          if (row + 1 < n)
+            columns.back().push_back(row + 1);
+        }
+      K.reinit(owned, columns, 1, linear.symmetric, MPI_COMM_WORLD);
+      set(K,
+          [&](const auto i, const auto j) { return stiffness(i, j, values); });
       return K;
     }
 
@@ -133,7 +131,6 @@ namespace Morula
       Vector vector = zero();
       for (const auto i : owned)
         vector(i) = values[i];
-      vector.compress(VectorOperation::insert);
       return vector;
     }
 

@@ -29,7 +29,7 @@ invariants(Ball<dim> &ball)
   for (const GrowthAt growth : {GrowthAt::previous, GrowthAt::current})
     {
       const auto &K = balance.tangent(ball.u, growth);
-      values.push_back(K.frobenius_norm());
+      values.push_back(frobenius_norm(K));
       for (unsigned int k = 0; k < 3; ++k)
         {
           const auto v = direction(ball, 0.1 + k), w = direction(ball, 2. * k);
@@ -64,7 +64,6 @@ TEST_2D_3D(MomentumBalance, ResidualAndTangentAreDerivatives)
           if (phase > 100.)
             for (const auto i : v.locally_owned_elements())
               v(i) = std::sin(1e4 * (v(i) + 0.1));
-          v.compress(VectorOperation::insert);
           Equilibrium::Vector upper(ball.u), lower(ball.u), Kv(R);
           upper.add(eps, v);
           lower.add(-eps, v);
@@ -271,7 +270,7 @@ TEST_2D_3D(MomentumBalance, RigidMotionsCostNothing)
     {
       Equilibrium::Vector Km(mode);
       K.vmult(Km, mode);
-      EXPECT_LE(Km.l2_norm(), 1e-12 * K.frobenius_norm());
+      EXPECT_LE(Km.l2_norm(), 1e-12 * frobenius_norm(K));
     }
 
   // Large rotations.
@@ -281,7 +280,7 @@ TEST_2D_3D(MomentumBalance, RigidMotionsCostNothing)
   const auto turned = body.vector_of(body.affine(a, Q - unit_tensor<dim>()));
   EXPECT_LE(balance.residual(turned, R).energy,
             1e-13 * body.particles.size() * points.current[0].W);
-  EXPECT_LE(R.l2_norm(), 1e-9 * K.frobenius_norm());
+  EXPECT_LE(R.l2_norm(), 1e-9 * frobenius_norm(K));
   EXPECT_NEAR(balance.scales(1.).small_force,
               1e-6 * std::pow(h, dim - 1),
               1e-15);

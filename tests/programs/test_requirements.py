@@ -15,11 +15,10 @@ pytestmark = pytest.mark.release
 
 @pytest.mark.parametrize("change, message", (
     ("set(DEAL_II_WITH_LAPACK OFF)", "needs a deal.II built with LAPACK;"),
-    ("set(DEAL_II_WITH_64BIT_INDICES ON)", "needs a deal.II with 32-bit indices"),
     ('set(DEAL_II_LINKER_FLAGS "-fuse-ld=absent -Wl,-z,relro")', "linker 'absent' is missing"),
     ('set(DEAL_II_LINKER_FLAGS "-Wl,--wrong")', "cannot link an empty program"),
     ("set(DEAL_II_TARGET_CONFIG /dev/null)\nset(DEAL_II_INCLUDE_DIRS /none)",
-     "needs Trilinos with its package Epetra;"),
+     "needs Trilinos with its package NOX;"),
     ("set(CMAKE_DISABLE_FIND_PACKAGE_Boost ON)", "Boost.Program_options 1.74 or later"),
     ("set(CMAKE_DISABLE_FIND_PACKAGE_CGAL ON)", "CGAL 5.5 or later"),
     ("set(CMAKE_DISABLE_FIND_PACKAGE_GTest ON)", "The tests need GoogleTest")))

@@ -107,7 +107,6 @@ namespace Morula
       Vector                                 v(like);
       for (const auto i : v.locally_owned_elements())
         v(i) = uniform(generator);
-      v.compress(VectorOperation::insert);
       return v;
     }
 

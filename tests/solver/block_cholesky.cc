@@ -21,18 +21,30 @@ random_matrix(const unsigned int size, const double dominance)
   return A;
 }
 
+/** Blocks of n × n entries. */
+template <int n>
 IncompleteCholesky::Rows
 rows_of(const FullMatrix<double> &A)
 {
   return [&A](const int row, IncompleteCholesky::Row &result) {
     result.columns.clear();
     result.values.clear();
-    for (int j = A.n() - 1; j >= 0; --j) // in any order
-      if (A(row, j) != 0.)
-        {
-          result.columns.push_back(j);
-          result.values.push_back(A(row, j));
-        }
+    for (int b = A.n() / n - 1; b >= 0; --b) // in any order
+      {
+        result.columns.push_back(b);
+        bool is_zero = true;
+        for (int i = n * row; i < n * (row + 1); ++i)
+          for (int j = n * b; j < n * (b + 1); ++j)
+            {
+              result.values.push_back(A(i, j));
+              is_zero = is_zero && A(i, j) == 0.;
+            }
+        if (is_zero)
+          {
+            result.columns.pop_back();
+            result.values.resize(n * n * result.columns.size());
+          }
+      }
   };
 }
 
@@ -58,7 +70,7 @@ check_complete()
   const FullMatrix<double> A        = random_matrix(size, 8.);
   const double             relative = 1.1, absolute = 0.3;
   const BlockCholesky<n>   factor(size,
-                                rows_of(A),
+                                rows_of<n>(A),
                                 parameters(1e3, relative, absolute));
   ASSERT_TRUE(factor.is_positive());
 
@@ -94,7 +106,7 @@ check_incomplete()
   SCOPED_TRACE(n);
   const unsigned int       size = 60;
   const FullMatrix<double> A    = random_matrix(size, 12.);
-  const BlockCholesky<n>   factor(size, rows_of(A), parameters(0.5));
+  const BlockCholesky<n>   factor(size, rows_of<n>(A), parameters(0.5));
   ASSERT_TRUE(factor.is_positive());
   const auto inverse_times = [&](const unsigned int i) {
     dealii::Vector<double> x(size);
@@ -155,9 +167,9 @@ TEST(BlockCholesky, DroppedRowsKeepTheirPartOfTheBlocks)
   auto keep_all             = keep_none;
   keep_all.fill_of_dropped  = 1.;
   std::vector<double> without(size, 1.), with(size, 1.), alone(rest.m(), 1.);
-  BlockCholesky<3>(size, rows_of(A), keep_none).solve(without.data());
-  BlockCholesky<3>(size, rows_of(A), keep_all).solve(with.data());
-  BlockCholesky<3>(rest.m(), rows_of(rest), parameters(1e3))
+  BlockCholesky<3>(size, rows_of<3>(A), keep_none).solve(without.data());
+  BlockCholesky<3>(size, rows_of<3>(A), keep_all).solve(with.data());
+  BlockCholesky<3>(rest.m(), rows_of<3>(rest), parameters(1e3))
     .solve(alone.data());
   double difference = 0.;
   for (unsigned int i = 0; i < size; ++i)
@@ -180,15 +192,18 @@ TEST(BlockCholesky, SeesThatItIsNotPositive)
                                       {0., -2., 3., -2.},
                                       {2., 0., -2., 3.}};
   A.fill(&entries[0][0]);
-  EXPECT_FALSE(BlockCholesky<1>(4, rows_of(A), parameters(0.9)).is_positive());
-  EXPECT_TRUE(BlockCholesky<1>(4, rows_of(A), parameters(2.)).is_positive());
+  EXPECT_FALSE(
+    BlockCholesky<1>(4, rows_of<1>(A), parameters(0.9)).is_positive());
+  EXPECT_TRUE(BlockCholesky<1>(4, rows_of<1>(A), parameters(2.)).is_positive());
   EXPECT_TRUE(
-    BlockCholesky<1>(4, rows_of(A), parameters(0.9, 2.)).is_positive());
+    BlockCholesky<1>(4, rows_of<1>(A), parameters(0.9, 2.)).is_positive());
 
   A(2, 2) = -1.;
-  EXPECT_FALSE(BlockCholesky<2>(4, rows_of(A), parameters(9.)).is_positive());
+  EXPECT_FALSE(
+    BlockCholesky<2>(4, rows_of<2>(A), parameters(9.)).is_positive());
   A(2, 2) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(BlockCholesky<2>(4, rows_of(A), parameters(9.)).is_positive());
+  EXPECT_FALSE(
+    BlockCholesky<2>(4, rows_of<2>(A), parameters(9.)).is_positive());
 }
 
 
@@ -198,15 +213,16 @@ TEST(BlockCholesky, DoesWithoutEntries)
   FullMatrix<double> A(6, 6);
   for (unsigned int i = 0; i < 6; ++i)
     A(i, i) = i == 2 ? 0. : 2.;
-  EXPECT_FALSE(BlockCholesky<3>(6, rows_of(A), parameters(1.)).is_positive());
-  const BlockCholesky<3> factor(6, rows_of(A), parameters(1., 1., 0.5));
+  EXPECT_FALSE(
+    BlockCholesky<3>(6, rows_of<3>(A), parameters(1.)).is_positive());
+  const BlockCholesky<3> factor(6, rows_of<3>(A), parameters(1., 1., 0.5));
   ASSERT_TRUE(factor.is_positive());
   double x[6] = {1., 1., 1., 1., 1., 1.};
   factor.solve(x);
   for (unsigned int i = 0; i < 6; ++i)
     EXPECT_NEAR(x[i], i == 2 ? 2. : 0.4, 1e-6);
 
-  const BlockCholesky<2> empty(0, rows_of(A), parameters(1.));
+  const BlockCholesky<2> empty(0, rows_of<2>(A), parameters(1.));
   EXPECT_TRUE(empty.is_positive());
   empty.solve(nullptr);
 }

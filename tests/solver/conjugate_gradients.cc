@@ -80,7 +80,6 @@ struct System
 {
   explicit System(ChainProblem &problem)
     : K(problem.tangent(problem.zero(), GrowthAt::current))
-    , product(K, 1, true)
     , b(load(problem))
     , P(diagonal_magnitude(K, b), 0.)
   {}
@@ -92,7 +91,7 @@ struct System
   {
     const std::vector<Vector> none;
     return solve_by(one_reduction,
-                    ShiftedSystem{product, none, 0.},
+                    ShiftedSystem{K, none, 0.},
                     P,
                     b,
                     tolerance,
@@ -103,12 +102,10 @@ struct System
   double
   defect(const Vector &x) const
   {
-    Vector r(b);
-    return K.residual(r, x, b) / b.l2_norm();
+    return Morula::defect(K, x, b) / b.l2_norm();
   }
 
   const Equilibrium::Matrix &K;
-  const HaloProduct          product;
   const Vector               b;
   const Jacobi               P;
 };
@@ -125,13 +122,12 @@ difference(const Vector &a, const Vector &b)
 
 TEST(ConjugateGradients, FormsAgree)
 {
-  ChainProblem      problem = chain(0.01);
-  const auto       &K = problem.tangent(problem.zero(), GrowthAt::current);
-  const HaloProduct product(K, 1, true);
-  const Vector      b  = load(problem);
-  const auto        P  = OverlappingCholesky(K, 1, {});
-  const auto        m  = diagonal_magnitude(K, b);
-  const auto        n1 = problem.vector_of(
+  ChainProblem problem = chain(0.01);
+  const auto  &K       = problem.tangent(problem.zero(), GrowthAt::current);
+  const Vector b       = load(problem);
+  const auto   P       = OverlappingCholesky(K, {});
+  const auto   m       = diagonal_magnitude(K, b);
+  const auto   n1      = problem.vector_of(
     std::vector<double>(n, 1. / std::sqrt(1. * n))); // a motion
   const Equilibrium::RankOne part{b, 0.1};
   for (const double shift : {0., 0.1})
@@ -139,7 +135,7 @@ TEST(ConjugateGradients, FormsAgree)
       for (const auto *const rank_one : {&part, (decltype(&part))nullptr})
         {
           const std::vector<Vector> motions(has_motion ? 1 : 0, n1);
-          const ShiftedSystem       system{product, motions, shift, rank_one};
+          const ShiftedSystem       system{K, motions, shift, rank_one};
           for (const double tolerance : {1e-1, 1e-4, 1e-10})
             {
               const Result plain =
@@ -218,14 +214,13 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
   // Alone, a rank's block is the matrix: there is nothing to count.
   if (Utilities::MPI::n_mpi_processes(comm) == 1)
     return;
-  ChainProblem      problem = chain(0.01);
-  const auto       &K = problem.tangent(problem.zero(), GrowthAt::current);
-  const HaloProduct product(K, 1, true);
-  const Vector      b = load(problem);
+  ChainProblem problem = chain(0.01);
+  const auto  &K       = problem.tangent(problem.zero(), GrowthAt::current);
+  const Vector b       = load(problem);
   // With a raised diagonal, to take iterations enough.
   OverlappingCholesky::Parameters raised;
   raised.relative_diagonal = 3.;
-  const OverlappingCholesky P(K, 1, raised);
+  const OverlappingCholesky P(K, raised);
   const Jacobi              J(diagonal_magnitude(K, b), 0.);
   const auto                motion =
     problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n)));
@@ -238,7 +233,7 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
                          const unsigned int          reductions) {
     for (const double shift : {0., 0.1})
       {
-        const ShiftedSystem system{product, motions, shift, rank_one};
+        const ShiftedSystem system{K, motions, shift, rank_one};
         MpiCounts           counts[2];
         unsigned int        n_iterations[2];
         for (const unsigned int k : {0, 1})

@@ -16,11 +16,10 @@ entry(const unsigned int i, const unsigned int j, const double diagonal)
 }
 
 void
-fill(TrilinosWrappers::SparseMatrix &K, const double diagonal)
+fill(BlockMatrix &K, const double diagonal, const unsigned int size = 1)
 {
-  CoupledRows::fill(K, [&](const auto i, const auto j) {
-    return entry(i, j, diagonal);
-  });
+  CoupledRows::fill(
+    K, [&](const auto i, const auto j) { return entry(i, j, diagonal); }, size);
 }
 
 /** Rows of lower ranks that a rank's rows couple with. */
@@ -86,22 +85,21 @@ exact(const std::vector<double> &x, const double diagonal)
  *  precision. */
 TEST(OverlappingCholesky, HasTheRanksRowsOfTheirBlocksInverseFactors)
 {
-  const double                   diagonal = 6.;
-  TrilinosWrappers::SparseMatrix K;
-  fill(K, diagonal);
+  const double                diagonal = 6.;
+  BlockMatrix                 K;
   std::vector<double>         all(n);
   OverlappingCholesky::Vector x(own_rows(), MPI_COMM_WORLD), y(x);
   for (unsigned int i = 0; i < n; ++i)
     all[i] = std::sin(1. + i);
   for (const auto i : own_rows())
     x(i) = all[i];
-  x.compress(VectorOperation::insert);
   const std::vector<double>       expected = exact(all, diagonal);
   OverlappingCholesky::Parameters parameters;
   parameters.fill = 100.;
   for (const unsigned int n_components : {1, 2, 3})
     {
-      const OverlappingCholesky P(K, n_components, parameters);
+      fill(K, diagonal, n_components);
+      const OverlappingCholesky P(K, parameters);
       EXPECT_TRUE(P.is_positive());
       P.vmult(y, x);
       for (const auto i : own_rows())
@@ -112,17 +110,16 @@ TEST(OverlappingCholesky, HasTheRanksRowsOfTheirBlocksInverseFactors)
 
 TEST(OverlappingCholesky, RaisesTheDiagonal)
 {
-  TrilinosWrappers::SparseMatrix K, raised;
+  BlockMatrix K, raised;
   fill(K, 6.);
-  fill(raised, 6.);
-  for (const auto i : own_rows())
-    raised.set(i, i, 1.5 * entry(i, i, 6.) + 0.25);
-  raised.compress(VectorOperation::insert);
+  CoupledRows::fill(raised, [&](const auto i, const auto j) {
+    return i == j ? 1.5 * entry(i, i, 6.) + 0.25 : entry(i, j, 6.);
+  });
   OverlappingCholesky::Parameters parameters, none;
   parameters.relative_diagonal = 1.5;
   parameters.absolute_diagonal = 0.25;
-  const OverlappingCholesky   P(K, 1, parameters);
-  const OverlappingCholesky   Q(raised, 1, none);
+  const OverlappingCholesky   P(K, parameters);
+  const OverlappingCholesky   Q(raised, none);
   OverlappingCholesky::Vector x(own_rows(), MPI_COMM_WORLD), y(x), z(x);
   x = 1.;
   P.vmult(y, x);
@@ -135,8 +132,8 @@ TEST(OverlappingCholesky, RaisesTheDiagonal)
 
 TEST(OverlappingCholesky, KnowsWhenItIsNotPositive)
 {
-  TrilinosWrappers::SparseMatrix K;
+  BlockMatrix K;
   fill(K, -1.); // rows 0 to 9 have no positive diagonal
-  const OverlappingCholesky P(K, 1, {});
+  const OverlappingCholesky P(K, {});
   EXPECT_TRUE(Utilities::MPI::logical_or(!P.is_positive(), MPI_COMM_WORLD));
 }

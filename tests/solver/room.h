@@ -9,7 +9,6 @@
 #include <morula/solver/block_cholesky.h>
 #include <morula/solver/condition_estimate.h>
 #include <morula/solver/conjugate_gradients.h>
-#include <morula/solver/halo_product.h>
 #include <morula/solver/linear_solver.h>
 #include <morula/solver/newton.h>
 #include <morula/solver/preconditioner.h>

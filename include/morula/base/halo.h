@@ -19,10 +19,8 @@ namespace Morula
 
   /**
    * The entries of a distributed vector that a rank needs besides its own. They
-   * come and go by messages between neighbours alone. Epetra's Import has a
-   * barrier of all ranks in front of each exchange (Epetra_MpiDistributor sends
-   * to receivers that must be ready) and compares maps by a reduction;
-   * deal.II's Partitioner has neither.
+   * come and go by messages between neighbours alone: deal.II's Partitioner
+   * has no barrier and no reduction.
    */
   class Halo
   {

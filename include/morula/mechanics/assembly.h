@@ -4,16 +4,16 @@
 #ifndef morula_mechanics_assembly_h
 #define morula_mechanics_assembly_h
 
+#include <morula/base/block_matrix.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-
-#include <Epetra_CrsGraph.h>
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -25,24 +25,21 @@ namespace Morula
    * Makes the sparse matrix of a field of n components on a spline space and
    * adds the condensed matrices of grid cells to it. Without a number of
    * components the field is the displacement. Rows that this rank owns are
-   * written straight into the matrix's own arrays through a table of positions
-   * that is made once a step: TrilinosWrappers' add() searches every entry
-   * again, which costs more than all the particles at fine grids
-   * (doc/theory.md, section 3). Rows of other ranks are summed up here in the
-   * same way, and sent once.
+   * written straight into the matrix through a table of positions that is made
+   * once a step: to search every entry again costs more than all the particles
+   * at fine grids (doc/theory.md, section 3). Rows of other ranks are summed up
+   * here in the same way, and sent once.
    */
   template <int dim, int n_components = dim>
   class MatrixScatter
   {
   public:
-    using Matrix = TrilinosWrappers::SparseMatrix;
-
     /** Initialises @p matrix; it must outlive this object. Collective.
-     *  @param own_rows as FieldUnknowns::owned()
+     *  @param symmetric whether the sum of all that is added is
      *  @param links beside those of the grid cells, see PairTerm */
     MatrixScatter(const SplineSpace<dim>  &space,
-                  const IndexSet          &own_rows,
-                  Matrix                  &matrix,
+                  BlockMatrix             &matrix,
+                  const bool               symmetric,
                   const MPI_Comm           comm,
                   std::vector<UnknownLink> links = {});
 
@@ -58,26 +55,31 @@ namespace Morula
     void
     clear()
     {
-      int    *offsets, *columns;
-      double *values;
-      matrix.trilinos_matrix().ExtractCrsDataPointers(offsets, columns, values);
-      std::fill(values, values + matrix.trilinos_matrix().NumMyNonzeros(), 0.);
+      matrix.clear();
       for (auto &[rank, values] : sent)
         std::fill(values.begin(), values.end(), 0.);
     }
 
-    /** Adds what was added to other ranks' rows to these. Neighbours exchange
-     *  it. */
+    /** Adds what was added to other ranks' rows to these. Collective. */
     void
     finish();
 
   private:
-    /** The unknowns that a relevant unknown couples with on this rank, by
-     *  relevant unknown. */
-    using Couplings = std::vector<std::vector<unsigned int>>;
+    /** Numbers of relevant unknowns, by relevant unknown. */
+    using Numbers = std::vector<std::vector<unsigned int>>;
 
-    Couplings
-    couplings() const;
+    /** Messages by rank: an unknown's number, that of its columns, the columns;
+     *  then the next unknown's. */
+    using Messages =
+      std::map<unsigned int, std::vector<types::global_dof_index>>;
+
+    /** Place of a block in its row of blocks. */
+    using Position = std::uint16_t;
+
+    /** Of a block that a symmetric matrix does not keep. */
+    static constexpr Position not_kept = std::numeric_limits<Position>::max();
+
+    static constexpr unsigned int block_size = n_components * n_components;
 
     /** Number of grid cells and links. */
     unsigned int
@@ -104,96 +106,53 @@ namespace Morula
                links[element - space.grid_cells().size()].columns;
     }
 
-    /** The global unknowns in the rows of an owned unknown, by owned unknown.
-     */
-    using Unknowns = std::vector<std::vector<types::global_dof_index>>;
-
-    /** Ranks, by relevant unknown. */
+    /** The ranks of all relevant unknowns. Collective. */
     std::vector<unsigned int>
-    owners_of_relevant() const
+    owners_of_relevant() const;
+
+    /** Whether the matrix keeps the block of two relevant unknowns. */
+    bool
+    keeps(const unsigned int row, const unsigned int column) const
     {
-      // This rank's own unknowns need no question. Only the owners of the
-      // others are asked for. Collective.
-      const IndexSet &relevant = space.relevant();
-      IndexSet        foreign  = relevant;
-      foreign.subtract_set(space.owned());
-      const std::vector<unsigned int> owners =
-        Utilities::MPI::compute_index_owner(space.owned(), foreign, comm);
-      std::vector<unsigned int> all(relevant.n_elements(),
-                                    Utilities::MPI::this_mpi_process(comm));
-      for (types::global_dof_index k = 0; k < owners.size(); ++k)
-        all[relevant.index_within_set(foreign.nth_index_in_set(k))] = owners[k];
-      return all;
+      return !symmetric || owners[row] != owners[column] || row <= column;
     }
 
-    /** Messages by rank: an unknown's number, that of its columns, the columns;
-     *  then the next unknown's. */
-    using Messages =
-      std::map<unsigned int, std::vector<types::global_dof_index>>;
+    /** The unknowns whose blocks are kept in the rows of each. */
+    Numbers
+    couplings() const;
 
     /** Tells the owners of other ranks' rows what will be sent to them.
-     *  @return what they tell */
+     *  Collective. @return what they tell */
     Messages
-    announce(const Couplings &columns, const std::vector<unsigned int> &owners);
+    announce(const Numbers &columns);
 
-    /** Own rows, with the columns that any rank adds to. */
+    /** Own rows, with the columns that any rank adds to. Collective. */
     void
-    make_pattern(const Couplings &columns,
-                 const Messages  &announced,
-                 const IndexSet  &own_rows);
+    make_pattern(const Numbers &columns, const Messages &announced);
 
-    /** What other ranks have added to own rows, by rank. deal.II's
-     *  some_to_some() would ask anew who has something for whom, which takes
-     *  barriers of all ranks. */
-    std::map<unsigned int, std::vector<double>>
-    exchange() const;
-
-    /** Where the entries that other ranks send go. */
+    /** Where the blocks that other ranks send go. */
     void
     make_received(const Messages &announced);
 
-    /** Where the entries of the grid cells' matrices go. */
+    /** Where the blocks of the grid cells' matrices go. */
     void
-    make_positions(const Couplings                 &columns,
-                   const std::vector<unsigned int> &owners);
+    make_positions(const Numbers &columns);
 
-    /**
-     * The matrix's structure. Its columns stand in the order of the unknowns,
-     * this rank's first, with the components of each side by side: deal.II's
-     * SparsityPattern leaves the order to Epetra, which takes three times as
-     * long on several ranks to find one, and may part the components.
-     * @param unknowns those in the rows of each own unknown
-     * @param others those of them that are not owned, sorted
-     */
-    Epetra_CrsGraph
-    graph(const Unknowns                             &unknowns,
-          const std::vector<types::global_dof_index> &others,
-          const IndexSet                             &own_rows) const;
+    const SplineSpace<dim>         &space;
+    const std::vector<UnknownLink>  links;
+    BlockMatrix                    &matrix;
+    const bool                      symmetric;
+    const MPI_Comm                  comm;
+    const std::vector<unsigned int> owners; // by relevant unknown
 
-    /** Position in the matrix's columns of a global unknown's first
-     *  component. */
-    int
-    column_id(const types::global_dof_index unknown) const
-    {
-      return matrix.trilinos_matrix().ColMap().LID(
-        static_cast<TrilinosWrappers::types::int_type>(unknown * n_components));
-    }
+    std::vector<double *>              rows;      // by relevant unknown
+    std::vector<std::vector<Position>> positions; // by element, row by row
 
-    /** An unknown's rows that another rank adds to: the number of the owned
-     *  unknown, and the positions of the columns' first components. */
-    using Received = std::pair<unsigned int, std::vector<unsigned int>>;
+    /** The blocks of other ranks' rows, one row after the other, by owner. */
+    std::map<unsigned int, std::vector<double>> sent;
 
-    const SplineSpace<dim>                &space;
-    const std::vector<UnknownLink>         links;
-    Matrix                                &matrix;
-    const MPI_Comm                         comm;
-    std::vector<double *>                  rows;         // by relevant dof
-    std::vector<int>                       owned_number; // by relevant unknown
-    std::vector<std::vector<unsigned int>> positions; // by element, row by row
-
-    /** The values of an owner's rows, one after the other, by owner. */
-    std::map<unsigned int, std::vector<double>>   sent;
-    std::map<unsigned int, std::vector<Received>> received; // by sender
+    /** Where what each rank sends is added, block by block. */
+    std::map<unsigned int, std::vector<double *>> received;
   };
 
   /**
@@ -210,8 +169,8 @@ namespace Morula
   class Assembly
   {
   public:
-    using Vector = TrilinosWrappers::MPI::Vector;
-    using Matrix = TrilinosWrappers::SparseMatrix;
+    using Vector = BlockMatrix::Vector;
+    using Matrix = BlockMatrix;
 
     /** Adds to the sums of residual(), at the same field: given are its values
      *  at the relevant degrees of freedom, the sums and, if wanted, those of
@@ -256,11 +215,12 @@ namespace Morula
 
     /** Makes the sparse matrix, before the first matrix() and where other
      *  unknowns are linked than before. Collective.
-     *  @param links see MatrixScatter */
+     *  @param symmetric, links see MatrixScatter */
     void
-    make_pattern(const std::vector<UnknownLink> &links = {})
+    make_pattern(const bool                      symmetric,
+                 const std::vector<UnknownLink> &links = {})
     {
-      scatter.emplace(space, unknowns_.owned(), matrix_, comm, links);
+      scatter.emplace(space, matrix_, symmetric, comm, links);
     }
 
     /** Adds to the matrix, given the values at the relevant degrees of freedom
@@ -354,7 +314,7 @@ namespace Morula
 
   template <int dim, int n_components>
   template <typename Local, typename Add>
-  const TrilinosWrappers::SparseMatrix &
+  const BlockMatrix &
   Assembly<dim, n_components>::matrix(const Vector   &u,
                                       Local          &local,
                                       const Add      &add,

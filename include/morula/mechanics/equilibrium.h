@@ -4,13 +4,12 @@
 #ifndef morula_mechanics_equilibrium_h
 #define morula_mechanics_equilibrium_h
 
+#include <morula/base/block_matrix.h>
 #include <morula/base/step_failed.h>
 #include <morula/mechanics/term.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/point.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <functional>
 #include <string>
@@ -26,8 +25,8 @@ namespace Morula
   class Equilibrium
   {
   public:
-    using Vector = TrilinosWrappers::MPI::Vector;
-    using Matrix = TrilinosWrappers::SparseMatrix;
+    using Vector = BlockMatrix::Vector;
+    using Matrix = BlockMatrix;
 
     virtual ~Equilibrium() = default;
 

@@ -13,6 +13,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -207,6 +208,15 @@ namespace Morula
                 Evaluation   &evaluation,
                 Vector       &R,
                 Vector       *magnitudes) const;
+
+    /** Whether all terms have an energy, so that tangents are symmetric. */
+    bool
+    has_energy() const
+    {
+      return std::all_of(terms.begin(), terms.end(), [](const auto &term) {
+        return term->is_conservative();
+      });
+    }
 
     static typename LocalSystem<dim>::Wanted
     wanted(const Vector *magnitudes)

@@ -4,13 +4,12 @@
 #ifndef morula_mechanics_spline_field_h
 #define morula_mechanics_spline_field_h
 
-#include <morula/base/halo.h>
+#include <morula/base/block_matrix.h>
 #include <morula/grid/spline_space.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/point_store.h>
 
 #include <deal.II/base/index_set.h>
-#include <deal.II/lac/trilinos_vector.h>
 
 #include <mpi.h>
 
@@ -31,18 +30,19 @@ namespace Morula
   class FieldUnknowns
   {
   public:
-    using Vector = TrilinosWrappers::MPI::Vector;
+    using Vector = BlockMatrix::Vector;
 
     /** Collective. */
     FieldUnknowns(const SplineSpace<dim> &space, const MPI_Comm comm)
-      : owned_(dofs_of(space.owned()))
-      , relevant_(dofs_of(space.relevant()))
-      , own(relevant_ & owned_)
-      , others(without(relevant_, owned_))
-      , n_below(n_before(others, owned_))
-      , halo(owned_, others, comm)
+      : owned_(unknowns_of(space.owned(), n_components))
+      , relevant_(unknowns_of(space.relevant(), n_components))
       , zero_(owned_, comm)
-    {}
+      , with_others(owned_, relevant_, comm)
+    {
+      for (const auto unknown : relevant_)
+        places.push_back(
+          with_others.get_partitioner()->global_to_local(unknown));
+    }
 
     /** The degrees of freedom of the splines that this rank owns. */
     const IndexSet &
@@ -79,19 +79,13 @@ namespace Morula
     std::vector<double>
     fetch(const Vector &u) const
     {
-      // Values of other ranks come through the halo, in the order of `others`.
-      // The lower ones go to the front, the upper ones to the end; the own
-      // ones, which are copied, fill the middle.
-      std::vector<double> fetched(others.n_elements());
-      halo.fetch(u.begin(), fetched.data());
-      std::vector<double> values(relevant_.n_elements());
-      const auto          above = fetched.begin() + n_below;
-      std::copy(fetched.begin(), above, values.begin());
-      std::copy(above, fetched.end(), values.end() - (fetched.end() - above));
-      for_own(
-        [&](const unsigned int k, const unsigned int l, const unsigned int n) {
-          std::copy(u.begin() + l, u.begin() + l + n, values.begin() + k);
-        });
+      Vector ghosted(with_others);
+      ghosted.copy_locally_owned_data_from(u);
+      ghosted.update_ghost_values();
+      std::vector<double> values;
+      values.reserve(places.size());
+      for (const unsigned int place : places)
+        values.push_back(ghosted.local_element(place));
       return values;
     }
 
@@ -101,80 +95,20 @@ namespace Morula
     sum(const std::vector<double> &values) const
     {
       // The reverse of fetch(): what this rank has for others is sent to them
-      // and added there, its own part is copied.
-      const unsigned int  n_above = others.n_elements() - n_below;
-      std::vector<double> of_others(values.begin(), values.begin() + n_below);
-      of_others.insert(of_others.end(), values.end() - n_above, values.end());
-      Vector sum = zero();
-      for_own([&](const unsigned int k,
-                  const unsigned int l,
-                  const unsigned int n) {
-        std::copy(values.begin() + k, values.begin() + k + n, sum.begin() + l);
-      });
-      halo.add_back(of_others.data(), sum.begin());
+      // and added there.
+      Vector ghosted(with_others), sum(zero_);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        ghosted.local_element(places[k]) = values[k];
+      ghosted.compress(VectorOperation::add);
+      sum.copy_locally_owned_data_from(ghosted);
       return sum;
     }
 
   private:
-    /** Calls action(k, l, n) for intervals of relevant() that are owned, too:
-     *  from k on they are number l ... l + n - 1 of owned(). */
-    template <typename Action>
-    void
-    for_own(const Action &action) const
-    {
-      // k counts positions in relevant(): those of lower ranks come first, then
-      // the own ones, interval by interval.
-      unsigned int k = n_below;
-      for (auto range = own.begin_intervals(); range != own.end_intervals();
-           ++range)
-        {
-          const unsigned int n = range->n_elements();
-          action(k, owned_.index_within_set(*range->begin()), n);
-          k += n;
-        }
-    }
-
-    /** The degrees of freedom of unknown splines. */
-    static IndexSet
-    dofs_of(const IndexSet &splines)
-    {
-      IndexSet dofs(splines.size() * n_components);
-      // Ranges of splines become ranges of degrees of freedom: component i of
-      // spline s is s n_components + i.
-      for (auto range = splines.begin_intervals();
-           range != splines.end_intervals();
-           ++range)
-        dofs.add_range(*range->begin() * n_components,
-                       (range->last() + 1) * n_components);
-      dofs.compress();
-      return dofs;
-    }
-
-    static IndexSet
-    without(IndexSet all, const IndexSet &some)
-    {
-      all.subtract_set(some);
-      return all;
-    }
-
-    /** How many of @p some come before the first of @p others. */
-    static unsigned int
-    n_before(const IndexSet &some, const IndexSet &others)
-    {
-      // Owned unknowns are one range, as numbers run rank by rank. So those of
-      // other ranks fall into a lower and an upper part.
-      if (others.n_elements() == 0)
-        return some.n_elements();
-      const auto end = some.at(others.nth_index_in_set(0));
-      return end == some.end() ? some.n_elements() :
-                                 some.index_within_set(*end);
-    }
-
-    const IndexSet     owned_, relevant_;
-    const IndexSet     own, others; // of the relevant ones
-    const unsigned int n_below;     // others that come before the own ones
-    const Halo         halo;        // of the others
-    const Vector       zero_;       // copies share its map
+    const IndexSet            owned_, relevant_;
+    const Vector              zero_;       // copies share its map
+    const Vector              with_others; // zero; with relevant() of others
+    std::vector<unsigned int> places;      // of relevant() in that
   };
 
   /**
@@ -347,20 +281,22 @@ namespace Morula
   class SplineField
   {
   public:
+    using Vector = typename FieldUnknowns<dim, n_components>::Vector;
+
     /** @param u in the layout of FieldUnknowns::owned(). Neighbours exchange
      *  values. */
     SplineField(const SplineSpace<dim>                 &space,
                 const FieldUnknowns<dim, n_components> &unknowns,
-                const TrilinosWrappers::MPI::Vector    &u)
+                const Vector                           &u)
       : space(space)
       , values(unknowns.fetch(u))
     {}
 
     /** Does as the one above, for a caller that has no FieldUnknowns.
      *  Collective. */
-    SplineField(const SplineSpace<dim>              &space,
-                const TrilinosWrappers::MPI::Vector &u,
-                const MPI_Comm                       comm)
+    SplineField(const SplineSpace<dim> &space,
+                const Vector           &u,
+                const MPI_Comm          comm)
       : SplineField(space, FieldUnknowns<dim, n_components>(space, comm), u)
     {}
 

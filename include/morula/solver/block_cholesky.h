@@ -35,16 +35,16 @@ namespace Morula
       double absolute_diagonal = 0.;
     };
 
-    /** A row of a matrix: the numbers of its columns in any order, and the
-     *  entries. */
+    /** A row of blocks: the numbers of its columns in any order, and the
+     *  blocks, each row by row. */
     struct Row
     {
       std::vector<int>    columns;
       std::vector<double> values;
     };
 
-    /** Puts a matrix's row into the second argument. Of symmetric blocks only
-     *  columns from the diagonal's block on are read. */
+    /** Puts a matrix's row of blocks into the second argument; columns before
+     *  the diagonal's are not read. */
     using Rows = std::function<void(const int row, Row &)>;
 
     virtual ~IncompleteCholesky() = default;
@@ -115,22 +115,23 @@ namespace Morula
     void
     scale(const Rows &rows, const Parameters &parameters);
 
-    /** The rows of the block row k as the matrix's column k. */
+    /** Row k of blocks as the matrix's column k. */
     void
     read(const int k, const Rows &rows, Row &row, Column &column) const
     {
       // The matrix is symmetric: row k from the diagonal on is column k below
-      // it. So entry j of row i goes to column i of block j. The factor works
-      // on the scaled matrix.
+      // it. So entry j of row i of a block goes to its column i. The factor
+      // works on the scaled matrix.
+      rows(k, row);
+      const double *value = row.values.data();
+      for (const int b : row.columns)
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j, ++value)
+            if (b >= k)
+              column[b].column[i][j] =
+                *value * scales[n * k + i] * scales[n * b + j];
       for (int i = 0; i < n; ++i)
-        {
-          rows(n * k + i, row);
-          for (std::size_t e = 0; e < row.columns.size(); ++e)
-            if (const int j = row.columns[e]; j / n >= k)
-              column[j / n].column[i][j % n] =
-                row.values[e] * scales[n * k + i] * scales[j];
-          column[k].column[i][i] = 1.; // raised, and scaled
-        }
+        column[k].column[i][i] = 1.; // raised, and scaled
     }
 
     /** Subtracts what the columns before k contribute to it, and makes them

@@ -5,7 +5,6 @@
 #define morula_solver_conjugate_gradients_h
 
 #include <morula/mechanics/equilibrium.h>
-#include <morula/solver/halo_product.h>
 #include <morula/solver/preconditioner.h>
 
 #include <deal.II/base/array_view.h>
@@ -31,7 +30,7 @@ namespace Morula
    *  space. */
   struct ShiftedSystem
   {
-    const HaloProduct                      &K;
+    const BlockMatrix                      &K;
     const std::vector<Equilibrium::Vector> &null_space;
     double                                  shift; // σ
     /** What K lacks, or null. */
@@ -199,7 +198,7 @@ namespace Morula
     const OutsideMatrix outside(system, comm);
     Vector              r(b), z(b), w(b), p(b), s(b), diagonal;
     if (system.shift > 0.)
-      diagonal = diagonal_magnitude(system.K.matrix(), b);
+      diagonal = diagonal_magnitude(system.K, b);
     p = 0.;
     s = 0.;
     x = 0.;
@@ -213,10 +212,9 @@ namespace Morula
         if (system.rank_one != nullptr)
           w.add(system.rank_one->factor * b_z, system.rank_one->b);
         if (system.shift > 0.)
-          w.trilinos_vector().Multiply(system.shift,
-                                       diagonal.trilinos_vector(),
-                                       z.trilinos_vector(),
-                                       1.);
+          for (unsigned int k = 0; k < w.locally_owned_size(); ++k)
+            w.local_element(k) +=
+              system.shift * diagonal.local_element(k) * z.local_element(k);
         auto sums = Products::local(r, z, w, s);
         for (const double part : outside.parts(w))
           sums.push_back(part);
@@ -239,7 +237,7 @@ namespace Morula
         if (!(curvature > 0.))
           {
             Vector scaled(p);
-            scaled.scale(diagonal_magnitude(system.K.matrix(), b));
+            scaled.scale(diagonal_magnitude(system.K, b));
             needed = system.shift - curvature / (p * scaled);
             return CgOutcome::negative_curvature;
           }
@@ -270,7 +268,7 @@ namespace Morula
     Vector r(b), z(b), p(b), Kp(b), shifted(b), diagonal;
     // Hardly any system is shifted, and the search for the entries takes time.
     if (system.shift > 0.)
-      diagonal = diagonal_magnitude(system.K.matrix(), b);
+      diagonal = diagonal_magnitude(system.K, b);
     x = 0.;
     remove_parts(r, system.null_space);
     P.vmult(z, r);
@@ -296,7 +294,7 @@ namespace Morula
         if (!(curvature > 0.))
           {
             shifted = p;
-            shifted.scale(diagonal_magnitude(system.K.matrix(), b));
+            shifted.scale(diagonal_magnitude(system.K, b));
             needed = system.shift - curvature / (p * shifted);
             return CgOutcome::negative_curvature;
           }

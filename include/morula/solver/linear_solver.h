@@ -5,14 +5,12 @@
 #define morula_solver_linear_solver_h
 
 #include <morula/mechanics/equilibrium.h>
-#include <morula/solver/halo_product.h>
 #include <morula/solver/preconditioner.h>
 #include <morula/solver/solver_parameters.h>
 
 #include <deal.II/base/timer.h>
 
 #include <memory>
-#include <optional>
 
 namespace Morula
 {
@@ -27,8 +25,8 @@ namespace Morula
    * factorisation of their symmetric part. Along the problem's null space
    * nothing is solved for: there rounding could pass for negative curvature.
    * `automatic` does the same, and turns to the direct solver for a system that
-   * this cannot solve, if it is not too large for that. `direct` uses MUMPS, or
-   * KLU where Trilinos lacks it.
+   * this cannot solve, if it is not too large for that. `direct` does
+   * so at once.
    */
   class LinearSolver
   {
@@ -96,7 +94,6 @@ namespace Morula
     TimerOutput                  &timer;
     Preconditioner                preconditioner;
     std::unique_ptr<DirectSolver> direct;
-    std::optional<HaloProduct>    product; // of the last matrix
     double                        curvature_   = 0.;
     bool                          has_shifted_ = false;
     bool                          prepared     = false; // one was asked for

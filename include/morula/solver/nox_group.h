@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace Morula
 {
@@ -92,8 +93,7 @@ namespace Morula
   values_of(const NOX::Abstract::Vector &vector);
 
   /**
-   * A Trilinos vector as NOX sees it. Written against NOX::Abstract, so that it
-   * outlives NOX's Epetra interface.
+   * A distributed vector as NOX sees it.
    */
   class NoxVector : public NOX::Abstract::Vector
   {
@@ -114,14 +114,19 @@ namespace Morula
     NOX::Abstract::Vector &
     random(const bool, const int) override
     {
-      values.trilinos_vector().Random();
+      std::minstd_rand                       generator;
+      std::uniform_real_distribution<double> uniform(-1., 1.);
+      for (double &value : values)
+        value = uniform(generator);
       return *this;
     }
 
     NOX::Abstract::Vector &
     abs(const NOX::Abstract::Vector &y) override
     {
-      values.trilinos_vector().Abs(values_of(y).trilinos_vector());
+      values = values_of(y);
+      for (double &value : values)
+        value = std::abs(value);
       return *this;
     }
 
@@ -135,7 +140,9 @@ namespace Morula
     NOX::Abstract::Vector &
     reciprocal(const NOX::Abstract::Vector &y) override
     {
-      values.trilinos_vector().Reciprocal(values_of(y).trilinos_vector());
+      values = values_of(y);
+      for (double &value : values)
+        value = 1. / value;
       return *this;
     }
 

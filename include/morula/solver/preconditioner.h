@@ -9,10 +9,6 @@
 #include <morula/solver/block_cholesky.h>
 
 #include <deal.II/base/index_set.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_vector.h>
-
-#include <Epetra_CrsMatrix.h>
 
 #include <cstddef>
 #include <memory>
@@ -38,19 +34,12 @@ namespace Morula
   class OverlappingCholesky
   {
   public:
-    using Vector = TrilinosWrappers::MPI::Vector;
-    using Matrix = TrilinosWrappers::SparseMatrix;
+    using Vector = BlockMatrix::Vector;
 
     using Parameters = IncompleteCholesky::Parameters;
 
-    /**
-     * @param K is not used afterwards
-     * @param n_components unknowns of a spline, 1 to 3: these follow each
-     *        other, on the same rank
-     */
-    OverlappingCholesky(const Matrix      &K,
-                        const unsigned int n_components,
-                        const Parameters  &parameters);
+    /** @param K symmetric; is not used afterwards */
+    OverlappingCholesky(const BlockMatrix &K, const Parameters &parameters);
 
     /** Whether this rank's factorisation is positive. */
     bool
@@ -66,29 +55,17 @@ namespace Morula
   private:
     struct ReceivedRows; // of lower ranks
 
-    /** Number of a row in this rank's block, -1 if it is not there: own ones
-     *  come last. */
-    int
-    number_of(const types::global_dof_index row) const
-    {
-      // Own rows come last in the block.
-      if (own.is_element(row))
-        return others.n_elements() + own.index_within_set(row);
-      return others.is_element(row) ? others.index_within_set(row) : -1;
-    }
-
     ReceivedRows
-    receive(const Epetra_CrsMatrix &K, const unsigned int n_components) const;
+    receive(const BlockMatrix &K) const;
 
     void
-    factorize(const Epetra_CrsMatrix &K,
-              const ReceivedRows     &received,
-              const unsigned int      n_components,
-              const Parameters       &parameters);
+    factorize(const BlockMatrix  &K,
+              const ReceivedRows &received,
+              const Parameters   &parameters);
 
-    const IndexSet                      own;
-    const IndexSet                      others; // rows of lower ranks
-    std::optional<Halo>                 halo;   // not on one rank
+    const IndexSet                      others; // splines of lower ranks
+    const std::size_t                   n_own, n_others; // unknowns
+    std::optional<Halo>                 halo;            // not on one rank
     std::unique_ptr<IncompleteCholesky> factor;
     mutable std::vector<double>         gathered; // of the block
   };
@@ -123,7 +100,6 @@ namespace Morula
 
   private:
     const LinearProblem                 &problem;
-    Matrix                               symmetric_part; // of an unsymmetric K
     std::unique_ptr<OverlappingCholesky> factorisation_;
     std::size_t                          n_tried; // or left out
   };
@@ -134,8 +110,7 @@ namespace Morula
                      const Equilibrium::Vector &like);
 
   /** Jacobi's preconditioner of K + σ |diag K|: the inverse of
-   *  (1 + σ) |diag K|; always positive. deal.II's DiagonalMatrix assigns a
-   *  vector in each product, for which Epetra compares maps by a reduction. */
+   *  (1 + σ) |diag K|; always positive. */
   class Jacobi
   {
   public:
@@ -145,21 +120,16 @@ namespace Morula
     Jacobi(const Vector &magnitude, const double shift)
       : inverse(magnitude)
     {
-      for (const auto row : inverse.locally_owned_elements())
-        inverse(row) =
-          magnitude(row) > 0. ? 1. / ((1. + shift) * magnitude(row)) : 1.;
-      inverse.compress(VectorOperation::insert);
+      for (double &entry : inverse)
+        entry = entry > 0. ? 1. / ((1. + shift) * entry) : 1.;
     }
 
     /** No communication. */
     void
     vmult(Vector &y, const Vector &x) const
     {
-      // An entrywise product; it does not communicate.
-      y.trilinos_vector().Multiply(1.,
-                                   inverse.trilinos_vector(),
-                                   x.trilinos_vector(),
-                                   0.);
+      y = x;
+      y.scale(inverse);
     }
 
   private:

@@ -70,10 +70,8 @@ namespace Morula
         diagonal = diagonal_magnitude(K, u);
       if (proximity == 0.)
         return K;
-      sum.copy_from(K);
-      for (const auto row : K.locally_owned_range_indices())
-        sum.add(row, row, proximity * diagonal(row));
-      sum.compress(VectorOperation::add);
+      sum = K;
+      sum.add_to_diagonal(proximity, diagonal);
       return sum;
     }
 

@@ -319,7 +319,6 @@ namespace Morula
           missing += std::max(0., wants - has);
           taken[s] = wants >= has ? (has > 0. ? 1. : 0.) : wants / has;
         }
-      taken.compress(VectorOperation::insert);
       const std::vector<double> parts = unknowns.fetch(taken);
       for (unsigned int c = 0; c < contents.size(); ++c)
         {

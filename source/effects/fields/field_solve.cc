@@ -83,7 +83,7 @@ namespace Morula
     , assembly(space, tissue.communicator())
     , values(reader.columns.fields.size())
   {
-    assembly.make_pattern();
+    assembly.make_pattern(true);
     equation.cell_places =
       grouped_places(tissue.cells(),
                      space,
@@ -280,12 +280,13 @@ namespace Morula
           assembly.unknowns().sum(assembly.residual(known, load, equation));
         if (!linear)
           {
-            problem.typical_entry = A.linfty_norm();
+            problem.typical_entry = A.diagonal(b).linfty_norm();
             linear                = make_solver(problem);
           }
         Vector       x     = start, missing(b), change(b);
         const double small = accuracy.tolerance * b.l2_norm();
-        A.residual(missing, x, b);
+        A.vmult(missing, x);
+        missing.sadd(-1., 1., b);
         const double size = missing.l2_norm();
         if (!(size > small))
           return x;

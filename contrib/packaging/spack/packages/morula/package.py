@@ -21,7 +21,8 @@ class Morula(CMakePackage):
     # What contrib/cmake/requirements.cmake asks for, which deal.II's recipe leaves
     # open.
     depends_on("dealii@9.4: +mpi +p4est +hdf5 +muparser +trilinos ~int64 cxxstd=17")
-    depends_on("trilinos@:16 +epetra +epetraext +nox +amesos +mumps")
+    depends_on("trilinos +nox")
+    depends_on("suite-sparse")
     depends_on("boost@1.74: +program_options")
     depends_on("cgal@5.5:")
     depends_on("gmp")

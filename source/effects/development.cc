@@ -104,10 +104,10 @@ namespace Morula
                                    const GivenState            &given) const
   {
     // The order follows who reads what. The type comes first, as most
-    // expressions depend on it; then the cycle, whose lineage key is behind the
-    // noise; then what other effects keep. At last, if a step is given, each
-    // effect evaluates its expressions once, so that an error is reported
-    // before the run begins.
+    // expressions depend on it, and the lineage key, which is behind the noise;
+    // then what effects keep, as the numbers of cells, and the cycle, which may
+    // read them. At last, if a step is given, each effect evaluates its
+    // expressions once, so that an error is reported before the run begins.
     const CellReader<dim> reader = this->reader(0.);
     const Point<dim>      X      = cell.founder_position();
     if (effects.types)
@@ -115,10 +115,10 @@ namespace Morula
     if (columns_.lineage_key.exists())
       cell.set(columns_.lineage_key, Random::founder_key(random_seed, id));
     const PresentCell<dim> founder(cell, id, X, reader);
+    for (const Effect<dim> *effect : effects.with_state)
+      effect->begin(founder, cell);
     if (effects.proliferation)
       effects.proliferation->found(founder, cell, step, given.phase);
-    for (const Effect<dim> *effect : effects.with_state)
-      effect->begin(cell);
     // Without a step only the row is wanted, for example for an estimate.
     if (!(step > 0.))
       return;
@@ -190,18 +190,20 @@ namespace Morula
     // one she is born with, since the later change is an event of its own.
     if (state_.birth_time.exists())
       daughter.set(state_.birth_time, birth);
+    const std::uint64_t mother =
+      columns_.lineage_key.exists() ? daughter.get(columns_.lineage_key) : 0;
     for (const auto &fate : effects.fates.list)
       fate->inherit(daughter, state_, which, birth);
     const unsigned int own =
       state_.type.exists() ? daughter.get(state_.type) : 0;
-    // Where the clock is the only fate there is nothing to do now: it has exact
-    // times, so the next step finds what happened since the birth.
+    const CellReader<dim>  reader = this->reader(t1);
+    const PresentCell<dim> cell(daughter, id, position, reader);
+    for (const Effect<dim> *effect : effects.with_state)
+      effect->born(cell, daughter, mother, which, birth, t1);
+    // Where the clock is the only fate there is nothing more to do now: it has
+    // exact times, so the next step finds what happened since the birth.
     if (!effects.proliferation || effects.fates.list.size() > 1)
-      {
-        const CellReader<dim>  reader = this->reader(t1);
-        const PresentCell<dim> cell(daughter, id, position, reader);
-        effects.fates.live(cell, daughter, birth, t1, events);
-      }
+      effects.fates.live(cell, daughter, birth, t1, events);
     return own;
   }
 

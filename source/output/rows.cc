@@ -99,6 +99,8 @@ namespace Morula
                     {"z", dim == 3 ? birth.position[dim - 1] : 0.}};
     if (with_types)
       row.add("type", birth.type);
+    for (const auto &[name, value] : birth.numbers)
+      row.add(name, value);
     return row;
   }
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
+#include <morula/base/name_list.h>
 #include <morula/mechanics/materials/material.h>
 #include <morula/output/point_fields.h>
 #include <morula/scene/checks.h>
@@ -227,31 +228,40 @@ namespace Morula
                        scene.division_axes());
     }
 
-    /** Refuses equations that contradict themselves, and those whose columns
-     *  have the names of others. */
+    /** Refuses equations that contradict themselves. */
     template <int dim>
     void
     check_equations(const Scene &scene)
     {
-      // What the keys of an equation contradict is said before it is made. The
-      // scene names the columns of some, and the table of all columns refuses
-      // two that are equal.
+      // What the keys of an equation contradict is said before it is made.
       for (const auto &choice : scene.catalogue.equations)
         check_with(scene, choice.keys());
       check_switched<dim>(scene, scene.catalogue.equations);
-      for (const auto &choice : scene.catalogue.equations)
-        if (const AnyKey *const names = choice.keys().facts().names_key;
-            names != nullptr && choice.keys().is_on())
+    }
+
+
+    /** Refuses names of the scene's own that other columns of cells have. */
+    template <int dim>
+    void
+    check_columns(const Scene &scene)
+    {
+      // The table of all columns refuses two that are equal. Its message has
+      // the name, which tells whose it is.
+      for (const EffectKeys *const keys : scene.catalogue.all_keys())
+        if (const AnyKey *const names = keys->facts().names_key;
+            names != nullptr && keys->is_on())
           try
             {
               CellFields<dim>(0., 0, effects_of<dim>(scene).columns, true);
             }
           catch (const std::invalid_argument &error)
             {
-              names->refuse("names that no other column of cells-NNNN.csv and "
-                            "snapshot.h5 has",
-                            error.what() +
-                              std::string(" Choose another name."));
+              const std::string message = error.what();
+              for (const std::string &name : split_names(names->text()))
+                if (message.find("'" + name + "'") != std::string::npos)
+                  names->refuse("names that no other column of cells-NNNN.csv "
+                                "and snapshot.h5 has",
+                                message + " Choose another name.");
             }
     }
 
@@ -323,6 +333,7 @@ namespace Morula
       check_switched<dim>(scene, scene.catalogue.fates);
       check_equations<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.traits);
+      check_columns<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.step_effects);
       check_boundary_conditions<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.forces);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/input_error.h>
+#include <morula/base/name_list.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/scene/scene.h>
 
@@ -76,6 +78,39 @@ namespace Morula
         }
     }
 
+    /** Refuses numbers of cells with a name that means something else already.
+     *  @throws InputError */
+    void
+    check_numbers(const Scene &scene)
+    {
+      const std::vector<std::string> fields = scene.field_names(),
+                                     types  = scene.type_names();
+      std::set<std::string> taken(types.begin(), types.end());
+      taken.insert(fields.begin(), fields.end());
+      for (const EffectKeys *const keys : scene.catalogue.all_keys())
+        if (const EffectFacts facts = keys->facts();
+            !facts.numbers.empty() && keys->is_on())
+          for (const std::string &name : facts.numbers)
+            {
+              std::string reason = reason_against_variable(name);
+              if (reason.empty() && !taken.insert(name).second)
+                reason = "A field, a type or another number of cells has "
+                         "this name: choose another one.";
+              if (!reason.empty())
+                throw InputError(facts.names_key ? facts.names_key->path() :
+                                                   "A number of cells",
+                                 name,
+                                 "a name that is free",
+                                 reason);
+            }
+      if (fields.size() + scene.catalogue.number_names().size() > most_fields)
+        throw InputError("Cell numbers/Names",
+                         "",
+                         "at most " + std::to_string(most_fields) +
+                           " fields and numbers of cells",
+                         "Use fewer of them.");
+    }
+
     /** Admits the names of all effects of a kind. */
     template <template <int> class Interface>
     void
@@ -121,10 +156,11 @@ namespace Morula
   void
   Scene::declare_sections(const std::map<std::string, std::string> &names)
   {
-    // Some keys exist only because others name them: fields, types and bodies
-    // have a section each. The order follows who needs whom. Fields come first,
-    // as axes may be their gradients; then types, which have a copy of each key
-    // of cells, fields' keys included; bodies at last.
+    // Some keys exist only because others name them: fields, numbers of cells,
+    // types and bodies have a section each. The order follows who needs whom.
+    // Fields come first, as axes may be their gradients, and numbers; then
+    // types, which have a copy of each key of cells, those of fields and
+    // numbers included; bodies at last.
     const auto names_in = [&names](const AnyKey &key) {
       const auto found = names.find(key.path());
       return found == names.end() ? "" : found->second;
@@ -134,8 +170,16 @@ namespace Morula
       keys.declare_sections(key == nullptr ? "" : names_in(*key),
                             cell_types.name_list());
     };
-    for (auto &choice : catalogue.equations)
-      declare(choice.keys());
+    std::set<const EffectKeys *> done;
+    const auto                   declare_all = [&](auto &choices) {
+      for (auto &choice : choices)
+        {
+          declare(choice.keys());
+          done.insert(&choice.keys());
+        }
+    };
+    declare_all(catalogue.equations);
+    declare_all(catalogue.traits);
     const std::vector<std::string> fields = field_names();
     for (const std::string &field : fields)
       division.axis.add_word("gradient of " + field);
@@ -148,9 +192,6 @@ namespace Morula
                           growth_laws,
                           boost::join(division.axis.choices(), "|"),
                           fields);
-    std::set<const EffectKeys *> done;
-    for (auto &choice : catalogue.equations)
-      done.insert(&choice.keys());
     for (EffectKeys *const keys : catalogue.all_keys())
       if (done.count(keys) == 0)
         declare(*keys);
@@ -160,12 +201,13 @@ namespace Morula
   void
   Scene::apply_types()
   {
-    // Expressions learn the names of fields in any case. With types, values
-    // that a type overrides go into the keys of all cells. Effects see the keys
-    // last, as they may change what types have.
-    const std::vector<std::string> fields = field_names();
+    // Expressions learn the names of fields and numbers of cells in any case.
+    // With types, values that a type overrides go into the keys of all cells.
+    // Effects see the keys last, as they may change what types have.
+    check_numbers(*this);
+    const std::vector<std::string> own = own_variables();
     for (ExpressionKey *key : keys_of_cells(list()))
-      key->set_fields(fields);
+      key->set_fields(own, field_names().size());
     if (cell_types.is_on())
       cell_types.apply(keys_of_cells(list_without_types()));
     for (EffectKeys *const keys : catalogue.all_keys())

@@ -63,8 +63,13 @@ namespace Morula
         cell.set(columns.generation, founders.generations[i]);
       if (columns.body.exists() && !founders.bodies.empty())
         cell.set(columns.body, founders.bodies[i]);
+      const CellReader<dim>  reader = development.reader(0.);
+      const PresentCell<dim> founder(cell,
+                                     founders.first_id + i,
+                                     founders.positions[i],
+                                     reader);
       for (const auto &[name, equation] : model.equations)
-        equation->begin(cell);
+        equation->begin(founder, cell);
       development.initialize(founders.first_id + i,
                              cell,
                              step,

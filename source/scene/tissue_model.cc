@@ -55,6 +55,7 @@ namespace Morula
   {
     StateColumns<dim>             state(scene.type_names(),
                             scene.field_names(),
+                            scene.catalogue.number_names(),
                             scene.keys<NeighbourParameters>().variables);
     const std::vector<NamedField> fields = scene.catalogue.named_fields();
     for (unsigned int k = 0; k < fields.size(); ++k)

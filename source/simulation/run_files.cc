@@ -74,10 +74,11 @@ namespace Morula
       const Scene       &scene      = model.scene;
       const Tables<dim> &of_effects = model.tables;
       const CellEvent    event{0., 0, CellEvent::death, 0, 0};
+      Birth<dim>         birth{};
+      birth.numbers             = model.development.state().named_numbers();
       std::vector<Table> tables = {
         {"statistics", statistics_row(row_like(model)).header()},
-        {"lineage",
-         lineage_row(Birth<dim>{}, !scene.type_names().empty()).header()}};
+        {"lineage", lineage_row(birth, !scene.type_names().empty()).header()}};
       if (of_effects.records_events())
         tables.push_back(
           {"events", event_row(event, {{}, of_effects.has_causes()}).header()});

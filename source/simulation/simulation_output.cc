@@ -69,7 +69,11 @@ namespace Morula
       Utilities::MPI::sum(of_effects, comm, of_effects);
       row.of_effects.clear();
       for (std::size_t k = 0; k < columns.size(); ++k)
-        row.of_effects.emplace_back(columns[k].name, of_effects[k]);
+        row.of_effects.emplace_back(columns[k].name,
+                                    columns[k].is_mean ?
+                                      of_effects[k] /
+                                        std::max<double>(row.cells, 1.) :
+                                      of_effects[k]);
     }
 
 

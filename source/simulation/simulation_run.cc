@@ -85,7 +85,8 @@ namespace Morula
              founders.generations.empty() ? 0 : founders.generations[i],
              0.,
              X,
-             founder.type()});
+             founder.type(),
+             model.development.state().named_numbers(&founder.cell())});
         });
       for (std::size_t i = 0; i < patches.positions.size(); ++i)
         {
@@ -158,7 +159,9 @@ namespace Morula
     // as begin() opens them.
     FirstPoints<dim> points = found(model, seeded, comm);
     tissue.place(std::move(points.cells), std::move(points.boundary_points));
-    births   = std::move(points.births);
+    births = std::move(points.births);
+    phases_are_given =
+      Utilities::MPI::max<int>(!seeded.founders.phases.empty(), comm) > 0;
     warnings = {"Method: " + method_text(model.scene),
                 "Material: " + material_text(model.scene)};
     for (const auto &[name, text] : seeded.applied)
@@ -264,6 +267,40 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::found_again()
+  {
+    // Founders have got their state when no steady field was known yet: their
+    // clocks, axes and numbers may depend on one. The type, and the phase if
+    // the file has one, stand in the row. The row in lineage.csv has numbers.
+    const CellReader<dim>    reader = model.development.reader(0.);
+    const Cells<dim>        &cells  = tissue.cells();
+    const StateColumns<dim> &state  = model.development.state();
+    if (!state.named_numbers().empty())
+      births.clear();
+    everywhere(comm, [&]() {
+      for (unsigned int p = 0; p < cells.size(); ++p)
+        {
+          GivenState given;
+          if (state.type.exists())
+            given.type = cells[p].get(state.type);
+          if (phases_are_given)
+            given.phase = reader.phase(cells[p]);
+          model.development.initialize(cells.id(p), tissue.cell(p), 0., given);
+          const CellView<dim, const double> cell = cells[p];
+          if (!state.named_numbers().empty())
+            births.push_back({cells.id(p),
+                              -1,
+                              cell.generation(),
+                              0.,
+                              cells.position(p),
+                              given.type.value_or(0),
+                              state.named_numbers(&cell)});
+        }
+    });
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::begin()
   {
     // A new run still has to make its first row: steady fields are found on the
@@ -286,19 +323,14 @@ namespace Morula
           // Carving or the first step makes the solver anew.
           for (const auto &equation : equations)
             equation->forget_configuration();
+          if (std::any_of(model.equations.begin(),
+                          model.equations.end(),
+                          [](const auto &named) {
+                            return named.effect->is_steady();
+                          }))
+            found_again();
         };
         find_steady();
-        // Founders that are in a cycle have got their axes when no field was
-        // known yet. An axis may depend on one.
-        if (std::any_of(model.equations.begin(),
-                        model.equations.end(),
-                        [](const auto &named) {
-                          return named.effect->is_steady();
-                        }))
-          for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-            model.development.choose_first_axis(
-              present_cell(tissue, p, model.development.reader(0.)),
-              tissue.cell(p));
         // The fields decide what is carved, and what is left decides the
         // fields.
         if (carve())

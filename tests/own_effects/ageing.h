@@ -25,6 +25,14 @@ namespace Own
     {
       return record;
     }
+
+    EffectFacts
+    facts() const override
+    {
+      EffectFacts facts;
+      facts.numbers = {"earlier_dose"};
+      return facts;
+    }
   };
 
   template <int dim>

@@ -93,7 +93,8 @@ namespace Own
     }
 
     void
-    begin(const CellView<dim, double> &cell) const override
+    begin(const PresentCell<dim> &,
+          const CellView<dim, double> &cell) const override
     {
       cell.set(density, initial.value(cell.founder_position(), 0.));
     }

@@ -118,7 +118,8 @@ namespace Morula
     std::vector<Variable> variables;
     /** Named numbers, e.g. the types of cells. */
     std::map<std::string, double> constants = {};
-    /** Names of the fields, whose values are variables, too; by number. */
+    /** Names of the fields, and of what else of a scene's own is a variable;
+     *  by number. Empty: one that the expression may not use. */
     std::vector<std::string> fields = {};
 
     /** Name of a variable. */
@@ -136,7 +137,8 @@ namespace Morula
       // Fields are variables with numbers behind all others.
       std::vector<Variable> all = variables;
       for (unsigned int k = 0; k < fields.size(); ++k)
-        all.push_back(field_variable(k));
+        if (!fields[k].empty())
+          all.push_back(field_variable(k));
       return all;
     }
 

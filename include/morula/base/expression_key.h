@@ -142,22 +142,29 @@ namespace Morula
       parsed.reset();
     }
 
-    /** Sets the names of the scene's fields, by number. A text that is
-     *  evaluated at an event or in a step may use them. */
+    /** Sets the names of the variables of the scene's own, by number: first
+     *  those of the @p n_fields fields, which a property may not use. */
     void
-    set_fields(const std::vector<std::string> &names)
+    set_fields(const std::vector<std::string> &names,
+               const unsigned int              n_fields)
     {
-      // Fields exist only where cells are asked, at events and in steps.
-      if (evaluated_ == Evaluated::event || evaluated_ == Evaluated::step)
+      // They exist only where cells are asked. Fields follow from the
+      // deformation, on which a property has an influence; what cells have
+      // besides is known before it.
+      if (is_of_cells())
         fields = names;
+      if (evaluated_ == Evaluated::property)
+        std::fill_n(fields.begin(), n_fields, "");
+      this->n_fields = n_fields;
       parsed.reset();
     }
 
     /** The names of fields that the text may use. */
-    const std::vector<std::string> &
+    std::vector<std::string>
     field_names() const
     {
-      return fields;
+      return {fields.begin(),
+              fields.begin() + std::min<std::size_t>(n_fields, fields.size())};
     }
 
     /** As this key, in the section of a type of cells. It is empty if the type
@@ -257,6 +264,7 @@ namespace Morula
     std::string                   text_;
     std::map<std::string, double> types;
     std::vector<std::string>      fields;
+    unsigned int                  n_fields = 0;
     /** Path and text, by the type's number. */
     std::map<unsigned int, std::pair<std::string, std::string>> of_types;
     std::optional<Rule<double>>                                 rule;

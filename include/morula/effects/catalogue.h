@@ -309,6 +309,18 @@ namespace Morula
       return all;
     }
 
+    /** The columns that are variables, of the effects that are on. */
+    std::vector<std::string>
+    number_names() const
+    {
+      std::vector<std::string> all;
+      for (const EffectKeys *const keys : all_keys())
+        if (const auto names = keys->facts().numbers;
+            !names.empty() && keys->is_on())
+          all.insert(all.end(), names.begin(), names.end());
+      return all;
+    }
+
     /** A copy whose keys have their defaults. */
     Catalogue
     with_defaults() const

@@ -214,8 +214,8 @@ namespace Morula
 
     /**
      * Sets a founder's columns at t = 0, and refuses a founder that some effect
-     * cannot handle.
-     * @param step of the run, day
+     * cannot handle. Called again when the steady fields are known.
+     * @param step of the run, day; 0: nothing is refused
      * @param given what its file says of it
      * @throws InputError
      */
@@ -336,16 +336,6 @@ namespace Morula
     {
       return effects.fates.dividing->placement_axis(
         cell, state_.type.exists() ? cell.get(state_.type) : 0);
-    }
-
-    /** Chooses the axis of a founder in @p cell anew that is in a cycle at
-     *  t = 0, when the steady fields are known. */
-    void
-    choose_first_axis(const PresentCell<dim>      &founder,
-                      const CellView<dim, double> &cell) const
-    {
-      if (effects.proliferation)
-        effects.proliferation->choose_first_axis(founder, cell);
     }
 
   private:

@@ -62,6 +62,9 @@ namespace Morula
     /** The fields that the effect gives to cells, in the order of their
      *  numbers. One effect of a scene may have some. */
     std::vector<NamedField> fields = {};
+    /** The columns of cells, of one number each, that the effect declares and
+     *  that expressions may read by their names. */
+    std::vector<std::string> numbers = {};
     /** Keys that choose boundary points on which the effect acts, besides those
      *  of conditions: the run warns when their last point is gone. */
     std::vector<const ExpressionKey *> places = {};
@@ -231,9 +234,26 @@ namespace Morula
     {}
 
     /** Sets the effect's columns of a founder at t = 0, if they differ from the
-     *  declared values. Only called if the effect has columns. */
+     *  declared values. Only called if the effect has columns. `row` is that of
+     *  the founder, of which expressions can be evaluated. */
     virtual void
-    begin(const CellView<dim, double> &) const
+    begin(const PresentCell<dim> & /*founder*/,
+          const CellView<dim, double> & /*row*/) const
+    {}
+
+    /** Sets the effect's columns of a daughter, whose row is her mother's of
+     *  the end @p t1 (day) of the step by the columns' rules, as they are at
+     *  t1. Only called if the effect has columns.
+     *  `daughter` evaluates expressions, of the same row and with t1;
+     *  `mother` is the key of the mother's random numbers;
+     *  `which` is 0 for the one at -n_s, 1 for the other; `birth` her day */
+    virtual void
+    born(const PresentCell<dim> & /*daughter*/,
+         const CellView<dim, double> & /*row*/,
+         const std::uint64_t /*mother*/,
+         const unsigned int /*which*/,
+         const double /*birth*/,
+         const double /*t1*/) const
     {}
 
     /**

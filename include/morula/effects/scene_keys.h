@@ -174,6 +174,17 @@ namespace Morula
       return names;
     }
 
+    /** The names of the variables of the scene's own: of the fields, by their
+     *  numbers, and then of columns of cells. */
+    std::vector<std::string>
+    own_variables() const
+    {
+      std::vector<std::string>       names = field_names();
+      const std::vector<std::string> more  = catalogue.number_names();
+      names.insert(names.end(), more.begin(), more.end());
+      return names;
+    }
+
     /** The keys of all effects: first those that are no entry of the catalogue.
      */
     std::vector<const EffectKeys *>

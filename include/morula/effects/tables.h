@@ -35,6 +35,8 @@ namespace Morula
       std::function<double(const PresentCell<dim> &)> of_cell = {};
       /** Counted in the step, if there is one. */
       std::optional<EventKind> counted = {};
+      /** Whether the sum is divided by the number of cells. */
+      bool is_mean = false;
     };
 
     /** Adds a column of statistics.csv: a sum over the cells as they are after
@@ -44,6 +46,15 @@ namespace Morula
             const std::function<double(const PresentCell<dim> &)> &of_cell)
     {
       columns_.push_back({name, of_cell});
+    }
+
+    /** Adds a column of statistics.csv: a mean over the cells likewise; 0
+     *  without any. */
+    void
+    add_mean(const std::string                                     &name,
+             const std::function<double(const PresentCell<dim> &)> &of_cell)
+    {
+      columns_.push_back({name, of_cell, {}, true});
     }
 
     /** Adds a column of statistics.csv: how many events of a kind the step had.

@@ -8,6 +8,9 @@
 #include <deal.II/particles/property_pool.h>
 
 #include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace Morula
 {
@@ -56,6 +59,8 @@ namespace Morula
     double                time;       // day, exact
     Point<dim>            position;   // at birth, µm
     unsigned int          type = 0;   // number of the type
+    /** The columns that are variables, with their names. */
+    std::vector<std::pair<std::string, double>> numbers = {};
   };
 } // namespace Morula
 

@@ -113,6 +113,11 @@ namespace Morula
     void
     check_resumed_cycle() const; // Step may have changed
 
+    /** Gives founders their state anew, when the steady fields are known.
+     *  Collective. */
+    void
+    found_again();
+
     void
     begin();
     /** Takes out at t = 0 what Death/When kills then and goes at once, and
@@ -364,6 +369,8 @@ namespace Morula
     bool told_of_turn         = false; // once a run
     bool warned_of_misfit     = false; // likewise
     bool warned_of_drift      = false; // likewise
+
+    bool phases_are_given = false; // of founders, by their file
 
     // A new run says what acts in it, and its warnings, when it has a log.
     std::vector<std::string>         warnings;

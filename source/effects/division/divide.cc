@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace Morula
 {
@@ -219,12 +220,15 @@ namespace Morula
             const unsigned int type = development.make_daughter(
               daughter, id, position, which, divisions[k].time, t1, events);
             daughters.add(id, position, make_array_view(row));
+            const CellView<dim, const double> born(
+              make_array_view(std::as_const(row)), columns);
             births.push_back({id,
                               static_cast<int>(divisions[k].mother),
                               generation,
                               divisions[k].time,
                               position,
-                              type});
+                              type,
+                              development.state().named_numbers(&born)});
           }
       }
     tissue.replace(due, daughters);

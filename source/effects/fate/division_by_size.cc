@@ -9,8 +9,6 @@
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
 
-#include <boost/math/special_functions/erf.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,18 +85,6 @@ namespace Morula
      *  mistake: without a limit there would soon be too many cells. */
     constexpr double most_divisions = 10.;
 
-    /** A normally distributed number, of mean 0 and deviation 1, from one that
-     *  is exponentially distributed with mean 1. */
-    double
-    as_normal(const double exponential)
-    {
-      // The share of larger numbers is kept off 0 and 1, where the normal
-      // number would be infinite.
-      const double share =
-        std::clamp(std::exp(-exponential), 0x1p-53, 1. - 0x1p-53);
-      return std::sqrt(2.) * boost::math::erfc_inv(2. * share);
-    }
-
     /**
      * Cells that grow by a law divide when their grown volume V⁰ det F_g
      * reaches a threshold, which is drawn from the lineage key: doc/theory.md,
@@ -158,7 +144,8 @@ namespace Morula
 
       /** Keeps which part of a whole cell a founder is. */
       void
-      begin(const CellView<dim, double> &cell) const override
+      begin(const PresentCell<dim> &,
+            const CellView<dim, double> &cell) const override
       {
         if (share.exists())
           cell.set(share, std::min(1., cell.initial_volume() / whole_volume));
@@ -350,9 +337,9 @@ namespace Morula
         if (variation == 0.)
           return mean;
         const double s2 = std::log1p(variation * variation);
-        const double z  = as_normal(Random::threshold_of("division by size",
-                                                        random_seed,
-                                                        cell.lineage_key()));
+        const double z  = Random::normal_of("division by size",
+                                           random_seed,
+                                           cell.lineage_key());
         return mean * std::exp(std::sqrt(s2) * z - 0.5 * s2);
       }
 

@@ -9,6 +9,7 @@
 
 #include <Random123/philox.h>
 #include <boost/crc.hpp>
+#include <boost/math/special_functions/erf.hpp>
 
 #include <algorithm>
 #include <array>
@@ -258,6 +259,20 @@ namespace Morula::Random
     word.process_bytes(&n, sizeof(n));
     const auto draw = static_cast<std::uint32_t>(Draw::named) | word.checksum();
     return exponential_of(bits(seed, key, draw, Domain::lineage));
+  }
+
+
+  double
+  normal_of(const std::string  &name,
+            const std::uint64_t seed,
+            const std::uint64_t key)
+  {
+    // The share of larger numbers is kept off 0 and 1, where the normal number
+    // would be infinite.
+    const double share = std::clamp(std::exp(-threshold_of(name, seed, key)),
+                                    0x1p-53,
+                                    1. - 0x1p-53);
+    return std::sqrt(2.) * boost::math::erfc_inv(2. * share);
   }
 
 

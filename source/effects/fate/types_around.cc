@@ -45,11 +45,10 @@ namespace Morula
   bool
   is_type_around(const Variable variable, const StateColumns<dim> &columns)
   {
-    // The numbers of variables of neighbours follow those of the fields.
-    const std::size_t n_fields = columns.field_names().size();
-    return is_field(variable) && field_number(variable) >= n_fields &&
+    const unsigned int n = columns.n_before_neighbours();
+    return is_field(variable) && field_number(variable) >= n &&
            follows_types(
-             columns.neighbour_variables()[field_number(variable) - n_fields]);
+             columns.neighbour_variables()[field_number(variable) - n]);
   }
 
 

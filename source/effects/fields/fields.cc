@@ -264,7 +264,8 @@ namespace Morula
 
       /** Gives a founder the initial values. @throws InputError */
       void
-      begin(const CellView<dim, double> &cell) const override
+      begin(const PresentCell<dim> &,
+            const CellView<dim, double> &cell) const override
       {
         const Point<dim> X = cell.founder_position();
         for (unsigned int k = 0; k < fields.size(); ++k)

@@ -146,14 +146,15 @@ namespace Morula
     // The names are sorted, so that the numbers of variables, and with them the
     // columns, do not depend on the order of keys. They follow the fields, as
     // keys know variables of a scene's own by their numbers alone.
-    const std::vector<std::string> types  = scene.type_names(),
-                                   fields = scene.field_names();
+    const std::vector<std::string> types = scene.type_names(),
+                                   own   = scene.own_variables();
+    const unsigned int n_fields          = scene.field_names().size();
     variables.clear();
     std::map<std::string, NeighbourVariable> found;
     for (const ExpressionKey *key : keys)
       for (const std::string &name : names_in(key->text()))
         {
-          const auto told = neighbour_variable(name, types, fields);
+          const auto told = neighbour_variable(name, types, own, n_fields);
           if (told && key->evaluated() == Evaluated::property)
             key->refuse("an expression without '" + name + "'",
                         "The stress may not depend on the neighbours, which "
@@ -162,17 +163,18 @@ namespace Morula
           if (told)
             found.emplace(name, *told);
           else if (tells_of_neighbours(name) && !is_in(types, name) &&
-                   !is_in(fields, name))
+                   !is_in(own, name))
             key->refuse("a variable that there is",
                         "'" + name +
                           "' ends with no name that it can be of. Types: " +
-                          joined(types) + "; fields: " + joined(fields) +
-                          "; around_ is followed by a variable of cells or a "
-                          "field.");
+                          joined(types) +
+                          "; fields and numbers of cells: " + joined(own) +
+                          "; around_ is followed by one of these or a "
+                          "variable of cells, slope_ by a field.");
         }
     if (found.empty())
       return;
-    std::vector<std::string> names = fields;
+    std::vector<std::string> names = own;
     for (const auto &[name, told] : found)
       {
         variables.push_back(told);
@@ -182,10 +184,11 @@ namespace Morula
       throw InputError("Neighbours",
                        joined(names),
                        "at most " + std::to_string(most_fields) +
-                         " fields and variables of neighbours",
+                         " fields, numbers of cells and variables of "
+                         "neighbours",
                        "Use fewer of them in expressions.");
     for (ExpressionKey *key : keys)
-      key->set_fields(names);
+      key->set_fields(names, n_fields);
   }
 
 

@@ -100,11 +100,12 @@ namespace Morula
     const StateColumns<dim> &columns = reader_.columns;
     if (is_field(variable))
       {
-        // Variables of neighbours are numbered behind the fields.
-        const unsigned int k = field_number(variable);
-        const unsigned int n = columns.field_names().size();
+        const unsigned int k        = field_number(variable);
+        const unsigned int n_fields = columns.field_names().size();
+        const unsigned int n        = columns.n_before_neighbours();
         if (k < n)
-          return cell_.get(columns.fields[k]);
+          return cell_.get(k < n_fields ? columns.fields[k] :
+                                          columns.numbers[k - n_fields]);
         const NeighbourVariable &told = columns.neighbour_variables()[k - n];
         return told.kind == NeighbourVariable::slope ?
                  gradient(told.number).norm() :

@@ -40,7 +40,7 @@ namespace Morula
 
     /** The variable that a name behind "around_" is, or none. */
     std::optional<Variable>
-    variable_of(const std::string &name, const std::vector<std::string> &fields)
+    variable_of(const std::string &name, const std::vector<std::string> &own)
     {
       // X, Y, Z and t need no mean: they are no state of a cell.
       for (unsigned int i = static_cast<unsigned int>(Variable::x);
@@ -48,7 +48,7 @@ namespace Morula
            ++i)
         if (name == name_of(static_cast<Variable>(i)))
           return static_cast<Variable>(i);
-      if (const auto k = place_in(fields, name))
+      if (const auto k = place_in(own, name))
         return field_variable(*k);
       return {};
     }
@@ -58,10 +58,11 @@ namespace Morula
   std::optional<NeighbourVariable>
   neighbour_variable(const std::string              &name,
                      const std::vector<std::string> &types,
-                     const std::vector<std::string> &fields)
+                     const std::vector<std::string> &own,
+                     const unsigned int              n_fields)
   {
-    // A type or field of this name is older, and keeps it.
-    if (place_in(types, name) || place_in(fields, name))
+    // A type, field or number of this name is older, and keeps it.
+    if (place_in(types, name) || place_in(own, name))
       return {};
     if (name == "neighbours")
       return NeighbourVariable{name, NeighbourVariable::count};
@@ -76,13 +77,15 @@ namespace Morula
         const std::string rest = name.substr(std::string(text).size());
         if (kind == NeighbourVariable::around)
           {
-            if (const auto variable = variable_of(rest, fields))
+            if (const auto variable = variable_of(rest, own))
               return NeighbourVariable{name, kind, 0, *variable};
           }
-        else if (const auto number =
-                   place_in(kind == NeighbourVariable::slope ? fields : types,
-                            rest))
-          return NeighbourVariable{name, kind, *number};
+        else if (const bool slopes = kind == NeighbourVariable::slope;
+                 const auto number = place_in(slopes ? own : types, rest))
+          {
+            if (!slopes || *number < n_fields)
+              return NeighbourVariable{name, kind, *number};
+          }
       }
     return {};
   }
@@ -103,10 +106,12 @@ namespace Morula
   StateColumns<dim>::StateColumns(
     const std::vector<std::string>       &types,
     const std::vector<std::string>       &fields,
+    const std::vector<std::string>       &numbers,
     const std::vector<NeighbourVariable> &neighbours)
     : carried(fields.size(), false)
     , types(types)
     , names_of_fields(fields)
+    , names_of_numbers(numbers)
     , of_neighbours(neighbours)
     , needs_gradient(fields.size(), false)
   {
@@ -163,6 +168,9 @@ namespace Morula
                   "um",
                   "distance of the founder from the surface at t = 0",
                   true);
+    // The effects that are the owners of numbers have declared them.
+    for (const std::string &name : names_of_numbers)
+      numbers.push_back(columns.template find<double>(name));
     for (const NeighbourVariable &told : of_neighbours)
       neighbours.push_back(
         told.kind == NeighbourVariable::slope ?

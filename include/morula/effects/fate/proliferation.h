@@ -89,22 +89,6 @@ namespace Morula
           const double                       step,
           const std::optional<unsigned int> &phase) const;
 
-    /** Chooses the axis of a founder anew that is in a cycle at t = 0, when the
-     *  steady fields are known. */
-    void
-    choose_first_axis(const PresentCell<dim>      &founder,
-                      const CellView<dim, double> &row) const
-    {
-      // Founders get their axis before the steady fields are known. It is
-      // chosen again when they are, from the same random direction.
-      CycleState<dim> state = clock(row);
-      if (rule(founder.type()) == nullptr || state.phase != CyclePhase::growing)
-        return;
-      state.axis = Random::direction<dim>(random_seed, state.key);
-      choose_axis(CycleState<dim>(), founder, 0., state);
-      set_clock(row, state);
-    }
-
     /** Takes the clock through a stretch, and through a division in it, which
      *  daughters() looks up. */
     void

@@ -56,6 +56,13 @@ namespace Morula::Random
                const std::uint64_t key,
                const unsigned int  n = 0);
 
+  /** Normally distributed, of mean 0 and deviation 1; drawn as
+   *  threshold_of() is, from which it follows. */
+  double
+  normal_of(const std::string  &name,
+            const std::uint64_t seed,
+            const std::uint64_t key);
+
   /** Uniform in (0, 1), the cell's own. */
   double
   noise(const std::uint64_t seed, const std::uint64_t key);

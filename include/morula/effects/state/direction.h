@@ -80,7 +80,7 @@ namespace Morula
       // The names of fields are known only after the whole file is read, so
       // this cannot be checked when the key is assigned.
       const std::string name = field_of_gradient(text);
-      const auto       &all  = field_names();
+      const auto        all  = field_names();
       if (!name.empty() && std::find(all.begin(), all.end(), name) == all.end())
         throw InputError(path,
                          text,

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -46,11 +47,13 @@ namespace Morula
   };
 
   /** The variable of this name, if it is one. @param types names of the cells'
-   *  types @param fields names of the fields */
+   *  types @param own names of the fields, and then of the numbers of cells
+   *  @param n_fields how many of them are fields */
   std::optional<NeighbourVariable>
   neighbour_variable(const std::string              &name,
                      const std::vector<std::string> &types,
-                     const std::vector<std::string> &fields);
+                     const std::vector<std::string> &own,
+                     const unsigned int              n_fields);
 
   /** Whether a name begins as that of such a variable does, so that it must be
    *  meant to be one. */
@@ -69,12 +72,15 @@ namespace Morula
     /**
      * @param types  names of the cells' types; empty: there are none
      * @param fields names of the fields by their numbers
-     * @param neighbours what expressions say of a cell's neighbours; their
-     *        numbers as variables follow those of the fields
+     * @param numbers names of the columns that are variables; as these they
+     *        follow the fields
+     * @param neighbours what expressions say of a cell's neighbours; as
+     *        variables they follow the numbers
      */
     explicit StateColumns(
       const std::vector<std::string>       &types      = {},
       const std::vector<std::string>       &fields     = {},
+      const std::vector<std::string>       &numbers    = {},
       const std::vector<NeighbourVariable> &neighbours = {});
 
     /** The key's expression, whose variables cells will have. An effect takes
@@ -192,11 +198,32 @@ namespace Morula
       return of_neighbours;
     }
 
+    /** The columns that are variables, with their names. @param cell whose
+     *  values these are; none: 0 */
+    std::vector<std::pair<std::string, double>>
+    named_numbers(const CellView<dim, const double> *cell = nullptr) const
+    {
+      std::vector<std::pair<std::string, double>> list;
+      for (std::size_t k = 0; k < names_of_numbers.size(); ++k)
+        list.emplace_back(names_of_numbers[k],
+                          cell != nullptr ? cell->get(numbers[k]) : 0.);
+      return list;
+    }
+
+    /** How many variables of the scene's own come before those. */
+    unsigned int
+    n_before_neighbours() const
+    {
+      return names_of_fields.size() + names_of_numbers.size();
+    }
+
     /** The values of neighbour_variables() at the cell. Slopes of fields follow
      *  from the fields' gradients and have no column. */
     std::vector<Column<double>> neighbours;
     /** Values of the scene's fields at the cell, by the fields' numbers. */
     std::vector<Column<double>> fields;
+    /** The columns of effects that are variables. */
+    std::vector<Column<double>> numbers;
     /** Whether a cell takes the amount of a field along when it exchanges its
      *  place, by the fields' numbers. */
     std::vector<bool> carried;
@@ -219,7 +246,7 @@ namespace Morula
 
   private:
     std::vector<std::string>       types;
-    std::vector<std::string>       names_of_fields;
+    std::vector<std::string>       names_of_fields, names_of_numbers;
     std::vector<NeighbourVariable> of_neighbours;
     std::vector<bool>              needs_gradient; // by field
     std::vector<Variable>          used;           // sorted

@@ -14,8 +14,8 @@ namespace Morula
   // effect and example stand together in the file of that name.
   using Addition = void(Catalogue &);
   Addition add_isotropic_growth, add_rate_growth, add_contraction,
-    add_relaxation, add_cell_cycle, add_division_by_size, add_death,
-    add_extrusion, add_fields, add_division_rules, add_rearrangement,
+    add_relaxation, add_cell_cycle, add_division_by_size, add_division_at_rate,
+    add_death, add_extrusion, add_fields, add_division_rules, add_rearrangement,
     add_cell_numbers, add_neighbours, add_present_depth, add_body_force,
     add_friction, add_type_tension, add_fixed, add_slip, add_traction,
     add_pressure, add_surface_tension, add_lumen, add_obstacles,
@@ -34,6 +34,7 @@ namespace Morula
     add_relaxation(*this);
     add_cell_cycle(*this);
     add_division_by_size(*this);
+    add_division_at_rate(*this);
     add_death(*this);
     add_extrusion(*this);
     add_fields(*this);

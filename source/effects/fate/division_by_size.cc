@@ -4,9 +4,7 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/division/division_rule.h>
-#include <morula/effects/fate/fate.h>
-#include <morula/effects/fate/random.h>
+#include <morula/effects/fate/divides_at_once.h>
 #include <morula/effects/scene_keys.h>
 
 #include <algorithm>
@@ -77,10 +75,6 @@ namespace Morula
       }
     };
 
-    /** The column of the time of division has this value while a cell does not
-     *  divide. */
-    constexpr double undivided = -1.;
-
     /** A cell that is due for more generations at once has a volume that is a
      *  mistake: without a limit there would soon be too many cells. */
     constexpr double most_divisions = 10.;
@@ -88,52 +82,37 @@ namespace Morula
     /**
      * Cells that grow by a law divide when their grown volume V⁰ det F_g
      * reaches a threshold, which is drawn from the lineage key: doc/theory.md,
-     * section 6.10. There is no clock. V⁰ halves, F and F_g stay, so that no
-     * stress changes. The event has an exact time, if the volume grows
+     * section 6.10. The event has an exact time, if the volume grows
      * exponentially within the step; a daughter may divide again in the same
      * step.
      */
     template <int dim>
-    class DivisionBySize : public Fate<dim>, public Divides<dim>
+    class DivisionBySize : public DividesAtOnce<dim>
     {
     public:
       using Parameters = DivisionBySizeParameters;
 
       DivisionBySize(const Parameters         &parameters,
                      const EffectSetting<dim> &setting)
-        : volume(setting.state.use(parameters.volume))
+        : DividesAtOnce<dim>(setting)
+        , volume(setting.state.use(parameters.volume))
         , noise(setting.state.use(parameters.noise))
-        , random_seed(setting.random_seed)
         , rounding(1024. * setting.slack)
         , whole_volume(setting.whole_volume)
       {
-        // With parent and generation a cell's box is that of F_e, doc/theory.md
-        // (2.2b): F alone says nothing of the shape of cells that grow and
-        // divide.
         CellColumns<dim> &columns = setting.columns;
-        columns.need_growth();
-        columns.need_lineage();
-        columns.need_lineage_key();
-        columns.need_shape();
-        grown_volume = columns.template add<double>(
+        grown_volume              = columns.template add<double>(
           {"grown_volume",
-           "um^" + std::to_string(dim),
-           "grown volume at the end of the step, or "
-           "when the cell divides",
-           0.,
-           AtDivision::halved});
+                        "um^" + std::to_string(dim),
+                        "grown volume at the end of the step, or "
+                                     "when the cell divides",
+                        0.,
+                        AtDivision::halved});
         growth_rate = columns.template add<double>(
           {"volume_growth_rate",
            "1/day",
            "rate of the grown volume in the step"});
-        time =
-          columns.template add<double>({"division_time",
-                                        "day",
-                                        "when the cell divides; -1: not yet",
-                                        undivided,
-                                        AtDivision::reset});
-        axis = columns.template add<Tensor<1, dim>>(
-          {"division_axis", "", "axis along which the cell divides"});
+        this->declare_event(columns);
         if (whole_volume > 0.)
           share = columns.template add<double>(
             {"share_of_cell",
@@ -217,57 +196,6 @@ namespace Morula
         grow_until(s, cell, row, stretch);
       }
 
-      LifeAfter
-      happen(const PresentCell<dim>      &cell,
-             const CellView<dim, double> &row,
-             const Stretch &,
-             const double s,
-             std::vector<CellEvent> &) const override
-      {
-        row.set(time, s);
-        row.set(axis,
-                this->axes ?
-                  this->axes->choose(cell, s) :
-                  Random::direction<dim>(random_seed, cell.lineage_key()));
-        return LifeAfter::divides;
-      }
-
-      double
-      time_of_division(const CellView<dim, const double> &cell,
-                       const double) const override
-      {
-        const double t = cell.get(time);
-        return t == undivided ? std::numeric_limits<double>::infinity() : t;
-      }
-
-      Tensor<1, dim>
-      placement_axis(const CellView<dim, const double> &cell,
-                     const unsigned int                 type) const override
-      {
-        return this->axes ? this->axes->placement(cell, cell.get(axis), type) :
-                            cell.get(axis);
-      }
-
-      void
-      inherit(const CellView<dim, double> &daughter,
-              const StateColumns<dim> &,
-              const unsigned int which,
-              const double) const override
-      {
-        // The key and the type in the row are still the mother's: the fate of
-        // types is the last.
-        const Column<std::uint64_t> &key = daughter.columns().lineage_key;
-        daughter.set(
-          key, Random::daughter_key(random_seed, daughter.get(key), which));
-      }
-
-      void
-      check(const Preview<dim> &scene) const override
-      {
-        if (this->axes)
-          this->axes->check(scene);
-      }
-
       /** Refuses a founder of more than twice the volume at which it divides.
        */
       void
@@ -292,9 +220,7 @@ namespace Morula
               "Such a cell would divide more than once at t = 0: "
               "raise the volume, or lower Tissue/Cell spacing.");
           }
-        if (this->axes)
-          if (const auto *const rule = this->axes->rule(founder.type()))
-            rule->check_cell(founder, step);
+        DividesAtOnce<dim>::check_cell(founder, step);
       }
 
       void
@@ -302,8 +228,7 @@ namespace Morula
       {
         // Where types have numbers of their own the largest counts: some
         // founders may then be too large, but not all of them.
-        if (this->axes)
-          this->axes->review(scene, review);
+        DividesAtOnce<dim>::review(scene, review);
         double mean = volume.number().value_or(0.);
         for (const auto &[type, own] : volume.types())
           mean = std::max(mean, own.number().value_or(0.));
@@ -338,7 +263,7 @@ namespace Morula
           return mean;
         const double s2 = std::log1p(variation * variation);
         const double z  = Random::normal_of("division by size",
-                                           random_seed,
+                                           this->random_seed,
                                            cell.lineage_key());
         return mean * std::exp(std::sqrt(s2) * z - 0.5 * s2);
       }
@@ -357,14 +282,11 @@ namespace Morula
                   std::exp(begin.get(growth_rate) * (s - stretch.begin)));
       }
 
-      Expression             volume, noise;
-      std::uint64_t          random_seed;
-      double                 rounding;     // of times, day
-      double                 whole_volume; // µm^dim; 0: all founders are whole
-      Column<double>         grown_volume; // µm^dim
-      Column<double>         growth_rate;  // 1/day
-      Column<double>         time;         // day
-      Column<Tensor<1, dim>> axis;
+      Expression     volume, noise;
+      double         rounding;     // of times, day
+      double         whole_volume; // µm^dim; 0: all founders are whole
+      Column<double> grown_volume; // µm^dim
+      Column<double> growth_rate;  // 1/day
       /** Which part of a whole cell a founder is, where the surface cuts some.
        */
       Column<double> share;

@@ -267,15 +267,17 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::found_again()
+  Simulation<dim>::found_again(const bool all)
   {
     // Founders have got their state when no steady field was known yet: their
     // clocks, axes and numbers may depend on one. The type, and the phase if
-    // the file has one, stand in the row. The row in lineage.csv has numbers.
-    const CellReader<dim>    reader = model.development.reader(0.);
-    const Cells<dim>        &cells  = tissue.cells();
-    const StateColumns<dim> &state  = model.development.state();
-    if (!state.named_numbers().empty())
+    // the file has one, stand in the row. The rows of lineage.csv have numbers;
+    // they are made while no founder has been carved away.
+    const CellReader<dim>    reader      = model.development.reader(0.);
+    const Cells<dim>        &cells       = tissue.cells();
+    const StateColumns<dim> &state       = model.development.state();
+    const bool               has_numbers = !state.named_numbers().empty();
+    if (all && has_numbers)
       births.clear();
     everywhere(comm, [&]() {
       for (unsigned int p = 0; p < cells.size(); ++p)
@@ -287,7 +289,7 @@ namespace Morula
             given.phase = reader.phase(cells[p]);
           model.development.initialize(cells.id(p), tissue.cell(p), 0., given);
           const CellView<dim, const double> cell = cells[p];
-          if (!state.named_numbers().empty())
+          if (all && has_numbers)
             births.push_back({cells.id(p),
                               -1,
                               cell.generation(),
@@ -314,7 +316,7 @@ namespace Morula
       {
         for (const std::string &warning : warnings)
           files->message(warning);
-        const auto find_steady = [&]() {
+        const auto find_steady = [&](const bool all) {
           first_splines.reset();
           first_splines.emplace(splines());
           const std::optional<SplineSpace<dim>> apart =
@@ -328,13 +330,13 @@ namespace Morula
                           [](const auto &named) {
                             return named.effect->is_steady();
                           }))
-            found_again();
+            found_again(all);
         };
-        find_steady();
+        find_steady(true);
         // The fields decide what is carved, and what is left decides the
         // fields.
         if (carve())
-          find_steady();
+          find_steady(false);
         begin_moments();
         for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
         keep_places(); // nothing has strained: no cell moves

@@ -32,7 +32,8 @@ def test_resumed_run_is_the_same(runs):
 def test_resumed_from_the_start(runs):
     """A first step that could not be done: what was solved at t = 0 stands
     in the snapshot, and is not solved again."""
-    keys = {**FIELDS, "Proliferation/Cell cycle/Start": "together", "Time/Smallest step": 0.125}
+    keys = {**FIELDS, "Proliferation/Cell cycle/Start": "together", "Time/Smallest step": 0.125,
+            "Proliferation/Cell cycle/G0 exit rate": 1}
     whole = runs.run("together", SCENE, keys)
     failed = runs.run("failed", SCENE, {**keys, "Solver/Largest gap": 1e-15}, code=2)
     assert len(failed.statistics) == 1

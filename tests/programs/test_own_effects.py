@@ -89,6 +89,15 @@ def test_closed_forms_of_cells(scene):
     assert apart["y"].min() > 1
 
 
+def test_a_column_of_a_trait_is_a_variable(own):
+    cells = own.run("variable", SCENE, {"Ageing/Pace": "1 + earlier_dose",
+                                        "Time/End time": 0.375}).cells(3)
+    # Of the three steps the last one begins with a dose that is not zero.
+    numpy.testing.assert_allclose(cells["age"], STEP * (3 + 0.5 * STEP), rtol=1e-9)
+    text = own.explain(SCENE, {"Cell numbers/Names": "earlier_dose"}, code=1)
+    assert "another number of cells has this name" in text
+
+
 def test_force_and_condition_are_the_librarys(own):
     one, library = (own.run(name, SCENE, keys)
                     for name, keys in (("own", {}), ("library", LIBRARY)))

@@ -20,7 +20,8 @@ PAGE = ROOT / "doc/parameters.md"
 
 # Sections that exist where a scene names something, each with one name.
 SCENE = "".join(f"subsection {section}\n  set Names = {names}\nend\n" for section, names
-                in (("Cell types", "NAME, OTHER"), ("Fields", "name"), ("Obstacles", "name")))
+                in (("Cell types", "NAME, OTHER"), ("Fields", "name"), ("Cell numbers", "number"),
+                    ("Obstacles", "name")))
 
 # Keys that a type of cells has because all cells have them.
 OF_TYPE = "For cells of this type; empty: as for all"
@@ -47,7 +48,7 @@ def sections(keys):
     rows = {}
     for key in keys:
         if not key.path.startswith("Cell types/OTHER/") and not (key.meaning.startswith(OF_TYPE)):
-            path = key.path.replace("/name/", "/NAME/")
+            path = re.sub("/(name|number)/", "/NAME/", key.path)
             rows.setdefault(path.rpartition("/")[0], []).append(row(path, key))
     header = ["key", "default", "unit", "allowed", "meaning"]
     return "".join(f"\n## {section or 'Outside all subsections'}\n\n{markdown(header, table)}\n"

@@ -114,9 +114,9 @@ namespace Morula
     check_resumed_cycle() const; // Step may have changed
 
     /** Gives founders their state anew, when the steady fields are known.
-     *  Collective. */
+     *  @param all whether all are still there. Collective. */
     void
-    found_again();
+    found_again(const bool all);
 
     void
     begin();

@@ -171,3 +171,24 @@ def test_delta_and_notch(runs):
     senders = cells["delta"] > 0.5
     assert 0.35 < senders.mean() < 0.55
     assert (cells["around_delta"][senders] < 0.3).all()
+
+
+def test_delta_and_notch_on_hexagons(runs):
+    """The same with the wave of three sublattices, and half of -F'G'."""
+    delta, notch, product = uniform()
+    places = [(10 * (i + 0.5 * (j % 2)), 5 * 3**0.5 * j) for j in range(15) for i in range(14)]
+    file = runs.write("hexagons.csv", "x,y,volume\n" + "".join(
+        f"{x:.12g},{y:.12g},{50 * 3**0.5:.12g}\n" for x, y in places))
+    run = runs.run("hexagons", LATTICE, {
+        "Tissue/Shape": "points", "Tissue/Points file": file, "Time/End time": 2,
+        "Time/Step": 0.05, "Output/Interval": 1, "Cell numbers/delta/Initial": f"{delta}",
+        "Cell numbers/notch/Initial": f"{notch} + 1e-3*cos(pi*X/7.5)"})
+    apart = []
+    for number in (1, 2):
+        cells = run.cells(number)
+        inside = cells["x"].between(35, 105) & cells["y"].between(30, 95)
+        wave = numpy.cos(numpy.pi * cells["x"] / 7.5)[inside]
+        apart.append((wave * (cells["notch"][inside] - notch)).sum() / (wave**2).sum())
+    s = (-product / 2)**0.5
+    assert s > 1  # unstable
+    assert abs(numpy.log(apart[1] / apart[0] / numpy.cosh(2 * s) * numpy.cosh(s)) + 1) < 0.01

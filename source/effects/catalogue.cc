@@ -14,9 +14,9 @@ namespace Morula
   // effect and example stand together in the file of that name.
   using Addition = void(Catalogue &);
   Addition add_isotropic_growth, add_rate_growth, add_contraction,
-    add_relaxation, add_cell_cycle, add_division_by_size, add_division_at_rate,
-    add_death, add_extrusion, add_fields, add_division_rules, add_rearrangement,
-    add_cell_numbers, add_neighbours, add_present_depth, add_body_force,
+    add_relaxation, add_cell_cycle, add_division_by_size, add_death,
+    add_extrusion, add_fields, add_division_rules, add_rearrangement,
+    add_neighbours, add_present_depth, add_shape_numbers, add_body_force,
     add_friction, add_type_tension, add_fixed, add_slip, add_traction,
     add_pressure, add_surface_tension, add_lumen, add_obstacles,
     add_type_surface_tension, add_contact;
@@ -43,6 +43,7 @@ namespace Morula
     add_cell_numbers(*this);
     add_neighbours(*this);
     add_present_depth(*this);
+    add_shape_numbers(*this);
     add_body_force(*this);
     add_friction(*this);
     add_type_tension(*this);

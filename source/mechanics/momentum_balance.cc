@@ -79,9 +79,10 @@ namespace Morula
 
   template <int dim>
   std::pair<double, double>
-  MomentumBalance<dim>::gain(const Vector &u,
-                             Vector       &derivative,
-                             Vector       *magnitudes) const
+  MomentumBalance<dim>::gain(const Enclosure<dim> &enclosure,
+                             const Vector         &u,
+                             Vector               &derivative,
+                             Vector               *magnitudes) const
   {
     const TimerOutput::Scope section(timer, "residual");
     LocalSystem<dim>         system(wanted(magnitudes));
@@ -95,7 +96,7 @@ namespace Morula
                          // gains, the "residual" its derivative by u,
                          // doc/theory.md (4.8h).
                          LocalSystem<dim> &local) {
-      enclosure->gain.add(c, field, GrowthAt::current, local);
+      enclosure.gain.add(c, field, GrowthAt::current, local);
       volumes[0] += local.energy;
       volumes[1] += local.energy_magnitude;
       return true;
@@ -112,10 +113,11 @@ namespace Morula
 
   template <int dim>
   void
-  MomentumBalance<dim>::add_content(const Vector &u,
-                                    Evaluation   &evaluation,
-                                    Vector       &R,
-                                    Vector       *magnitudes) const
+  MomentumBalance<dim>::add_content(const Enclosure<dim> &enclosure,
+                                    const Vector         &u,
+                                    Evaluation           &evaluation,
+                                    Vector               &R,
+                                    Vector               *magnitudes) const
   {
     // With b = dV/du the content adds the energy and the force -p b of
     // doc/theory.md (4.8i). It needs the volume of all ranks before it can say
@@ -123,12 +125,12 @@ namespace Morula
     // own.
     Vector b, sizes;
     const auto [gained, magnitude] =
-      gain(u, b, magnitudes != nullptr ? &sizes : nullptr);
-    const double V        = enclosure->volume + gained;
-    const double pressure = enclosure->content.pressure(V);
+      gain(enclosure, u, b, magnitudes != nullptr ? &sizes : nullptr);
+    const double V        = enclosure.volume + gained;
+    const double pressure = enclosure.content.pressure(V);
     if (magnitudes != nullptr)
       magnitudes->add(std::abs(pressure), sizes);
-    evaluation.energy += enclosure->content.energy(V, enclosure->volume);
+    evaluation.energy += enclosure.content.energy(V, enclosure.volume);
     // The content has no volume left: the state counts as inverted, and R is
     // left alone.
     if (!std::isfinite(evaluation.energy))
@@ -141,10 +143,10 @@ namespace Morula
   const BlockMatrix &
   MomentumBalance<dim>::tangent(const Vector &u, const GrowthAt growth)
   {
-    // The first call of a step makes the sparsity pattern. A lumen comes first,
-    // since its pressure at u, a sum over all ranks, multiplies the second
-    // derivative of its volume in each grid cell; its dense part p' b bᵀ of
-    // doc/theory.md (4.8i) is kept beside the sparse matrix. Then the terms add
+    // The first call of a step makes the sparsity pattern. Lumens come first,
+    // since the pressure of each at u, a sum over all ranks, multiplies the
+    // second derivative of its volume in each grid cell; its dense part p' b bᵀ
+    // of doc/theory.md (4.8i) is kept beside the matrix. Then the terms add
     // their tangents grid cell by grid cell. Where the volumetric strain is a
     // mean over a grid cell, each tangent leaves a linearisation that the next
     // one reads (section 2.4). So the order of calls matters, and a first
@@ -160,15 +162,15 @@ namespace Morula
         has_new_links = false;
       }
     // A later turn of the step starts in equilibrium with the new growth.
-    const GrowthAt at       = goes_on ? GrowthAt::current : growth;
-    double         pressure = 0.;
-    if (enclosure != nullptr)
+    const GrowthAt      at = goes_on ? GrowthAt::current : growth;
+    std::vector<double> pressures;
+    of_contents.clear();
+    for (const Enclosure<dim> *const enclosure : enclosures)
       {
         Vector       b;
-        const double V = enclosure->volume + gain(u, b).first;
-        pressure       = enclosure->content.pressure(V);
-        of_content.emplace(
-          RankOne{std::move(b), enclosure->content.stiffness(V)});
+        const double V = enclosure->volume + gain(*enclosure, u, b).first;
+        pressures.push_back(enclosure->content.pressure(V));
+        of_contents.push_back({std::move(b), enclosure->content.stiffness(V)});
       }
     const TimerOutput::Scope section(timer, "tangent");
     if (growth == GrowthAt::previous)
@@ -188,15 +190,16 @@ namespace Morula
         dim == 3 && grid_cell.weights.empty() && !grid_cell.thin;
       for (const auto &term : terms)
         term->add(c, field, at, local);
-      // The sparse part of the lumen's tangent: -p times the second derivative
-      // of the gained volume.
-      if (pressure != 0.)
-        {
-          of_gain.clear();
-          enclosure->gain.add(c, field, at, of_gain);
-          for (std::size_t k = 0; k < local.matrix.size(); ++k)
-            local.matrix[k] -= pressure * of_gain.matrix[k];
-        }
+      // The sparse part of a lumen's tangent: -p times the second derivative of
+      // the gained volume.
+      for (std::size_t l = 0; l < pressures.size(); ++l)
+        if (pressures[l] != 0.)
+          {
+            of_gain.clear();
+            enclosures[l]->gain.add(c, field, at, of_gain);
+            for (std::size_t k = 0; k < local.matrix.size(); ++k)
+              local.matrix[k] -= pressures[l] * of_gain.matrix[k];
+          }
       // Only terms with a mean volumetric strain leave one; others take no
       // memory for it.
       if (!local.linearisations.empty())

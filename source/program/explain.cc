@@ -147,14 +147,15 @@ namespace Morula
         if (const types::particle_index n = counts.acting.at(choice.name()))
           {
             const AnyKey *const where = choice.keys().facts().switch_key;
-            out.push_back(
-              {topic_of(choice),
-               "at " + std::to_string(n) + " boundary points" +
-                 (where == nullptr ? "" : ", where " + where->text()) +
-                 choice.keys().details(),
-               applied.count(choice.name()) == 0 ?
-                 "" :
-                 "    " + applied.at(choice.name()) + '\n'});
+            out.push_back({topic_of(choice),
+                           "at " + std::to_string(n) + " boundary points" +
+                             (where == nullptr || where->is_default() ?
+                                "" :
+                                ", where " + where->text()) +
+                             choice.keys().details(),
+                           applied.count(choice.name()) == 0 ?
+                             "" :
+                             "    " + applied.at(choice.name()) + '\n'});
           }
       add_effects(out, catalogue.forces);
       out.push_back({"material", material_text(scene)});

@@ -324,7 +324,9 @@ namespace Morula
     balanced_by(const Scene &scene)
     {
       for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (choice.keys().is_on() && choice.keys().facts().names_key != nullptr)
+        if (const EffectFacts facts = choice.keys().facts();
+            choice.keys().is_on() && facts.names_key != nullptr &&
+            facts.switch_key == nullptr)
           return "the weak drag (4.8f)";
       return "inertia";
     }

@@ -446,14 +446,7 @@ namespace Morula
         boundary_conditions.nitsche().kind() != NitscheForm::bounded)
       add_carriers(columns);
     for (const auto &named : boundary_conditions.list())
-      if (named.condition->holds_what_touches())
-        columns.touched = columns.template add<unsigned int>(
-          {"touched",
-           "",
-           "sum of 2^k for each two-sided obstacle k that holds the point",
-           0,
-           AtDivision::copied,
-           true});
+      named.condition->add_columns(columns);
     return columns;
   }
 

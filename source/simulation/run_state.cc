@@ -335,6 +335,9 @@ namespace Morula
     for (auto &[name, value] : state.kept)
       if (data.numbers.count(name) > 0)
         value = data.number(name);
+    for (const auto &[name, value] : data.numbers)
+      if (kept.count(name.substr(0, name.find('/') + 1)) > 0)
+        state.kept[name] = value;
     // Snapshots of versions that did not know the share do not have it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");

@@ -71,8 +71,8 @@ namespace Morula
     {
       std::vector<std::unique_ptr<PartOfStep<dim>>> list;
       /** Those of the list that have something of their own, or null. */
-      InteractionInStep<dim> *interaction = nullptr;
-      Enclosure<dim>         *enclosure   = nullptr;
+      InteractionInStep<dim>                      *interaction = nullptr;
+      typename MomentumBalance<dim>::EnclosureList enclosures  = {};
       /** As PartOfStep::is_exact() of any part. */
       bool is_exact = false;
     };
@@ -94,7 +94,7 @@ namespace Morula
                                    list,
                                    timer,
                                    comm,
-                                   parts.enclosure,
+                                   parts.enclosures,
                                    parts.interaction != nullptr ?
                                          &parts.interaction->pairs() :
                                          nullptr);
@@ -158,8 +158,8 @@ namespace Morula
         }
       for (const auto &part : parts.list)
         {
-          if (parts.enclosure == nullptr)
-            parts.enclosure = part->enclosure();
+          if (const auto *const enclosure = part->enclosure())
+            parts.enclosures.push_back(enclosure);
           parts.is_exact = parts.is_exact || part->is_exact();
         }
       return parts;

@@ -111,7 +111,10 @@ namespace Morula
                                     part == 0 ? at_wall : at_corner);
             if (!foot && part > 0 && left.norm() < uneven * area)
               return;
-            const auto row = foot ? put_on_wall(*foot, x, A) : free_row(x, A);
+            auto row = foot ? put_on_wall(*foot, x, A) : free_row(x, A);
+            if (cavity.exists())
+              cavity.set(make_array_view(row),
+                         faced_cavity(wish.body, surface.faced[k]));
             list.add(id + part, x, make_array_view(row));
             areas.push_back(A);
             is_free.push_back(!foot);
@@ -257,6 +260,7 @@ namespace Morula
       PointList<dim>               former; // near this rank's part, by id
       std::optional<NearTree<dim>> tree;
       PointList<dim>               list;
+      const Column<unsigned int>   cavity = cavity_column(columns);
       std::vector<Tensor<1, dim>>  areas; // outward, µm^(dim-1)
       std::vector<bool>            is_free;
     };

@@ -37,7 +37,8 @@ invariants(Ball<dim> &ball)
           Equilibrium::Vector Kv(v);
           K.vmult(Kv, v);
           values.push_back(Kv * w);
-          values.push_back(balance.rank_one()->b * v);
+          for (const auto &part : balance.rank_ones())
+            values.push_back(part.b * v);
         }
     }
   return values;
@@ -75,8 +76,7 @@ TEST_2D_3D(MomentumBalance, ResidualAndTangentAreDerivatives)
               EXPECT_NEAR(rate, R * v, 1e-6 * R.l2_norm() * v.l2_norm());
             }
           K.vmult(Kv, v);
-          if (const auto *part = balance.rank_one())
-            Kv.add(part->factor * (part->b * v), part->b);
+          add_rank_ones(Kv, balance.rank_ones(), v);
           after.sadd(0.5 / eps, -0.5 / eps, before);
           after -= Kv;
           EXPECT_LE(after.l2_norm(), 1e-6 * Kv.l2_norm());

@@ -75,7 +75,7 @@ namespace Morula
 
   /**
    * A stressed ball with Nitsche's term (no gap at the displacement u) on a
-   * part of its surface, and a following pressure or a lumen, if asked for.
+   * part of its surface, and a following pressure or two lumens, if asked for.
    */
   template <int dim>
   class Ball
@@ -95,7 +95,7 @@ namespace Morula
     MaterialPoints<dim>                     points;
     typename MomentumBalance<dim>::TermList terms;
     QuietTimer                              timer;
-    std::optional<Enclosure<dim>>           enclosure;
+    std::vector<Enclosure<dim>>             enclosures;
 
   public:
     std::unique_ptr<MomentumBalance<dim>> balance;
@@ -155,21 +155,18 @@ namespace Morula
             following_pressure<dim>(body.grouped(body.boundary, on_boundary),
                                     loads));
         }
-      if (lumen)
-        add_lumen(on_boundary);
+      for (unsigned int i = 0; lumen && i < 2; ++i)
+        enclosures.push_back(
+          {SweptVolume<dim>(body.grouped(body.boundary, on_boundary),
+                            std::vector(on_boundary.points.size(),
+                                        100. * unit_tensor<dim>()[i])),
+           5e4,
+           {2e4, i * 6e3, 0.1, 1e-5, 4e4}});
+      typename MomentumBalance<dim>::EnclosureList list;
+      for (const Enclosure<dim> &enclosure : enclosures)
+        list.push_back(&enclosure);
       balance = std::make_unique<MomentumBalance<dim>>(
-        *body.space, terms, timer, comm, lumen ? &*enclosure : nullptr);
-    }
-
-    void
-    add_lumen(const PointGroups &groups)
-    {
-      enclosure.emplace(Enclosure<dim>{
-        SweptVolume<dim>(body.grouped(body.boundary, groups),
-                         std::vector(groups.points.size(),
-                                     100. * unit_tensor<dim>()[0])),
-        5e4,
-        {2e4, 0.1, 1e-5, 4e4}});
+        *body.space, terms, timer, comm, list);
     }
 
     static double

@@ -287,3 +287,16 @@ def test_tissue_without_a_surface(runs, export):
     for tool, *words in (["cell-shapes"], ["render", "--shapes"]):
         said = runs.call([CONTRIB / tool, run.directory, *words], 1).stderr
         assert "allowed is tissue with boundary points" in said
+
+
+def test_portal(run, runs):
+    file = runs.work / f"{run.name}.csv"
+    runs.call([CONTRIB / "export", run.directory, file])
+    lines = file.read_text().splitlines()
+    names = ["simID", "time", "cellID", "cellType", *"xyz"[:run.dimension]]
+    assert lines[0] == ",".join(names)
+    assert len(lines) == 1 + sum(len(run.cells(n)) for n in range(len(run.times)))
+    last, cell = lines[-1].split(","), run.cells(-1).iloc[-1]
+    assert [last[0], float(last[1]), int(last[2])] == [run.name, run.times[-1], cell["id"]]
+    assert last[3] == (run.type_names[int(cell["type"])] if run.type_names else "cell")
+    assert [float(x) for x in last[4:]] == [cell[axis] for axis in "xyz"[:run.dimension]]

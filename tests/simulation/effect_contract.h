@@ -82,8 +82,7 @@ namespace Morula
         }
 
       balance->tangent(at, GrowthAt::current).vmult(expected, along);
-      if (const auto *const part = balance->rank_one())
-        expected.add(part->factor * (part->b * along), part->b);
+      add_rank_ones(expected, balance->rank_ones(), along);
       ahead -= behind;
       ahead *= 1. / (2. * eps);
       const double size = expected.linfty_norm();

@@ -91,7 +91,7 @@ struct System
   {
     const std::vector<Vector> none;
     return solve_by(one_reduction,
-                    ShiftedSystem{K, none, 0.},
+                    ShiftedSystem{product, none, 0., {}},
                     P,
                     b,
                     tolerance,
@@ -129,13 +129,13 @@ TEST(ConjugateGradients, FormsAgree)
   const auto   m       = diagonal_magnitude(K, b);
   const auto   n1      = problem.vector_of(
     std::vector<double>(n, 1. / std::sqrt(1. * n))); // a motion
-  const Equilibrium::RankOne part{b, 0.1};
+  const Equilibrium::RankOnes parts{{b, 0.1}, {n1, 0.2}};
   for (const double shift : {0., 0.1})
     for (const bool has_motion : {false, true})
-      for (const auto *const rank_one : {&part, (decltype(&part))nullptr})
+      for (const auto &rank_ones : {parts, Equilibrium::RankOnes()})
         {
           const std::vector<Vector> motions(has_motion ? 1 : 0, n1);
-          const ShiftedSystem       system{K, motions, shift, rank_one};
+          const ShiftedSystem       system{product, motions, shift, rank_ones};
           for (const double tolerance : {1e-1, 1e-4, 1e-10})
             {
               const Result plain =
@@ -224,16 +224,16 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
   const Jacobi              J(diagonal_magnitude(K, b), 0.);
   const auto                motion =
     problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n)));
-  const Equilibrium::RankOne part{load(problem), 2.};
-  constexpr unsigned int     few = 3, many = 13;
+  const Equilibrium::RankOnes parts{{load(problem), 2.}};
+  constexpr unsigned int      few = 3, many = 13;
 
-  const auto check = [&](const auto                 &preconditioner,
-                         const std::vector<Vector>  &motions,
-                         const Equilibrium::RankOne *rank_one,
-                         const unsigned int          reductions) {
+  const auto check = [&](const auto                  &preconditioner,
+                         const std::vector<Vector>   &motions,
+                         const Equilibrium::RankOnes &rank_ones,
+                         const unsigned int           reductions) {
     for (const double shift : {0., 0.1})
       {
-        const ShiftedSystem system{K, motions, shift, rank_one};
+        const ShiftedSystem system{product, motions, shift, rank_ones};
         MpiCounts           counts[2];
         unsigned int        n_iterations[2];
         for (const unsigned int k : {0, 1})
@@ -254,10 +254,10 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
         EXPECT_EQ(counts[1].others, counts[0].others);
       }
   };
-  check(P, {}, nullptr, 1);
-  check(J, {}, nullptr, 1);
+  check(P, {}, {}, 1);
+  check(J, {}, {}, 1);
   // What is outside the matrix takes another one.
-  check(P, {motion}, nullptr, 2);
-  check(P, {}, &part, 2);
-  check(J, {motion}, &part, 2);
+  check(P, {motion}, {}, 2);
+  check(P, {}, parts, 2);
+  check(J, {motion}, parts, 2);
 }

@@ -36,15 +36,15 @@ struct System
 
   /** From zero on. @return the iterations */
   unsigned int
-  solve(const Equilibrium::Vector  &b,
-        const double                tolerance,
-        const bool                  same_matrix = false,
-        const Equilibrium::RankOne *rank_one    = nullptr)
+  solve(const Equilibrium::Vector   &b,
+        const double                 tolerance,
+        const bool                   same_matrix = false,
+        const Equilibrium::RankOnes &rank_ones   = {})
   {
     x                         = 0.;
     unsigned int n_iterations = 0;
     linear_solver.solve(
-      K, x, b, tolerance, n_iterations, same_matrix, rank_one);
+      K, x, b, tolerance, n_iterations, same_matrix, rank_ones);
     return n_iterations;
   }
 
@@ -112,8 +112,8 @@ TEST(LinearSolver, SolvesSymmetricAndUnsymmetricSystems)
 }
 
 
-// A part that fills the matrix, far stiffer than the rest.
-TEST(LinearSolver, AddsAPartOfRankOne)
+// Parts that fill the matrix, far stiffer than the rest.
+TEST(LinearSolver, AddsPartsOfRankOne)
 {
   for (const std::string &solver : all_solvers)
     for (const double skew : {0., 3.})
@@ -122,12 +122,14 @@ TEST(LinearSolver, AddsAPartOfRankOne)
         ChainProblem problem  = chain_of_springs(n, 0.5, skew);
         const auto   solution = problem.vector_of(random_values(1));
         System       system(problem, solver);
-        const Equilibrium::RankOne part{problem.vector_of(random_values(6)),
-                                        1e3};
-        Equilibrium::Vector        b(solution);
+        const Equilibrium::RankOnes parts{
+          {problem.vector_of(random_values(6)), 1e3},
+          {problem.vector_of(random_values(7)), 2e2}};
+        Equilibrium::Vector b(solution);
         system.K.vmult(b, solution);
-        b.add(part.factor * (part.b * solution), part.b);
-        system.solve(b, 1e-11, false, &part);
+        for (const auto &part : parts)
+          b.add(part.factor * (part.b * solution), part.b);
+        system.solve(b, 1e-11, false, parts);
         EXPECT_LE(error(system.x, solution), 1e-5);
       }
 }

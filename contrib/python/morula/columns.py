@@ -15,11 +15,18 @@ STATISTICS = {"cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
               "zmax": LENGTH, "surface_distance": LENGTH, "enclosed_volume": VOLUME,
               "close_neighbours": NUMBER}
 
+# Those of Output/Shape numbers.
+SHAPE = {"roundness": NUMBER, "gyration_radius": LENGTH, "gyration_axis_1": LENGTH,
+         "gyration_axis_2": LENGTH, "gyration_axis_3": LENGTH, "radius_spread": NUMBER,
+         "lobes": NUMBER, "lobe_power": NUMBER, "free_area": "um^(dim-1)",
+         "unlike_contacts": NUMBER}
 
 
 def statistics_of(keys):
     """The same of a scene with these keys, of which cells may have types and fields."""
-    return {**STATISTICS,
+    return {**STATISTICS, **(SHAPE if keys.get("Output/Shape numbers") == "true" else {}),
+            **{f"lumen_{what}_{name}": unit for name in names_in(keys, "Lumens")
+               for what, unit in (("volume", VOLUME), ("pressure", STRESS))},
             **{f"cells_{name}": NUMBER for name in names_in(keys)},
             **{f"{name}_{value}": NUMBER for name in names_in(keys, "Fields")
                for value in ("min", "mean", "max", "clipped")}}
@@ -52,7 +59,7 @@ COMPONENTS = {"sigma": ("sigma_xx", "sigma_yy", "sigma_zz", "sigma_xy", "sigma_y
 OF_SURFACE = ("xmin", "xmax", "ymin", "ymax", "zmin", "zmax")
 
 # Columns that are zero throughout in two dimensions.
-FLAT = ("z", "Z", "zmin", "zmax", "nz", "sigma_yz", "sigma_zx")
+FLAT = ("z", "Z", "zmin", "zmax", "nz", "gyration_axis_3", "sigma_yz", "sigma_zx")
 
 
 def unit_in(unit, dimension):

@@ -25,6 +25,8 @@ namespace Morula
     NamedNumbers &kept;
     /** Values of the columns of Tables::add_number(), likewise. */
     NamedNumbers &of_step;
+    /** Adds a line to the log. Collective. */
+    std::function<void(const std::string &)> say = {};
   };
 
   /**

@@ -82,8 +82,9 @@ namespace Morula
       with_causes_    = with_causes_ || with_causes;
     }
 
-    /** Keeps a number from step to step, and in snapshots. @param at_start its
-     *  value at t = 0, and where a snapshot does not know it */
+    /** Keeps a number from step to step, and in snapshots; with a name that
+     * ends in '/' also all others whose names begin so. @param at_start its
+     * value at t = 0, and where a snapshot does not know it */
     void
     keep_number(const std::string &name, const double at_start)
     {

@@ -43,13 +43,16 @@ namespace Morula
 
   /**
    * The content of an enclosed space. Its pressure at the volume V is
-   * p = C/V + p_0 - κ (V - V*): a gas, or a content of given volume whose
-   * pressure p_0 is being sought: doc/theory.md (4.8i).
+   * p = C/(V - V_f) + p_0 - κ (V - V*): a gas, beside which there may be a
+   * fluid, or a content of given volume whose pressure p_0 is being sought:
+   * doc/theory.md (4.8i).
    */
   struct EnclosedContent
   {
     /** C, the pressure of a gas times its volume; kPa µm^dim. */
     double gas = 0.;
+    /** V_f, the volume of the fluid beside a gas, µm^dim. */
+    double fluid = 0.;
     /** p_0, kPa. */
     double pressure_at_target = 0.;
     /** κ, kPa/µm^dim. */
@@ -61,7 +64,7 @@ namespace Morula
     double
     pressure(const double V) const
     {
-      return (gas != 0. ? gas / V : 0.) + pressure_at_target -
+      return (gas != 0. ? gas / (V - fluid) : 0.) + pressure_at_target -
              stiffness_at_target * (V - target);
     }
 
@@ -69,7 +72,8 @@ namespace Morula
     double
     stiffness(const double V) const
     {
-      return (gas != 0. ? gas / (V * V) : 0.) + stiffness_at_target;
+      return (gas != 0. ? gas / ((V - fluid) * (V - fluid)) : 0.) +
+             stiffness_at_target;
     }
 
     /** The energy -∫ p dV from the volume @p before on, kPa µm^dim; infinite if
@@ -77,10 +81,11 @@ namespace Morula
     double
     energy(const double V, const double before) const
     {
-      if (!(V > 0.))
+      if (!(V > fluid))
         return std::numeric_limits<double>::infinity();
       const double mean = 0.5 * (V + before);
-      return (gas != 0. ? -gas * std::log(V / before) : 0.) -
+      return (gas != 0. ? -gas * std::log((V - fluid) / (before - fluid)) :
+                          0.) -
              (pressure_at_target - stiffness_at_target * (mean - target)) *
                (V - before);
     }

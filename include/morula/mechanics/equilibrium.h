@@ -81,17 +81,19 @@ namespace Morula
       Vector b;
       double factor; // σ
     };
+    using RankOnes = std::vector<RankOne>;
 
-    /** The tangent K(u), but for rank_one(). The matrix belongs to the problem,
-     *  and is overwritten by the next call. */
+    /** The tangent K(u), but for rank_ones(). The matrix belongs to the
+     * problem, and is overwritten by the next call. */
     virtual const Matrix &
     tangent(const Vector &u, const GrowthAt growth) = 0;
 
-    /** What the last tangent() lacks; null: nothing. */
-    virtual const RankOne *
-    rank_one() const
+    /** What the last tangent() lacks. */
+    virtual const RankOnes &
+    rank_ones() const
     {
-      return nullptr;
+      static const RankOnes none;
+      return none;
     }
   };
 
@@ -147,14 +149,14 @@ namespace Morula
       x.add(-(x * direction), direction);
   }
 
-  /** Adds what the rank-one part of a tangent (null: none) makes of @p x. */
+  /** Adds what the rank-one parts of a tangent make of @p x. */
   inline void
-  add_rank_one(Equilibrium::Vector        &y,
-               const Equilibrium::RankOne *part,
-               const Equilibrium::Vector  &x)
+  add_rank_ones(Equilibrium::Vector         &y,
+                const Equilibrium::RankOnes &parts,
+                const Equilibrium::Vector   &x)
   {
-    if (part != nullptr)
-      y.add(part->factor * (part->b * x), part->b);
+    for (const Equilibrium::RankOne &part : parts)
+      y.add(part.factor * (part.b * x), part.b);
   }
 
   /**

@@ -32,24 +32,25 @@ namespace Morula
   class MomentumBalance : public Equilibrium
   {
   public:
-    using TermList = std::vector<std::unique_ptr<Term<dim>>>;
+    using TermList      = std::vector<std::unique_ptr<Term<dim>>>;
+    using EnclosureList = std::vector<const Enclosure<dim> *>;
 
     /** Keeps references to the space, the terms and the timer.
-     *  @param enclosure that the tissue surrounds, or null; it stays where it
-     *         is as long as this object, its content may change
+     *  @param enclosures that the tissue surrounds; they stay where they are
+     *         as long as this object, their contents may change
      *  @param pairs a term that couples grid cells, or null */
     MomentumBalance(const SplineSpace<dim> &space,
                     const TermList         &terms,
                     TimerOutput            &timer,
                     const MPI_Comm          comm,
-                    const Enclosure<dim>   *enclosure = nullptr,
-                    const PairTerm         *pairs     = nullptr)
+                    EnclosureList           enclosures = {},
+                    const PairTerm         *pairs      = nullptr)
       : space(space)
       , terms(terms)
       , timer(timer)
       , comm(comm)
       , assembly(space, comm)
-      , enclosure(enclosure)
+      , enclosures(std::move(enclosures))
       , pairs(pairs)
     {}
 
@@ -135,18 +136,18 @@ namespace Morula
     const Matrix &
     tangent(const Vector &u, const GrowthAt growth) override;
 
-    const RankOne *
-    rank_one() const override
+    const RankOnes &
+    rank_ones() const override
     {
-      return of_content ? &*of_content : nullptr;
+      return of_contents;
     }
 
-    /** Volume of the enclosure at u, µm^dim. Collective. */
+    /** Volume of an enclosure at u, µm^dim. Collective. */
     double
-    enclosed_volume(const Vector &u) const
+    enclosed_volume(const Enclosure<dim> &enclosure, const Vector &u) const
     {
       Vector ignored;
-      return enclosure->volume + gain(u, ignored).first;
+      return enclosure.volume + gain(enclosure, u, ignored).first;
     }
 
     void
@@ -186,8 +187,9 @@ namespace Morula
       // The content of a lumen follows from the volume at u, which an inverted
       // state does not have.
       Evaluation evaluation = sum_up(u, R, magnitudes);
-      if (enclosure != nullptr && std::isfinite(evaluation.energy))
-        add_content(u, evaluation, R, magnitudes);
+      for (const Enclosure<dim> *const enclosure : enclosures)
+        if (std::isfinite(evaluation.energy))
+          add_content(*enclosure, u, evaluation, R, magnitudes);
       return evaluation;
     }
 
@@ -195,19 +197,21 @@ namespace Morula
     Evaluation
     sum_up(const Vector &u, Vector &R, Vector *magnitudes) const;
 
-    /** The volume that the enclosure gains, Σ|contributions| to it, and its
+    /** The volume that an enclosure gains, Σ|contributions| to it, and its
      *  derivative. */
     std::pair<double, double>
-    gain(const Vector &u,
-         Vector       &derivative,
-         Vector       *magnitudes = nullptr) const;
+    gain(const Enclosure<dim> &enclosure,
+         const Vector         &u,
+         Vector               &derivative,
+         Vector               *magnitudes = nullptr) const;
 
-    /** Adds energy and forces of the enclosure's content. */
+    /** Adds energy and forces of an enclosure's content. */
     void
-    add_content(const Vector &u,
-                Evaluation   &evaluation,
-                Vector       &R,
-                Vector       *magnitudes) const;
+    add_content(const Enclosure<dim> &enclosure,
+                const Vector         &u,
+                Evaluation           &evaluation,
+                Vector               &R,
+                Vector               *magnitudes) const;
 
     /** Whether all terms have an energy, so that tangents are symmetric. */
     bool
@@ -240,11 +244,11 @@ namespace Morula
     TimerOutput            &timer;
     const MPI_Comm          comm;
     Assembly<dim>           assembly;
-    const Enclosure<dim>   *enclosure;
+    const EnclosureList     enclosures;
     const PairTerm         *pairs;
     bool                    has_new_links = false;
     bool                    goes_on       = false;
-    std::optional<RankOne>  of_content; // of the last tangent
+    RankOnes                of_contents; // of the last tangent
 
     // Linearisations at the last tangent, by active grid cell; empty if no term
     // has any.

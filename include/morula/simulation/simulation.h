@@ -203,7 +203,11 @@ namespace Morula
         {
           const TimerOutput::Scope section(timer, name);
           const CellReader<dim>    reader = model.development.reader(t);
-          (*effect.*moment)(tissue, {t, dt, reader, run_state.kept, of_step});
+          (*effect.*moment)(
+            tissue,
+            {t, dt, reader, run_state.kept, of_step, [this](const auto &text) {
+               files->message(text);
+             }});
         }
     }
     SplineSpace<dim>

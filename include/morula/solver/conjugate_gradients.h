@@ -33,8 +33,8 @@ namespace Morula
     const BlockMatrix                      &K;
     const std::vector<Equilibrium::Vector> &null_space;
     double                                  shift; // σ
-    /** What K lacks, or null. */
-    const Equilibrium::RankOne *rank_one = nullptr;
+    /** What K lacks. */
+    const Equilibrium::RankOnes &rank_ones;
   };
 
   namespace OneReduction
@@ -119,10 +119,11 @@ namespace Morula
         , comm(comm)
         , N(system.null_space)
       {
-        if (system.rank_one == nullptr || N.empty())
-          return;
-        b_N = parts(system.rank_one->b);
-        add_up(b_N, comm);
+        for (const Equilibrium::RankOne &part : system.rank_ones)
+          for (const double product : parts(part.b))
+            b_N.push_back(product);
+        if (!b_N.empty())
+          add_up(b_N, comm);
       }
 
       /** Nᵀx of this rank. */
@@ -143,28 +144,28 @@ namespace Morula
           x.add(-parts[k], N[k]);
       }
 
-      /** Takes the motions out of @p z; the rank-one part's b·z. One reduction,
-       *  if there is anything to add up. */
-      double
+      /** Takes the motions out of @p z; b·z of each rank-one part. One
+       *  reduction, if there is anything to add up. */
+      std::vector<double>
       remove_from(Vector &z) const
       {
         std::vector<double> sums = parts(z);
-        if (system.rank_one != nullptr)
-          sums.push_back(local_product(system.rank_one->b, z));
+        for (const Equilibrium::RankOne &part : system.rank_ones)
+          sums.push_back(local_product(part.b, z));
         if (sums.empty())
-          return 0.;
+          return {};
         add_up(sums, comm);
         remove(sums.data(), z);
         for (std::size_t k = 0; k < b_N.size(); ++k)
-          sums.back() -= b_N[k] * sums[k];
-        return sums.back();
+          sums[N.size() + k / N.size()] -= b_N[k] * sums[k % N.size()];
+        return {sums.begin() + N.size(), sums.end()};
       }
 
     private:
       const ShiftedSystem       &system;
       const MPI_Comm             comm;
       const std::vector<Vector> &N;
-      std::vector<double>        b_N; // Nᵀb
+      std::vector<double>        b_N; // Nᵀb of each rank-one part
     };
   } // namespace OneReduction
 
@@ -177,7 +178,7 @@ namespace Morula
    * doc/theory.md (7.1), the curvature is that of z + β p itself, p·Kp = z·Kz +
    * 2β z·Kp' + β² p'·Kp', rather than what it would be of exactly conjugate
    * directions, and the norm of the next residual comes with it: so nothing is
-   * computed after the last step. Unsupported motions or a part of rank one
+   * computed after the last step. Unsupported motions or parts of rank one
    * take a second reduction.
    *
    * Parameters and result are those of conjugate_gradients().
@@ -207,10 +208,10 @@ namespace Morula
     for (unsigned int i = 0; i < max_iterations; ++i)
       {
         P.vmult(z, r);
-        const double b_z = outside.remove_from(z);
+        const std::vector<double> b_z = outside.remove_from(z);
         system.K.vmult(w, z);
-        if (system.rank_one != nullptr)
-          w.add(system.rank_one->factor * b_z, system.rank_one->b);
+        for (std::size_t k = 0; k < b_z.size(); ++k)
+          w.add(system.rank_ones[k].factor * b_z[k], system.rank_ones[k].b);
         if (system.shift > 0.)
           for (unsigned int k = 0; k < w.locally_owned_size(); ++k)
             w.local_element(k) +=
@@ -281,7 +282,7 @@ namespace Morula
         if (!(rz > 0.))
           return CgOutcome::indefinite_preconditioner;
         system.K.vmult(Kp, p);
-        add_rank_one(Kp, system.rank_one, p);
+        add_rank_ones(Kp, system.rank_ones, p);
         if (system.shift > 0.)
           {
             shifted = p;

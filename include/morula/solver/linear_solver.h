@@ -50,17 +50,17 @@ namespace Morula
      * @param iterations in/out: this solve's are added (direct: its
      *                   factorisations), also when it fails
      * @param as_before  K has not changed since the last call
-     * @param rank_one   what K lacks, or null
+     * @param rank_ones  what K lacks
      * @throws StepFailed on all ranks together
      */
     void
-    solve(const Matrix               &K,
-          Vector                     &x,
-          const Vector               &b,
-          const double                tolerance,
-          unsigned int               &iterations,
-          const bool                  as_before = false,
-          const Equilibrium::RankOne *rank_one  = nullptr);
+    solve(const Matrix                &K,
+          Vector                      &x,
+          const Vector                &b,
+          const double                 tolerance,
+          unsigned int                &iterations,
+          const bool                   as_before = false,
+          const Equilibrium::RankOnes &rank_ones = {});
 
     /** The most negative p·Kp / p·|diag K|p that the last solve met; 0: it met
      *  none. A direct solver sees no curvature: then it is minus σ. */

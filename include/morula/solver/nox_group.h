@@ -343,7 +343,7 @@ namespace Morula
                           parameters.get("Tolerance", 1e-6),
                           report.linear_iterations,
                           tangents.kept(),
-                          problem.rank_one());
+                          problem.rank_ones());
       report.curvature = std::min(report.curvature, linear_solver.curvature());
       has_direction    = true;
       return Ok;

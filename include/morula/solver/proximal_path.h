@@ -81,10 +81,10 @@ namespace Morula
       problem.use_growth_at_end();
     }
 
-    const RankOne *
-    rank_one() const override
+    const RankOnes &
+    rank_ones() const override
     {
-      return problem.rank_one();
+      return problem.rank_ones();
     }
 
   private:

@@ -310,12 +310,19 @@ namespace Morula
       {
         return true;
       }
-      bool
-      holds_what_touches() const override
+      void
+      add_columns(BoundaryColumns<dim> &columns) const override
       {
-        return std::any_of(list.begin(), list.end(), [](const Obstacle &one) {
-          return one.bit != 0;
-        });
+        if (std::any_of(list.begin(), list.end(), [](const Obstacle &one) {
+              return one.bit != 0;
+            }))
+          columns.touched = columns.template add<unsigned int>(
+            {"touched",
+             "",
+             "sum of 2^k for each two-sided obstacle k that holds the point",
+             0,
+             AtDivision::copied,
+             true});
       }
       void
       touch(Tissue<dim> &tissue, const double t) const override

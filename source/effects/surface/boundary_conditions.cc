@@ -92,7 +92,7 @@ namespace Morula
                    [&]() { parts.push_back(held_traction(*this, attempt)); });
       }
     for (const Named &named : list_)
-      if (auto part = named.condition->part_of_step(attempt))
+      for (auto &part : named.condition->parts_of_step(attempt))
         parts.push_back(std::move(part));
     return parts;
   }

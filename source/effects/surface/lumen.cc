@@ -4,60 +4,28 @@
 #include <morula/base/agreement.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
+#include <morula/effects/surface/boundary_condition.h>
+#include <morula/effects/surface/lumen_keys.h>
 #include <morula/effects/surface/lumen_pressure.h>
-#include <morula/effects/surface/placed_condition.h>
+#include <morula/effects/surface/lumen_spaces.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
 {
   namespace
   {
-    /** The keys of the lumen, in section "Boundary conditions". */
-    struct LumenParameters : public ConditionKeys
-    {
-      LumenParameters()
-        : ConditionKeys(
-            "Boundary conditions/Lumen where",
-            "Expression of X, Y, Z: the boundary points for which it "
-            "is > 0 enclose a lumen; empty: there is none.")
-      {}
-
-      /** relative to that at t = 0 */
-      ExpressionKey volume{
-        {this, "Boundary conditions/Lumen volume"},
-        "",
-        "Volume of the lumen relative to that at t = 0, a function of t; "
-        "> 0. The pressure that it takes is found, and stands in "
-        "statistics.csv. Empty: what fills the lumen is a gas.",
-        Evaluated::place,
-        positive("times the volume at t = 0", "1 keeps the volume.")};
-
-      ExpressionKey pressure{
-        {this, "Boundary conditions/Lumen pressure"},
-        "",
-        "Pressure of a gas in the lumen at the volume that this has at "
-        "t = 0, V0, a function of t; at the volume V the pressure is V0/V "
-        "times it. Empty: the volume is given. Units: kPa.",
-        Evaluated::place};
-      std::string
-      details() const override
-      {
-        return volume.empty() ?
-                 "; gas, " + pressure.text() + " kPa at the volume of t = 0" :
-                 "; volume " + volume.text() + " times that at t = 0";
-      }
-    };
-
-
     /** |Σ a n|/Σ a of a surface that counts as closed: on coarse ones the
      *  patches' vectors do not quite add up to nothing. */
     constexpr double largest_gap = 0.02;
@@ -85,51 +53,409 @@ namespace Morula
     }
 
     /**
-     * A lumen that the tissue encloses: its volume is given, and its pressure
-     * follows; or it is filled with a gas. doc/theory.md (4.8g) to (4.8j).
+     * Lumens that the tissue encloses: the volume of each is given, or what the
+     * wall secretes, and its pressure follows; or it is filled with a gas.
+     * doc/theory.md (4.8g) to (4.8j).
      */
     template <int dim>
-    class Lumen : public PlacedCondition<dim>, public Moments<dim>
+    class Lumens : public BoundaryCondition<dim>, public Moments<dim>
     {
     public:
-      using Parameters = LumenParameters;
+      using Parameters = LumensParameters;
 
       /** @throws InputError for expressions that cannot be parsed or depend on
-       *  places, and unless exactly one of volume and pressure is given */
-      explicit Lumen(const Parameters &parameters)
-        : PlacedCondition<dim>(SurfaceCondition::loaded, parameters)
-        , where(parameters.where)
-        , volume_(of_time(parameters.volume, dim))
-        , pressure_(of_time(parameters.pressure, dim))
+       *  places, and unless exactly one of a lumen's ways() is given */
+      explicit Lumens(const Parameters &parameters)
       {
-        // A gas has a pressure and finds its volume, or the other way round.
-        if (volume_ && pressure_)
-          parameters.pressure.refuse(
-            "nothing where " + parameters.volume.path() + " is set",
-            "Of a lumen whose volume is given the "
-            "pressure is found: leave one of them empty.");
-        if (!volume_ && !pressure_)
-          parameters.volume.refuse("a function of t where " +
-                                     parameters.where.path() + " is set",
-                                   "1 keeps the volume; or set " +
-                                     parameters.pressure.path() + ".");
+        const LumenKeys &one = parameters.one;
+        for (const ExpressionKey *const key : one.ways())
+          if (one.where.empty() && !key->is_default())
+            key->refuse("its default, as " + one.where.path() + " is not set",
+                        "Set " + one.where.path() + ", or remove this key.");
+        for (const LumenKeys &keys : parameters.all())
+          {
+            if (keys.where.empty())
+              keys.where.refuse("a condition that chooses the surface of a "
+                                "lumen",
+                                "Each lumen needs one.");
+            const ExpressionKey *given = nullptr;
+            for (const ExpressionKey *const key : keys.ways())
+              if (!key->empty() && std::exchange(given, key) != nullptr)
+                key->refuse("nothing where another one of its kind is set",
+                            "Of a lumen whose volume or secretion is given the "
+                            "pressure is found: leave one of them empty.");
+            if (given == nullptr)
+              keys.volume.refuse("a function of t where " + keys.where.path() +
+                                   " is set",
+                                 "1 keeps the volume; or set " +
+                                   keys.pressure.path() + ".");
+            list.push_back({keys,
+                            keys.where.expression(dim),
+                            of_time(keys.volume, dim),
+                            of_time(keys.pressure, dim),
+                            of_time(keys.secretion, dim)});
+          }
+      }
+
+      bool
+      acts_on(const Point<dim> &X, const Tensor<1, dim> &) const override
+      {
+        return lumen_at(X) > 0;
+      }
+
+      void
+      add_columns(BoundaryColumns<dim> &columns) const override
+      {
+        columns.template add<unsigned int>(
+          {"cavity", "", "number of the cavity that the point faces"});
+        columns.template add<unsigned int>({"lumen",
+                                            "",
+                                            "number of the lumen that the "
+                                            "point faces",
+                                            0,
+                                            AtDivision::copied,
+                                            !list.front().keys.name.empty()});
       }
 
       void
       check_surface(const Preview<dim>        &scene,
                     const std::vector<double> &areas) const override
       {
+        for (unsigned int l = 0; l < list.size(); ++l)
+          check_lumen(l, scene, areas);
+      }
+
+      std::vector<std::unique_ptr<PartOfStep<dim>>>
+      parts_of_step(const AttemptAtStep<dim> &attempt) const override
+      {
+        // All ranks find the volumes together. The contents may need
+        // expressions, which can fail on one rank.
+        const TimerOutput::Scope section(attempt.timer, "lumen");
+        const auto spaces = kept_spaces(attempt.kept, list.size());
+        std::vector<std::unique_ptr<PartOfStep<dim>>> parts;
+        for (unsigned int s = 0; s < spaces.size(); ++s)
+          if (spaces[s].is_filled())
+            {
+              const auto   patches = lumen_patches(s + 1, attempt.tissue);
+              const double area    = sums_of(patches, attempt.comm).area;
+              LumenContent content{s + 1,
+                                   names_in(spaces[s]),
+                                   number_of_space(s, "pressure"),
+                                   enclosed_volume(patches, attempt.comm)};
+              everywhere(attempt.comm,
+                         [&]() { fill(spaces[s], area, attempt, content); });
+              parts.push_back(lumen_pressure(attempt, content));
+            }
+        return parts;
+      }
+
+      /** Finds the spaces and measures them. The first pressure of a lumen that
+       *  keeps its volume is a guess, 0, from which the turns of the first step
+       *  begin. */
+      void
+      settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
+      {
+        const auto column = space_column(tissue);
+        for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
+          {
+            const auto point = tissue.boundary_point(p);
+            point.set(column, lumen_at(point.seed_position()));
+          }
+        const SpacesOfSurface found =
+          find_spaces(std::vector<bool>(list.size(), true), tissue);
+        std::vector<LumenSpace> spaces(list.size());
+        for (unsigned int s = 0; s < list.size(); ++s)
+          {
+            spaces[s].held.assign(list.size(), 0.);
+            spaces[s].held[s]  = volume_of(s, tissue);
+            spaces[s].together = found.n_cavities[s] > 1;
+            if (list[s].pressure)
+              spaces[s].pressure = value(list[s].pressure, 0.);
+          }
+        keep_spaces(spaces, moment.kept);
+      }
+
+      /** Lets the spaces follow the cavities of the new surface. */
+      void
+      surfaced(Tissue<dim>            &tissue,
+               const MomentOfRun<dim> &moment) const override
+      {
+        // What two spaces held is added where they are one cavity now. What one
+        // held is shared by volume where it has become several. What an open
+        // one held is gone.
+        auto              spaces = kept_spaces(moment.kept, list.size());
+        std::vector<bool> together;
+        for (const LumenSpace &space : spaces)
+          together.push_back(space.together);
+        if (spaces.empty())
+          return; // settle() comes later
+        SpacesOfSurface found = find_spaces(together, tissue);
+        join_spaces(found, tissue);
+        for (unsigned int s = 0; s < together.size(); ++s)
+          if (found.into[s] != s + 1 && spaces[s].is_filled())
+            {
+              say(moment,
+                  names_in(spaces[s]) + " has " +
+                    (found.into[s] > 0 ?
+                       "merged with " + names_in(spaces[found.into[s] - 1]) :
+                     found.has_opened[s] ?
+                       "opened to the outside, and has no pressure and no "
+                       "volume to keep any more" :
+                       "closed"));
+              for (unsigned int l = 0; l < list.size() && found.into[s] > 0;
+                   ++l)
+                spaces[found.into[s] - 1].held[l] += spaces[s].held[l];
+              spaces[s] = LumenSpace{std::vector<double>(list.size(), 0.)};
+            }
+        for (const unsigned int space : found.joined)
+          spaces[space - 1].together = true;
+        for (const unsigned int from : found.split_from)
+          {
+            const double rest  = volume_of(from - 1, tissue);
+            const double part  = volume_of(spaces.size(), tissue);
+            const double share = part / (part + rest);
+            say(moment, names_in(spaces[from - 1]) + " has split");
+            spaces.push_back(spaces[from - 1]);
+            for (unsigned int l = 0; l < list.size(); ++l)
+              {
+                spaces[from - 1].held[l] *= 1. - share;
+                spaces.back().held[l] *= share;
+              }
+          }
+        keep_spaces(spaces, moment.kept);
+      }
+
+      void
+      describe(const Tissue<dim>      &tissue,
+               const MomentOfRun<dim> &moment) const override
+      {
+        // Where several lumens have merged each has its part of the volume. The
+        // pressure is that of the space with the largest part of a lumen.
+        const auto          spaces = kept_spaces(moment.kept, list.size());
+        std::vector<double> volumes(list.size(), 0.), pressures(volumes);
+        std::vector<double> largest(volumes);
+        for (unsigned int s = 0; s < spaces.size(); ++s)
+          if (spaces[s].is_filled())
+            {
+              const double volume = volume_of(s, tissue);
+              const double all    = std::accumulate(spaces[s].held.begin(),
+                                                 spaces[s].held.end(),
+                                                 0.);
+              for (unsigned int l = 0; l < list.size(); ++l)
+                {
+                  const double part = spaces[s].held[l] / all * volume;
+                  volumes[l] += part;
+                  if (part >
+                      std::exchange(largest[l], std::max(largest[l], part)))
+                    pressures[l] = spaces[s].pressure;
+                }
+            }
+        for (unsigned int l = 0; l < list.size(); ++l)
+          {
+            moment.of_step["lumen_volume" + suffix(l)]   = volumes[l];
+            moment.of_step["lumen_pressure" + suffix(l)] = pressures[l];
+          }
+      }
+
+      /** Volumes and pressures in statistics.csv; what the spaces hold and
+       *  their last pressures are kept. */
+      void
+      declare(Tables<dim> &tables) const override
+      {
+        for (unsigned int l = 0; l < list.size(); ++l)
+          for (const std::string what : {"lumen_volume", "lumen_pressure"})
+            tables.add_number(what + suffix(l));
+        tables.keep_number(number_of_spaces, 0.);
+      }
+
+      void
+      check(const Preview<dim> &scene) const override
+      {
+        // Both ends of the run are tried, so that most mistakes show before it.
+        for (const Lumen &lumen : list)
+          for (const double t : {0., scene.keys.time.end_time.value()})
+            for (const auto *const of_time :
+                 {&lumen.volume, &lumen.pressure, &lumen.secretion})
+              if (*of_time)
+                value(*of_time, t);
+        for (const Point<dim> &X : scene.boundary_points)
+          for (unsigned int l = lumen_at(X); l > 0 && l < list.size(); ++l)
+            if (list[l].where.value(X, 0.) > 0.)
+              list[l].keys.where.refuse(
+                "a condition that chooses no points of " +
+                  list[lumen_at(X) - 1].keys.where.path(),
+                "Each boundary point faces one lumen.");
+      }
+
+      void
+      review(const Preview<dim> &scene, Review &review) const override
+      {
+        // The width is the smallest extent along an axis, over all ranks.
+        for (unsigned int l = 0; l < list.size(); ++l)
+          {
+            double width = std::numeric_limits<double>::infinity();
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                double lower = std::numeric_limits<double>::max(),
+                       upper = -lower;
+                for (const Point<dim> &X : scene.boundary_points)
+                  if (lumen_at(X) == l + 1)
+                    {
+                      lower = std::min(lower, X[d]);
+                      upper = std::max(upper, X[d]);
+                    }
+                width = std::min(width,
+                                 Utilities::MPI::max(upper, scene.comm) -
+                                   Utilities::MPI::min(lower, scene.comm));
+              }
+            const double         h     = scene.keys.grid.spacing;
+            const ExpressionKey &where = list[l].keys.where;
+            if (width < narrowest * h)
+              review.warn(
+                where.path(),
+                where.text(),
+                "the lumen is only " + as_text(width) + " um wide, " +
+                  as_text(std::round(10. * width / h) / 10.) +
+                  " times Grid/Spacing; at 2 times its pressure was 20 % "
+                  "wrong (doc/theory.md, section 4.3).",
+                "Choose a Grid/Spacing of at most a third of its width.");
+          }
+      }
+
+    private:
+      struct Lumen
+      {
+        LumenKeys                 keys;
+        Expression                where;
+        std::optional<Expression> volume, pressure, secretion; // one of them
+      };
+
+      /** A value, which depends on the time alone. @throws InputError */
+      static double
+      value(const std::optional<Expression> &of_time, const double t)
+      {
+        return of_time->value(Point<dim>(), t);
+      }
+
+      /** The number of the lumen around which @p X (µm) was at t = 0, from 1
+       *  on; 0: there is none. */
+      unsigned int
+      lumen_at(const Point<dim> &X) const
+      {
+        for (unsigned int l = 0; l < list.size(); ++l)
+          if (list[l].where.value(X, 0.) > 0.)
+            return l + 1;
+        return 0;
+      }
+
+      /** What names of columns end with. */
+      std::string
+      suffix(const unsigned int lumen) const
+      {
+        const std::string &name = list[lumen].keys.name;
+        return name.empty() ? "" : "_" + name;
+      }
+
+      /** The lumens whose content is in a space, in a row of forces.csv. */
+      std::string
+      names_in(const LumenSpace &space) const
+      {
+        std::string text;
+        for (unsigned int l = 0; l < list.size(); ++l)
+          if (space.held[l] != 0.)
+            text += (text.empty() ? "" : " + ") +
+                    (list[l].keys.name.empty() ? "lumen" : list[l].keys.name);
+        return text;
+      }
+
+      /** Volume of a space now, µm^dim. Collective. */
+      static double
+      volume_of(const unsigned int space, const Tissue<dim> &tissue)
+      {
+        return enclosed_volume(lumen_patches(space + 1, tissue),
+                               tissue.communicator());
+      }
+
+      static void
+      say(const MomentOfRun<dim> &moment, const std::string &what)
+      {
+        moment.say("Lumens: at t = " + as_text(moment.t) + " day " + what +
+                   ".");
+      }
+
+      /** Sets what fills a space before the pressure of the step is known.
+       *  @param area of its wall at the beginning, µm^(dim-1)
+       *  @throws InputError, StepFailed */
+      void
+      fill(const LumenSpace         &space,
+           const double              area,
+           const AttemptAtStep<dim> &attempt,
+           LumenContent             &content) const
+      {
+        // A gas has p = p₀V₀/V, which needs only the product. Fluid is secreted
+        // as into a lumen that keeps its shape, doc/theory.md, section 4.3.
+        // Where the volume is given the content is that of a compressible
+        // fluid, doc/theory.md (4.8j), which begins with the pressure of the
+        // step before: a good guess saves turns.
+        const double t = attempt.t_next, dt = t - attempt.t;
+        double       fluid   = 0.;
+        bool         has_gas = false;
+        for (unsigned int l = 0; l < list.size(); ++l)
+          if (const double held = space.held[l]; held != 0.)
+            {
+              if (list[l].secretion)
+                {
+                  const double way =
+                    value(list[l].secretion, t - 0.5 * dt) * dt;
+                  const double factor =
+                    std::max(0., 1. + way * area / (dim * content.volume));
+                  const double now = Utilities::fixed_power<dim>(factor) * held;
+                  content.at_end[number_of_space(content.space - 1,
+                                                 std::to_string(l))] = now;
+                  fluid += now;
+                }
+              else if (list[l].volume)
+                fluid += value(list[l].volume, t) * held;
+              else
+                {
+                  has_gas = true;
+                  content.content.gas += value(list[l].pressure, t) * held;
+                }
+            }
+        if (has_gas)
+          {
+            content.content.fluid = fluid;
+            return;
+          }
+        if (!(fluid > 0.))
+          throw StepFailed("nothing is left of the lumen " + content.name);
+        content.content.target             = fluid;
+        content.content.pressure_at_target = space.pressure;
+        content.content.stiffness_at_target =
+          relative_modulus * attempt.typical_stiffness / content.volume;
+      }
+
+      /** Refuses a lumen that has no surface at t = 0, or one that is open, or
+       *  whose normals point away. Collective. @throws InputError */
+      void
+      check_lumen(const unsigned int         l,
+                  const Preview<dim>        &scene,
+                  const std::vector<double> &areas) const
+      {
         std::vector<LumenPatch<dim>> patches;
         for (std::size_t i = 0; i < areas.size(); ++i)
-          if (this->acts_on(scene.boundary_points[i], scene.normals[i]))
+          if (lumen_at(scene.boundary_points[i]) == l + 1)
             patches.push_back(
               {scene.boundary_points[i], areas[i] * scene.normals[i]});
         // A surface that is closed has areas that add up to nothing, as
         // vectors; one whose normals point into the lumen has a positive
         // volume. The sums are over all ranks, so all of them refuse the scene.
-        const SurfaceSums<dim> sums = sums_of(patches, scene.comm);
+        const SurfaceSums<dim> sums  = sums_of(patches, scene.comm);
+        const ExpressionKey   &where = list[l].keys.where;
         if (sums.area == 0.)
-          return; // which is refused for all conditions
+          where.refuse("a condition that holds at some boundary point",
+                       "It is positive at none: correct it, or leave it empty. "
+                       "Boundary points sit at centers of surface patches.");
         std::ostringstream text;
         if (const double gap = sums.area_vector.norm() / sums.area;
             gap > largest_gap)
@@ -154,149 +480,7 @@ namespace Morula
           }
       }
 
-      std::unique_ptr<Term<dim>>
-      term(const LoadedPoints<dim> &, const double) const override
-      {
-        // The momentum balance has the content of the lumen as a whole, as it
-        // depends on all points.
-        return nullptr;
-      }
-
-      std::unique_ptr<PartOfStep<dim>>
-      part_of_step(const AttemptAtStep<dim> &attempt) const override
-      {
-        // All ranks find the volume together. The content may need expressions,
-        // which can fail on one rank.
-        const TimerOutput::Scope section(attempt.timer, "lumen");
-        const double             volume =
-          enclosed_volume(lumen_patches(*this, attempt.tissue), attempt.comm);
-        EnclosedContent content;
-        everywhere(attempt.comm,
-                   [&]() { content = content_of(attempt, volume); });
-        return lumen_pressure(*this, attempt, volume, content);
-      }
-
-      /** Measures the volume. The first pressure of a lumen that keeps it is a
-       *  guess, 0, from which the turns of the first step begin. */
-      void
-      settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
-      {
-        moment.kept["lumen_at_start"] =
-          enclosed_volume(lumen_patches(*this, tissue), tissue.communicator());
-        moment.kept["lumen_pressure"] = keeps_volume() ? 0. : pressure(0.);
-      }
-
-      void
-      describe(const Tissue<dim>      &tissue,
-               const MomentOfRun<dim> &moment) const override
-      {
-        moment.of_step["lumen_volume"] =
-          enclosed_volume(lumen_patches(*this, tissue), tissue.communicator());
-        moment.of_step["lumen_pressure"] = moment.kept.at("lumen_pressure");
-      }
-
-      /** Volume and pressure in statistics.csv; what it had at t = 0 and its
-       * last pressure are kept. */
-      void
-      declare(Tables<dim> &tables) const override
-      {
-        tables.add_number("lumen_volume");
-        tables.add_number("lumen_pressure");
-        tables.keep_number("lumen_at_start", 0.);
-        tables.keep_number("lumen_pressure", 0.);
-      }
-
-      void
-      check(const Preview<dim> &scene) const override
-      {
-        // Both ends of the run are tried, so that most mistakes show before it.
-        for (const double t : {0., scene.keys.time.end_time.value()})
-          if (keeps_volume())
-            volume(t, 1.);
-          else
-            pressure(t);
-      }
-      void
-      review(const Preview<dim> &scene, Review &review) const override
-      {
-        // The width is the smallest extent along an axis, over all ranks.
-        double width = std::numeric_limits<double>::infinity();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            double lower = std::numeric_limits<double>::max(), upper = -lower;
-            for (std::size_t i = 0; i < scene.boundary_points.size(); ++i)
-              if (this->acts_on(scene.boundary_points[i], scene.normals[i]))
-                {
-                  lower = std::min(lower, scene.boundary_points[i][d]);
-                  upper = std::max(upper, scene.boundary_points[i][d]);
-                }
-            width = std::min(width,
-                             Utilities::MPI::max(upper, scene.comm) -
-                               Utilities::MPI::min(lower, scene.comm));
-          }
-        const double h = scene.keys.grid.spacing;
-        if (width < narrowest * h)
-          review.warn(where.path(),
-                      where.text(),
-                      "the lumen is only " + as_text(width) + " um wide, " +
-                        as_text(std::round(10. * width / h) / 10.) +
-                        " times Grid/Spacing; at 2 times its pressure was 20 % "
-                        "wrong (doc/theory.md, section 4.3).",
-                      "Choose a Grid/Spacing of at most a third of its width.");
-      }
-
-    private:
-      /** Whether the volume is given. */
-      bool
-      keeps_volume() const
-      {
-        return volume_.has_value();
-      }
-
-      /** V*, µm^dim, at @p t (day), if it was @p at_start at t = 0. */
-      double
-      volume(const double t, const double at_start) const
-      {
-        // The place does not matter, as of_time() has refused expressions of
-        // it.
-        return volume_->value(Point<dim>(), t) * at_start;
-      }
-
-      /** Pressure at the volume of t = 0, kPa. @throws InputError */
-      double
-      pressure(const double t) const
-      {
-        return pressure_->value(Point<dim>(), t);
-      }
-
-      /** The lumen's content before the pressure of the step is known.
-       *  @param at_beginning the volume then, µm^dim
-       *  @throws InputError */
-      EnclosedContent
-      content_of(const AttemptAtStep<dim> &attempt,
-                 const double              at_beginning) const
-      {
-        // A gas has p = p₀V₀/V, which needs only the product. Where the volume
-        // is given the content is that of a compressible fluid, doc/theory.md
-        // (4.8j), which begins with the pressure of the step before: a good
-        // guess saves turns.
-        const double    at_start = attempt.kept.at("lumen_at_start");
-        EnclosedContent content;
-        if (!keeps_volume())
-          {
-            content.gas = pressure(attempt.t_next) * at_start;
-            return content;
-          }
-        content.target             = volume(attempt.t_next, at_start);
-        content.pressure_at_target = attempt.kept.at("lumen_pressure");
-        content.stiffness_at_target =
-          relative_modulus * attempt.typical_stiffness / at_beginning;
-        return content;
-      }
-
-      const ExpressionKey             where;
-      const std::optional<Expression> volume_;
-      const std::optional<Expression> pressure_;
+      std::vector<Lumen> list;
     };
   } // namespace
 
@@ -304,11 +488,11 @@ namespace Morula
   void
   add_lumen(Catalogue &catalogue)
   {
-    catalogue.add_own<Lumen>("lumen",
-                             {"Dimension=2",
-                              "Tissue/Radius=5",
-                              "Tissue/Inner radius=3",
-                              "Boundary conditions/Lumen where=X*X + Y*Y < 16",
-                              "Boundary conditions/Lumen volume=1 + 0.01*t"});
+    catalogue.add_own<Lumens>("lumen",
+                              {"Dimension=2",
+                               "Tissue/Radius=5",
+                               "Tissue/Inner radius=3",
+                               "Boundary conditions/Lumen where=X*X + Y*Y < 16",
+                               "Boundary conditions/Lumen volume=1 + 0.01*t"});
   }
 } // namespace Morula

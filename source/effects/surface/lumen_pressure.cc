@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/lumen_pressure.h>
+#include <morula/effects/surface/lumen_spaces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -60,20 +60,21 @@ namespace Morula
 
   template <int dim>
   std::vector<LumenPatch<dim>>
-  lumen_patches(const BoundaryCondition<dim> &lumen,
+  lumen_patches(const unsigned int            space,
                 const Tissue<dim>            &tissue,
                 const DisplacementField<dim> *displacement)
   {
     // The same function serves the beginning of the step, with u = 0 and f =
     // I, and a displacement. Areas change by Nanson's formula, doc/theory.md
     // (1.2).
-    const BoundaryPoints<dim>   &store = tissue.boundary_points();
+    const BoundaryPoints<dim>   &store  = tissue.boundary_points();
+    const auto                   column = space_column(tissue);
     std::vector<LumenPatch<dim>> list;
     const auto                   add = [&](const unsigned int    p,
                          const Tensor<1, dim> &u,
                          const Tensor<2, dim> &f) {
       const BoundaryView<dim> point = store[p];
-      if (lumen.acts_on(point.seed_position(), point.initial_normal()))
+      if (point.get(column) == space)
         // The patch after the step stands at x_t + u with Nanson's area.
         list.push_back({store.position(p) + u,
                         determinant(f) * (point.area_vector() * invert(f))});
@@ -100,20 +101,19 @@ namespace Morula
      * left after a turn also depends on Solver/Newton tolerance. */
     constexpr double volume_tolerance = 1e-8;
 
-    /** The boundary points of this rank around the lumen, held ones as well, at
+    /** The boundary points of this rank around a space, held ones as well, at
      *  the beginning of the step. */
     template <int dim>
     SweptVolume<dim>
-    swept_volume(const BoundaryCondition<dim> &lumen,
-                 const AttemptAtStep<dim>     &attempt)
+    swept_volume(const unsigned int space, const AttemptAtStep<dim> &attempt)
     {
       const BoundaryPoints<dim> &store = attempt.tissue.boundary_points();
-      // Held points are around the lumen as well: they do not move freely, but
+      // Held points are around the space as well: they do not move freely, but
       // they enclose it.
+      const auto        column = space_column(attempt.tissue);
       const PointGroups groups =
         group_points(store, attempt.space, [&](const unsigned int p) {
-          return lumen.acts_on(store[p].seed_position(),
-                               store[p].initial_normal());
+          return store[p].get(column) == space;
         });
       std::vector<Tensor<1, dim>> areas;
       for (const unsigned int p : groups.points)
@@ -127,14 +127,14 @@ namespace Morula
     class LumenPressure : public PartOfStep<dim>
     {
     public:
-      LumenPressure(const BoundaryCondition<dim> &lumen,
-                    const AttemptAtStep<dim>     &attempt,
-                    const double                  volume,
-                    const EnclosedContent        &content)
-        : lumen(lumen)
+      LumenPressure(const AttemptAtStep<dim> &attempt,
+                    const LumenContent       &content)
+        : content(content)
         , attempt(attempt)
-        , space{swept_volume(lumen, attempt), volume, content}
-        , wanted(content.target)
+        , space{swept_volume(content.space, attempt),
+                content.volume,
+                content.content}
+        , wanted(content.content.target)
       {}
 
       Enclosure<dim> *
@@ -157,17 +157,18 @@ namespace Morula
         // are sums over all ranks. A gas needs no second turn, as its pressure
         // follows from V at once.
         const TimerOutput::Scope section(attempt.timer, "lumen");
-        const double             V = balance->enclosed_volume(u);
+        const double             V = balance->enclosed_volume(space, u);
         pressure                   = space.content.pressure(V);
         if (wanted == 0.)
           return false;
         const DisplacementField<dim> displacement(attempt.space,
                                                   u,
                                                   attempt.comm);
-        const double                 after =
-          enclosed_volume(lumen_patches(lumen, attempt.tissue, &displacement),
-                          attempt.comm);
-        error = after / wanted - 1.;
+        const double after = enclosed_volume(lumen_patches(content.space,
+                                                           attempt.tissue,
+                                                           &displacement),
+                                             attempt.comm);
+        error              = after / wanted - 1.;
         if (std::abs(error) <= volume_tolerance)
           return false;
         // The next turn begins at the pressure of this one. Its target is a
@@ -182,8 +183,10 @@ namespace Morula
       unfinished() const override
       {
         std::ostringstream text;
-        text << "the lumen does not get its volume: it still differs by "
-             << error << " times " << wanted << (dim == 3 ? " um^3" : " um^2");
+        text << "the lumen"
+             << (content.name == "lumen" ? "" : " " + content.name)
+             << " does not get its volume: it still differs by " << error
+             << " times " << wanted << (dim == 3 ? " um^3" : " um^2");
         return text.str();
       }
 
@@ -198,45 +201,42 @@ namespace Morula
       {
         // The term is the gain of volume as if that were an energy; its forces
         // times minus the pressure are those of doc/theory.md (4.8i).
-        return ForceOnPoints<dim>{
-          "lumen",
-          "lumen",
-          [this](const BoundaryView<dim> &point) {
-            return lumen.acts_on(point.seed_position(), point.initial_normal());
-          },
-          &space.gain,
-          -pressure};
+        return ForceOnPoints<dim>{"lumen",
+                                  content.name,
+                                  [number = content.space,
+                                   column = space_column(attempt.tissue)](
+                                    const BoundaryView<dim> &point) {
+                                    return point.get(column) == number;
+                                  },
+                                  &space.gain,
+                                  -pressure};
       }
 
       void
       keep(NamedNumbers &numbers) const override
       {
-        numbers["lumen_pressure"] = pressure;
+        numbers[content.of_pressure] = pressure;
+        for (const auto &[name, number] : content.at_end)
+          numbers[name] = number;
       }
 
     private:
-      const BoundaryCondition<dim> &lumen;
-      const AttemptAtStep<dim>     &attempt;
-      Enclosure<dim>                space;
-      const double                  wanted; // volume, µm^dim; 0: any
-      const MomentumBalance<dim>   *balance = nullptr;
-      double pressure = 0.; // at the last equilibrium, kPa
-      double error    = 0.; // of the volume, relative
+      const LumenContent          content;
+      const AttemptAtStep<dim>   &attempt;
+      Enclosure<dim>              space;
+      const double                wanted; // volume, µm^dim; 0: any
+      const MomentumBalance<dim> *balance  = nullptr;
+      double                      pressure = 0.; // at the last equilibrium, kPa
+      double                      error    = 0.; // of the volume, relative
     };
   } // namespace
 
 
   template <int dim>
   std::unique_ptr<PartOfStep<dim>>
-  lumen_pressure(const BoundaryCondition<dim> &lumen,
-                 const AttemptAtStep<dim>     &attempt,
-                 const double                  volume,
-                 const EnclosedContent        &content)
+  lumen_pressure(const AttemptAtStep<dim> &attempt, const LumenContent &content)
   {
-    return std::make_unique<LumenPressure<dim>>(lumen,
-                                                attempt,
-                                                volume,
-                                                content);
+    return std::make_unique<LumenPressure<dim>>(attempt, content);
   }
 
 

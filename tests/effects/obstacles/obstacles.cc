@@ -148,7 +148,9 @@ TEST_2D_3D(Obstacles, TwoSidedOnesHoldWhatHasTouched)
         keys.push_back("Obstacles/wall/" + key + "=" + value);
       const SceneEffects<dim> effects = effects_of<dim>(scene_of(keys));
       const auto             &walls   = *effects.conditions.at(0).condition;
-      EXPECT_TRUE(walls.holds_what_touches());
+      BoundaryColumns<dim>    columns;
+      walls.add_columns(columns);
+      EXPECT_TRUE(columns.touched.exists());
       const auto        at = body<dim>(values);
       LoadedPoints<dim> points;
       static_cast<GroupedPoints<dim> &>(points) =

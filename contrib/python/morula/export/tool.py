@@ -14,14 +14,15 @@ DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
     contrib/export output/bud cells.h5ad           the last state, for scanpy
     contrib/export output/bud cells.h5ad --all     all states in one table
     contrib/export output/bud cells.vtkhdf         all states, for ParaView
+    contrib/export output/bud portal.csv           all states, as OpenVT's portal has them
     contrib/export output/bud labels.tif --voxel 2 every voxel has its cell's label
     contrib/export output/bud labels.tif --voxel 1,1,4 --all
 
 doc/python.md explains the files.
 """
 # Those that are no images, and of them those that have all states.
-TABLES = (".geff", ".h5ad", ".vtkhdf")
-OVER_TIME = (".geff", ".vtkhdf")
+TABLES = (".geff", ".h5ad", ".vtkhdf", ".csv")
+OVER_TIME = (".geff", ".vtkhdf", ".csv")
 ENDINGS = (*TABLES, ".tif", ".tiff", ".npy")
 
 
@@ -32,7 +33,7 @@ def parser():
     add("directory", type=Path, help="output directory of a run, finished or not")
     add("file", type=Path, nargs="+", metavar="FILE",
         help=".geff: tracks; .h5ad: annotated data; .vtkhdf: points\n"
-        "over time; .tif (OME), .npy: a label image, id + 1, of the cells' regions")
+        "over time; .csv: their places; .tif (OME), .npy: a label image, id + 1, of the cells' regions")
     add("--time", metavar="DAY", help="of the state; default: the last one " "written")
     add("--all", action="store_true", help="all states; each one's image is " "FILE-NNNN")
     add("--voxel", metavar="X,Y,Z", help="edges of the voxels of an image, or " "one for all, um")
@@ -82,9 +83,10 @@ def export(options):
             print(f"export: {file}: {len(run.lineage)} cells, {len(found)} nodes, "
                   f"{len(found.edges)} edges")
         elif kind_of(file) in TABLES:
-            from . import h5ad, vtkhdf
-            rows, columns = (vtkhdf.write(run, range(len(run.times)), file) if kind_of(file)
-                             == ".vtkhdf" else h5ad.write(run, chosen_states(run, options), file))
+            from . import h5ad, portal, vtkhdf
+            rows, columns = (h5ad.write(run, chosen_states(run, options), file) if kind_of(file)
+                             == ".h5ad" else {".vtkhdf": vtkhdf, ".csv": portal}[kind_of(file)]
+                             .write(run, range(len(run.times)), file))
             print(f"export: {file}: {rows} rows, {columns} columns")
         else:
             from . import images

@@ -150,12 +150,11 @@ namespace Morula
       return false;
     }
 
-    /** Whether it holds tissue that has touched it: points remember which. */
-    virtual bool
-    holds_what_touches() const
-    {
-      return false;
-    }
+    /** Adds the columns of boundary points in which these remember what the
+     *  condition does to them. */
+    virtual void
+    add_columns(BoundaryColumns<dim> &) const
+    {}
 
     /** Lets the points that touch it at @p t (day), when a step begins,
      *  remember that, and those forget it that have let go. */
@@ -182,6 +181,16 @@ namespace Morula
       // A load moves tissue from rest; what holds points does so only if it is
       // prescribed to move.
       return kind() == SurfaceCondition::loaded;
+    }
+
+    /** All parts of this kind: several, of a condition that has them. */
+    virtual std::vector<std::unique_ptr<PartOfStep<dim>>>
+    parts_of_step(const AttemptAtStep<dim> &attempt) const
+    {
+      std::vector<std::unique_ptr<PartOfStep<dim>>> list;
+      if (auto part = part_of_step(attempt))
+        list.push_back(std::move(part));
+      return list;
     }
   };
 } // namespace Morula

@@ -5,11 +5,11 @@
 #define morula_effects_surface_lumen_pressure_h
 
 #include <morula/effects/part_of_step.h>
-#include <morula/effects/surface/boundary_condition.h>
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/spline_field.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Morula
@@ -48,27 +48,38 @@ namespace Morula
   enclosed_volume(const std::vector<LumenPatch<dim>> &patches,
                   const MPI_Comm                      comm);
 
-  /** The patches of this rank around the lumen; after the step with this
-   *  displacement if there is one. */
+  /** The patches of this rank around a space, by its number in
+   *  space_column(); after the step with this displacement if there is one. */
   template <int dim>
   std::vector<LumenPatch<dim>>
-  lumen_patches(const BoundaryCondition<dim> &lumen,
+  lumen_patches(const unsigned int            space,
                 const Tissue<dim>            &tissue,
                 const DisplacementField<dim> *displacement = nullptr);
 
+  /** What fills a space of lumens in an attempt at a step. */
+  struct LumenContent
+  {
+    /** Number of the space in space_column(). */
+    unsigned int space;
+    /** Of what fills it, and of the kept number that is its pressure. */
+    std::string name, of_pressure;
+    /** Volume at the beginning of the step, µm^dim. */
+    double volume;
+    /** Before the pressure of the step is known. */
+    EnclosedContent content = {};
+    /** Further numbers that are kept at the end of the step. */
+    NamedNumbers at_end = {};
+  };
+
   /**
-   * The content of a lumen in an attempt at a step. Seeks the pressure of one
+   * The content of a space in an attempt at a step. Seeks the pressure of one
    * that keeps its volume, turn by turn. If a gas fills it, one turn is enough:
-   * doc/theory.md (4.8j). Keeps references to the lumen and to the attempt.
-   * @param volume  at the beginning of the step, µm^dim
-   * @param content before the pressure of the step is known
+   * doc/theory.md (4.8j). Keeps a reference to the attempt.
    */
   template <int dim>
   std::unique_ptr<PartOfStep<dim>>
-  lumen_pressure(const BoundaryCondition<dim> &lumen,
-                 const AttemptAtStep<dim>     &attempt,
-                 const double                  volume,
-                 const EnclosedContent        &content);
+  lumen_pressure(const AttemptAtStep<dim> &attempt,
+                 const LumenContent       &content);
 } // namespace Morula
 
 #endif

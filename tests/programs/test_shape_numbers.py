@@ -6,7 +6,7 @@ import pytest
 
 SCENE = {"Time/End time": 0.1, "Time/Step": 0.1, "Tissue/Shape": "points",
          "Tissue/Points surface": "always", "Output/Formats": "none",
-         "Output/Shape numbers": "true"}
+         "Shape/Numbers": "true"}
 
 
 def first(runs, name, dim, spacing, inside, half, keys=(), types=None, ranks=1):

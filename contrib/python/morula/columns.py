@@ -15,7 +15,7 @@ STATISTICS = {"cells": NUMBER, "total_volume": VOLUME, "grown_volume": VOLUME,
               "zmax": LENGTH, "surface_distance": LENGTH, "enclosed_volume": VOLUME,
               "close_neighbours": NUMBER}
 
-# Those of Output/Shape numbers.
+# Those of Shape/Numbers.
 SHAPE = {"roundness": NUMBER, "gyration_radius": LENGTH, "gyration_axis_1": LENGTH,
          "gyration_axis_2": LENGTH, "gyration_axis_3": LENGTH, "radius_spread": NUMBER,
          "lobes": NUMBER, "lobe_power": NUMBER, "free_area": "um^(dim-1)",
@@ -24,7 +24,7 @@ SHAPE = {"roundness": NUMBER, "gyration_radius": LENGTH, "gyration_axis_1": LENG
 
 def statistics_of(keys):
     """The same of a scene with these keys, of which cells may have types and fields."""
-    return {**STATISTICS, **(SHAPE if keys.get("Output/Shape numbers") == "true" else {}),
+    return {**STATISTICS, **(SHAPE if keys.get("Shape/Numbers") == "true" else {}),
             **{f"lumen_{what}_{name}": unit for name in names_in(keys, "Lumens")
                for what, unit in (("volume", VOLUME), ("pressure", STRESS))},
             **{f"cells_{name}": NUMBER for name in names_in(keys)},

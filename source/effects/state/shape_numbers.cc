@@ -22,7 +22,7 @@ namespace Morula
     struct ShapeParameters : public EffectKeys
     {
       Key<bool> numbers{
-        {this, "Output/Shape numbers"},
+        {this, "Shape/Numbers"},
         false,
         "Whether statistics.csv has numbers of the tissue's shape: roundness, "
         "radii of gyration, spread of the radius, lobes, area, and with types "
@@ -253,6 +253,7 @@ namespace Morula
   void
   add_shape_numbers(Catalogue &catalogue)
   {
-    catalogue.add_own<ShapeNumbers>("shape numbers", {"Shape/Numbers=true"});
+    catalogue.add_own<ShapeNumbers>("shape numbers",
+                                    {"Shape/Numbers=true"});
   }
 } // namespace Morula

@@ -305,10 +305,10 @@ namespace Morula
           flow->flow(before, after, at_t0, F_g, t0, t1);
         if (of_step.D)
           F_g = absorb(*of_step.D, F_g, after);
-        // A cell that forgets its stress has no elastic part of t0 any more, so
+        // What a cell gives up at once it does not have at t0 either, so that
         // the next flow must not weigh it in.
-        if (of_step.begins_anew)
-          at_t0 = F_g;
+        if (of_step.at_once)
+          at_t0 = *of_step.D * at_t0;
         errors.flow_shares.push_back(of_step.share);
         errors.relaxed.exponent += of_step.exponent;
         errors.relaxed.kept *= of_step.kept;

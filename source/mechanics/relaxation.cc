@@ -2,6 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/base/input_error.h>
+#include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/relaxation.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
@@ -121,6 +123,49 @@ namespace Morula
     }
 
 
+    /** The principal stresses of strains, kPa, and their derivatives. */
+    template <int dim>
+    struct PrincipalStress
+    {
+      Tensor<1, dim> stress;
+      Tensor<2, dim> slope;
+
+      /** @param x logarithms of the principal stretches of F_e */
+      PrincipalStress(const Tensor<1, dim> &x,
+                      const Lame           &lame,
+                      const Material       &material,
+                      const bool            per_grown_volume)
+      {
+        // These are τ and its derivative in principal directions, as in
+        // doc/theory.md (2.5), divided by J_e where σ is τ / J_e. Where the
+        // energy is counted per initial volume F_g does not count in σ.
+        Tensor<2, dim> F_e;
+        double         log_J = 0.;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            F_e[i][i] = std::exp(x[i]);
+            log_J += x[i];
+          }
+        const ElasticPoint<dim> point(F_e, lame, material);
+        const auto             &r   = point.response();
+        const double            w   = per_grown_volume ? std::exp(-log_J) : 1.;
+        const auto              tau = point.kirchhoff_stress();
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const double b = point.b()[i][i];
+            stress[i]      = w * tau[i][i];
+            for (unsigned int j = 0; j < dim; ++j)
+              {
+                const double b_j = point.b()[j][j];
+                slope[i][j] = w * (r.total_A() + r.B * (b + b_j) + r.C * b * b_j +
+                                   (i == j ? 2. * r.alpha * b : 0.)) -
+                              (per_grown_volume ? stress[i] : 0.);
+              }
+          }
+      }
+    };
+
+
     /**
      * v of relaxed() for @p dt: exact, but with a yield stress the root of
      * backward Euler, doc/theory.md (8.5). Between complete relaxation, where
@@ -233,6 +278,53 @@ namespace Morula
   }
 
 
+  template <int dim>
+  SymmetricTensor<2, dim>
+  given_up_by_stiffening(const Tensor<2, dim> &F_e,
+                         const Lame           &before,
+                         const Lame           &after,
+                         const Material       &material,
+                         const bool            per_grown_volume)
+  {
+    // The law is isotropic, so that the stress keeps its axes if the strain
+    // does: only the principal stretches are sought. Newton's method begins
+    // with strains that are less as the shear modulus is more, which is exact
+    // for small ones, and goes by a bounded way at a time.
+    constexpr double       longest = 0.3, near = 1e-9; // of the way
+    constexpr unsigned int most = 50;
+    const auto     C = eigenvectors(symmetrize(transpose(F_e) * F_e));
+    Tensor<1, dim> x0, step;
+    for (unsigned int i = 0; i < dim; ++i)
+      x0[i] = 0.5 * std::log(C[i].first);
+    const Tensor<1, dim> stress =
+      PrincipalStress<dim>(x0, before, material, per_grown_volume).stress;
+    Tensor<1, dim> x = before.mu / std::max(before.mu, after.mu) * x0;
+    unsigned int   n = 0;
+    do
+      {
+        if (n++ == most)
+          throw InputError("Material/On transition",
+                           "keep stress",
+                           "a stress that the cell can bear when it has "
+                           "stiffened",
+                           "Let Poisson's ratio change less, or keep strain.");
+        const PrincipalStress<dim> now(x, after, material, per_grown_volume);
+        step = invert(now.slope) * (stress - now.stress);
+        if (step.norm() > longest)
+          step *= longest / step.norm();
+        x += step;
+      }
+    while (step.norm() > near);
+
+    SymmetricTensor<2, dim> D;
+    for (unsigned int i = 0; i < dim; ++i)
+      D += std::exp(x0[i] - x[i]) *
+           symmetrize(outer_product(C[i].second, C[i].second));
+    return D;
+  }
+
+
   MORULA_INSTANTIATE(von_mises_stress);
   MORULA_INSTANTIATE(flow_of_step);
+  MORULA_INSTANTIATE(given_up_by_stiffening);
 } // namespace Morula

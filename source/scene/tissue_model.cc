@@ -172,10 +172,11 @@ namespace Morula
       void
       make_flows()
       {
-        if (types && scene.material.forgets_stress())
+        if (auto flow =
+              flow_of_transitions(scene.material, setting, types != nullptr))
           {
             effects.columns.need_growth();
-            development.flows.push_back(forgetting<dim>());
+            development.flows.push_back(std::move(flow));
           }
         make_all(catalogue.flows, development.flows);
         // Where cells grow by a fate F_r is a factor of the growth before it.

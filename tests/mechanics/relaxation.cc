@@ -302,3 +302,49 @@ TEST(Relaxation, KnowsTheVonMisesStress)
                   1e-13);
     }
 }
+
+
+/** Cauchy stress over the stiffness' unit, kPa. */
+template <int dim>
+SymmetricTensor<2, dim>
+true_stress(const Tensor<2, dim> &F_e,
+            const Lame           &lame,
+            const std::string    &law,
+            const bool            per_grown_volume)
+{
+  return ElasticPoint<dim>(F_e, lame, material_of_test(law)).kirchhoff_stress() /
+         (per_grown_volume ? determinant(F_e) : 1.);
+}
+
+
+template <int dim>
+void
+stiffens_at_the_same_stress()
+{
+  std::mt19937 generator(5);
+  for (const std::string law : {"neo-Hookean", "isochoric neo-Hookean"})
+    for (const bool grown : {false, true})
+      for (const Lame &after :
+           {lame(1.01, 0.4), lame(30., 0.4), lame(3., 0.49), lame(1e4, 0.4)})
+        for (unsigned int n = 0; n < 20; ++n)
+          {
+            const Tensor<2, dim> F_e = some_strain<dim>(generator);
+            const auto           D   = given_up_by_stiffening<dim>(
+              F_e, constants, after, material_of_test(law), grown);
+            EXPECT_LT((true_stress<dim>(F_e * invert(Tensor<2, dim>(D)),
+                                        after,
+                                        law,
+                                        grown) -
+                       true_stress<dim>(F_e, constants, law, grown))
+                        .norm(),
+                      1e-10)
+              << law << grown << dim;
+          }
+}
+
+
+TEST(Relaxation, StiffensAtTheSameStress)
+{
+  stiffens_at_the_same_stress<2>();
+  stiffens_at_the_same_stress<3>();
+}

@@ -5,6 +5,7 @@ a rate that becomes wrong in mid-run does."""
 import math
 
 import pytest
+from scipy.optimize import fsolve
 
 from tests.common.program import SCENES
 
@@ -42,15 +43,33 @@ def test_numbers_add_up(runs):
 
 def stress(stretch, E):
     """In the direction of the stretch, kPa; nu = 0.4."""
-    return E / stretch * ((stretch**2 - 1) / 2.8 + 0.4 / 1.4 / 0.2 * math.log(stretch))
+    return cauchy((stretch, 1), E)[0]
+
+
+def cauchy(stretches, E):
+    """Both principal stresses in the plane, kPa; nu = 0.4."""
+    J = math.prod(stretches)
+    return [E / J * ((stretch**2 - 1) / 2.8 + 0.4 / 1.4 / 0.2 * math.log(J))
+            for stretch in stretches]
+
+
+def same_stress(stretches, E, later_E):
+    """The principal stretches with the same stresses at another stiffness."""
+    wanted = cauchy(stretches, E)
+    return fsolve(lambda x: [a - b for a, b in zip(cauchy(x, later_E), wanted)], [1, 1],
+                  xtol=1e-12)
+
+
+KEPT = same_stress((1.1, 1), 1, 3)
 
 
 @pytest.mark.parametrize("choice, after, later", [
     ("keep strain", stress(1.1, 3), stress(1.15, 3)),
+    ("keep stress", stress(1.1, 1), cauchy((KEPT[0] * 1.15 / 1.1, KEPT[1]), 3)[0]),
     ("forget stress", 0, stress(1.15 / 1.1, 3))])
 def test_stress_at_a_transition(runs, choice, after, later):
-    """A cell keeps its strain, so that its stress grows with the stiffness, or
-    forgets its stress: then only what comes afterwards stretches it."""
+    """A cell keeps its strain, so that its stress grows with the stiffness; or its
+    stress; or it forgets that: then only what comes afterwards stretches it."""
     run = runs.run("slab", STIFFENING, {"Material/On transition": choice})
     for number, exact in ((1, stress(1.1, 1)), (3, after), (4, later)):
         assert abs(run.cells(number)["sigma_xx"].mean() - exact) < 1e-3 * stress(1.1, 1)

@@ -78,11 +78,13 @@ namespace Morula
     Key<std::string> on_transition{
       {this, "Material/On transition"},
       "keep strain",
-      "What a cell has of its elastic strain when it changes its "
-      "type, and so perhaps its stiffness: all, so that its stress "
-      "changes, or nothing, so that it is free of stress as it "
+      "What a cell has of its elastic strain when its stiffness changes: "
+      "all, so that its stress changes; or, where it stiffens with time, age, "
+      "type or whatever its stiffness depends on, so much that its stress "
+      "stays, as what is laid down in loaded tissue bears nothing yet; or "
+      "nothing when it changes its type, so that it is free of stress as it "
       "stands.",
-      {"keep strain|forget stress"}};
+      {"keep strain|keep stress|forget stress"}};
     /** What the law can be. */
     Materials materials;
 
@@ -98,13 +100,6 @@ namespace Morula
     {
       return volumetric_strain == "pointwise" ? VolumetricStrain::pointwise :
                                                 VolumetricStrain::pooled;
-    }
-
-    /** Whether cells forget their stress when they change their type. */
-    bool
-    forgets_stress() const
-    {
-      return on_transition == "forget stress";
     }
 
     /** Warns of tissue that locks. */

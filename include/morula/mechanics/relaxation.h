@@ -55,6 +55,22 @@ namespace Morula
                const Material       &material,
                const FlowLaw        &flow,
                const double          dt);
+
+  /**
+   * What stiffening tissue gives up of its elastic strain, so that the Cauchy
+   * stress stays as its shape does: doc/theory.md (6.8b).
+   *
+   * @param F_e elastic part of the deformation gradient, det F_e > 0
+   * @return D, symmetric and positive definite: F_e becomes F_e D⁻¹
+   * @throws InputError if no strain has that stress
+   */
+  template <int dim>
+  SymmetricTensor<2, dim>
+  given_up_by_stiffening(const Tensor<2, dim> &F_e,
+                         const Lame           &before,
+                         const Lame           &after,
+                         const Material       &material,
+                         const bool            per_grown_volume);
 } // namespace Morula
 
 #endif

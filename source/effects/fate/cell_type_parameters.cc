@@ -299,10 +299,16 @@ namespace Morula
   void
   CellTypesParameters::check(const SceneKeys &scene, Review &) const
   {
-    if (!is_on() && !scene.material.on_transition.is_default())
-      scene.material.on_transition.refuse(
-        "its default, as there are no types of cells",
-        "Set " + names.path() + ", or remove this key.");
+    const auto &on_transition = scene.material.on_transition;
+    if (!is_on() && on_transition == "forget stress")
+      on_transition.refuse("keep strain or keep stress, as there are no types "
+                           "of cells",
+                           "Set " + names.path() + ", or remove this key.");
+    if (on_transition == "keep stress" &&
+        !TissueMaterial(scene.material).depends_on_state())
+      on_transition.refuse("its default, as no cell's stiffness ever changes",
+                           "Let " + scene.material.youngs_modulus.path() +
+                             " depend on time, age, type or what you like.");
     for (unsigned int i = 0; i < types.size(); ++i)
       {
         const CellTypeKeys &type = types[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
+#include <morula/base/instantiate.h>
 #include <morula/base/time_parameters.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
@@ -241,10 +242,60 @@ namespace Morula
       {
         if (after.get(cell.reader().columns.type) == cell.type())
           return {};
-        // All of F_e becomes growth, so that none of it is left with the growth
-        // of t0.
+        // All of F_e becomes growth.
         return {cell.elastic(), 0., true};
       }
+    };
+
+
+    /** What stiffens keeps its Cauchy stress, as what is laid down bears
+     *  nothing yet. */
+    template <int dim>
+    class Stiffening : public Flow<dim>
+    {
+    public:
+      /** Declares a column. */
+      explicit Stiffening(CellColumns<dim> &columns)
+        : moduli(columns.template add<Tensor<1, 2>>(
+            {"moduli", "kPa", "lambda and mu of the last step"}))
+      {}
+
+      /** D of doc/theory.md (6.8b).
+       *  @throws InputError for a stress that no strain has any more */
+      FlowOfStep<dim>
+      flow(const PresentCell<dim>      &cell,
+           const CellView<dim, double> &after,
+           const Tensor<2, dim> &,
+           const Tensor<2, dim> &,
+           const double,
+           const double t1) const override
+      {
+        // The stress is that which the last step has balanced, with the moduli
+        // of then: where they depend on the place, or on a field, those of the
+        // state are others already. What softens loses what bears the stress,
+        // and keeps its strain.
+        CellReader<dim> reader = cell.reader();
+        reader.time            = t1;
+        const Lame now =
+          PresentCell<dim>(after, cell.id(), cell.position(), reader).lame();
+        const Tensor<1, 2> kept = cell.cell().get(moduli);
+        const Lame then = kept[1] > 0. ? Lame{kept[0], kept[1]} : cell.lame();
+        after.set(moduli, Tensor<1, 2>({now.lambda, now.mu}));
+        if (!(youngs_modulus(now) > youngs_modulus(then)))
+          return {};
+        const TissueMaterial &tissue = reader.material;
+        return {Tensor<2, dim>(
+                  given_up_by_stiffening<dim>(cell.elastic(),
+                                              then,
+                                              now,
+                                              tissue.material(),
+                                              tissue.per_grown_volume())),
+                0.,
+                true};
+      }
+
+    private:
+      Column<Tensor<1, 2>> moduli;
     };
   } // namespace
 
@@ -262,14 +313,19 @@ namespace Morula
 
   template <int dim>
   std::unique_ptr<const Flow<dim>>
-  forgetting()
+  flow_of_transitions(const MaterialParameters &keys,
+                      const EffectSetting<dim> &setting,
+                      const bool                has_types)
   {
-    return std::make_unique<Forgetting<dim>>();
+    // Stiffness by X alone, or the same everywhere, stays what it is.
+    const bool changes = TissueMaterial(keys).depends_on_state();
+    if (keys.on_transition == "forget stress" && has_types)
+      return std::make_unique<Forgetting<dim>>();
+    if (keys.on_transition == "keep stress" && changes)
+      return std::make_unique<Stiffening<dim>>(setting.columns);
+    return {};
   }
 
 
-  template std::unique_ptr<const Flow<2>>
-  forgetting();
-  template std::unique_ptr<const Flow<3>>
-  forgetting();
+  MORULA_INSTANTIATE(flow_of_transitions);
 } // namespace Morula

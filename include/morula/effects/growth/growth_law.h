@@ -149,8 +149,8 @@ namespace Morula
     std::optional<Tensor<2, dim>> D = {};
     /** An error in the shear of the forecast times this is an error of D. */
     double share = 0.;
-    /** Whether the cell begins the step without stress, for the next flows. */
-    bool begins_anew = false;
+    /** Whether the cell begins the step with D already, for the next flows. */
+    bool at_once = false;
     /** Δt/τ; 0 if stress does not fade with time. */
     double exponent = 0.;
     /** What is left of a stress that fades: e^(-Δt/τ), or 1 below a yield

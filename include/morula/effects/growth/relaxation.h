@@ -63,11 +63,14 @@ namespace Morula
     }
   };
 
-  /** The flow of cells that change their type and are then free of stress as
-   *  they stand, `Material/On transition`: doc/theory.md, section 6.8. */
+  /** What cells whose stiffness changes give up of their elastic strain,
+   *  `Material/On transition`: doc/theory.md, section 6.8. Null if they keep
+   *  all. */
   template <int dim>
   std::unique_ptr<const Flow<dim>>
-  forgetting();
+  flow_of_transitions(const MaterialParameters &keys,
+                      const EffectSetting<dim> &setting,
+                      const bool                has_types);
 } // namespace Morula
 
 #endif

@@ -340,6 +340,40 @@ namespace Morula
 
 
   template <int dim>
+  void
+  CellDevelopment<dim>::refer_anew(Tissue<dim> &tissue) const
+  {
+    // Tissue that flows for generations shears F and F_g without end, though
+    // F_e stays small. The right factor of both is taken off, which has a
+    // determinant of 1: F_r takes it in, and all that is kept of the reference
+    // configuration goes along. Contraction, law and cycle do not see it, nor
+    // do F_e, W and V.
+    constexpr double longest = 1e6; // the squared norm over that of a ball
+    if (!effects.proliferation && !effects.relaxed.exists())
+      return;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      {
+        const CellView<dim, double> cell = tissue.cell(p);
+        const Tensor<2, dim>        F_g  = cell.growth(), F = cell.F();
+        const double g = std::pow(determinant(F_g), 1. / dim);
+        if (F_g.norm_square() < longest * g * g)
+          continue;
+        const Tensor<2, dim> F_e  = F * invert(F_g);
+        const bool           has_shape = columns_.shape.exists();
+        const Tensor<2, dim> shape = has_shape ? cell.shape() : Tensor<2, dim>();
+        cell.set(columns_.growth, absorb(g * invert(F_g), F_g, cell));
+        cell.set(columns_.deformation, g * F_e);
+        if (has_shape)
+          cell.set(columns_.shape,
+                   invert(cell.unrelaxed_deformation()) * shape);
+        if (state_.surface_normal.exists())
+          cell.set(state_.surface_normal,
+                   transpose(g * invert(F_g)) * cell.get(state_.surface_normal));
+      }
+  }
+
+
+  template <int dim>
   double
   CellDevelopment<dim>::missed_flow(const CellView<dim, const double> &cell,
                                     const unsigned int                 p,

@@ -268,6 +268,7 @@ namespace Morula
     // Divisions come before deaths, so that daughters can die, and the surface
     // follows last, as both change what it has to enclose.
     divide();
+    model.development.refer_anew(tissue);
     // A new surface may need the points that leave with dead cells, to know
     // which conditions its patches had.
     const PointList<dim> former = surface.before_losses(tissue);

@@ -23,6 +23,7 @@
 #include <morula/effects/state/state_columns.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/mechanics/relaxation.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/effects/volumes_of_step.h>

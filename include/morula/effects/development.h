@@ -251,6 +251,12 @@ namespace Morula
         flow->remember_motion(cell, f);
     }
 
+    /** Gives cells that have flowed far another reference configuration, before
+     *  F and F_g lose the digits of F_e: doc/theory.md (8.8). To be called when
+     *  no cell is due to divide. */
+    void
+    refer_anew(Tissue<dim> &tissue) const;
+
     /**
      * By how much the forecast of a step's motion was wrong about what has
      * flowed, |missed|; to be called before remember_motion().

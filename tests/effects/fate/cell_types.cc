@@ -164,7 +164,7 @@ TEST(CellTypes, MayForgetTheirStress)
                       given_up_by_stiffening<2>(F,
                                                 lame(1., 0.4),
                                                 lame(9., 0.4),
-                                                alone.material(),
+                                                alone.development.reader(0.).material.material(),
                                                 true)));
             EXPECT_NEAR((F_e - expected).norm(), 0., 1e-14) << what << law;
             alone.live(t, t + 0.1);

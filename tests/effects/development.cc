@@ -154,7 +154,6 @@ TEST(CellDevelopment, RefersAnew)
           "Growth/Law=rate",
           "Growth/Rate/Rate=0.3",
           "Growth/Rate/Share along=1",
-          "Growth/Rate/Direction=1; 0",
           "Material/Relaxation time=0.3"};
         Alone alone(settings), far(settings);
         alone.live(0., 0.1);
@@ -187,10 +186,8 @@ TEST(CellDevelopment, RefersAnew)
             far.live(t, t + 0.1);
           }
         if (columns.shape.exists())
-          {
           EXPECT_NEAR((far.cell().shape() - alone.cell().shape()).norm(),
                       0.,
                       1e-6);
-          }
       }
 }

@@ -74,6 +74,47 @@ namespace Morula
 
 
   template <int dim>
+  void
+  tell_bodies_apart(Tissue<dim> &tissue, PointList<dim> &former)
+  {
+    // bodies_apart() numbers bodies in the order of ranks. Their lowest ids
+    // give them an order of their own, which any number of ranks has.
+    const MPI_Comm    comm  = tissue.communicator();
+    const Cells<dim> &cells = tissue.cells();
+    Founders<dim>     left;
+    left.positions = cells.positions();
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      left.volumes.push_back(cells.volume(p));
+    const auto sizes = Utilities::MPI::all_gather(comm, left.volumes.size());
+    left.first_id    = std::accumulate(
+      sizes.begin(), sizes.begin() + Utilities::MPI::this_mpi_process(comm), 0ul);
+    left.bodies = bodies_apart(left, comm);
+    std::vector<double> lowest(number_of_bodies(left, comm),
+                               std::numeric_limits<double>::max());
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        double &least = lowest[left.bodies[p]];
+        least         = std::min<double>(least, cells.id(p));
+      }
+    Utilities::MPI::min(lowest, comm, lowest);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      {
+        left.bodies[p] =
+          std::count_if(lowest.begin(), lowest.end(), [&](const double id) {
+            return id < lowest[left.bodies[p]];
+          });
+        tissue.cell(p).set(cells.columns().body, left.bodies[p]);
+      }
+    const std::vector<Point<dim>> positions = of_all_ranks(left.positions, comm);
+    const NearTree<dim> tree(positions);
+    const std::vector<unsigned int> bodies = of_all_ranks(left.bodies, comm);
+    const auto &body = tissue.boundary_points().columns().body;
+    for (std::size_t i = 0; i < former.size() && !bodies.empty(); ++i)
+      body.set(former.row(i), bodies[tree.nearest(former.positions[i])]);
+  }
+
+
+  template <int dim>
   std::vector<unsigned int>
   bodies_of_patches(const SurfacePatches<dim> &patches,
                     const Founders<dim>       &founders,
@@ -252,5 +293,6 @@ namespace Morula
   MORULA_INSTANTIATE(part_bodies);
   MORULA_INSTANTIATE(measures_of_bodies);
   MORULA_INSTANTIATE(bodies_apart);
+  MORULA_INSTANTIATE(tell_bodies_apart);
   MORULA_INSTANTIATE(bodies_of_patches);
 } // namespace Morula

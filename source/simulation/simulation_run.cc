@@ -5,6 +5,7 @@
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/scene/seeded_tissue.h>
+#include <morula/seeding/bodies.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
 #include <morula/solver/linear_solver.h>
@@ -373,10 +374,14 @@ namespace Morula
     // the cells. The surface is closed first; what is measured on it, or on the
     // cells that are left, is then found again. All ranks go the same way, as
     // the count is that of all.
-    const PointList<dim> former = surface.before_losses(tissue);
-    events                      = Morula::carve(tissue, model.development);
+    PointList<dim> former = surface.before_losses(tissue);
+    events                = Morula::carve(tissue, model.development);
     if (count(CellEvent::removal) == 0)
       return false;
+    // What stands apart is known when what was between is gone.
+    if (model.interaction &&
+        !model.interaction->effect->takes_types_as_bodies())
+      tell_bodies_apart(tissue, former);
     surface.close_cuts(tissue, former);
     renew_carriers(tissue);
     for_moments(&Moments<dim>::surfaced, 0., 0.);

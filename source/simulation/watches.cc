@@ -266,6 +266,38 @@ namespace Morula
 
 
   template <int dim>
+  void
+  Watches<dim>::look_at_extrusion(const Tissue<dim> &tissue,
+                                  const double       t,
+                                  const double       dt)
+  {
+    // Where the rate follows the state, what it was in the last step is kept
+    // in a column. Who leaves relieves the others only in the next step.
+    constexpr double most = 0.3;
+    const auto       rate = tissue.cells().columns().template find<double>(
+      "extrusion_rate");
+    if (!rate.exists() || has_told_of_extrusion)
+      return;
+    double largest = 0.;
+    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+      largest = std::max(largest, dt * tissue.cells()[p].get(rate));
+    largest               = Utilities::MPI::max(largest, tissue.communicator());
+    has_told_of_extrusion = largest > most;
+    if (!has_told_of_extrusion)
+      return;
+    std::ostringstream text;
+    text << "Warning: in the step to t = " << t
+         << " day the Extrusion/Rate of some cells times the step is "
+         << largest
+         << ", more than 0.3: cells leave together that would stay once "
+            "others have left, as the rate follows the state of the step's "
+            "beginning. Shorten Time/Step, or lower the rate. Later ones are "
+            "not told of.";
+    announce(text.str());
+  }
+
+
+  template <int dim>
   std::string
   Watches<dim>::look_at_cells(const Tissue<dim>         &tissue,
                               const std::vector<double> &walls,

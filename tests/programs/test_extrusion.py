@@ -41,3 +41,20 @@ def test_rim(runs, dim, spacing, h, step, low, high, exact, within):
     volume = run.statistics["grown_volume"].iloc[-1]
     ball = numpy.pi if dim == 2 else 4 * numpy.pi / 3
     assert abs((volume / ball) ** (1 / dim) - exact) <= within
+
+
+@pytest.mark.parametrize("rate, says", [("200*max(0, pressure)", True), ("0.5*max(0, pressure)", False),
+                                        ("20", False)])
+def test_faster_than_the_steps(runs, rate, says):
+    """A rate that follows the state must not empty a step; a constant one may."""
+    run = runs.run("fast", BOX, {"Tissue/Size": "64, 64", "Time/End time": 0.5,
+                                 "Extrusion/Rate": rate})
+    assert ("times the step is" in run.said) == says
+
+
+@pytest.mark.parametrize("keys, says", [({}, True), ({"Growth/Law": "none", "Division by size/Volume": 0}, False),
+                                        ({"Extrusion/Rate": 0}, False)])
+def test_slip_sides_hold_points(runs, keys, says):
+    """Tissue that passes carries them away: that is said before the run."""
+    run = runs.run("slips", BOX, {"Tissue/Size": "64, 64", "Time/End time": 0.1, **keys})
+    assert ("not places" in run.said) == says

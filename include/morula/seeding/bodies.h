@@ -5,6 +5,7 @@
 #define morula_seeding_bodies_h
 
 #include <morula/particles/fusion.h>
+#include <morula/particles/tissue.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/mpi.templates.h>
@@ -46,6 +47,13 @@ namespace Morula
   template <int dim>
   std::vector<unsigned int>
   bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
+
+  /** Tells bodies apart once more when cells have gone at t = 0: the numbers go
+   *  by the lowest id in a body. What the surface was before, @p former, takes
+   *  the body of the nearest cell that is left. Collective. */
+  template <int dim>
+  void
+  tell_bodies_apart(Tissue<dim> &tissue, PointList<dim> &former);
 
   /** How many bodies there are, 0 if founders do not know theirs. Collective.
    */

@@ -50,8 +50,9 @@ namespace Morula
         "apart",
         "What is a body. apart: cells that stand together at t = 0; gaps "
         "between bodies are at least as wide as 0.8 cells. cell type: all "
-        "cells of a type, by Cell types/Names; they may touch from the "
-        "start. Daughters belong to their mother's body.",
+        "cells of a type at t = 0, by Cell types/Names; they may touch from "
+        "the start. Daughters belong to their mother's body, and cells that "
+        "change their type stay in theirs.",
         {"apart|cell type"}};
 
       Key<double> stiffness{

@@ -3,6 +3,7 @@
 
 #include <morula/base/unit_vector.h>
 #include <morula/effects/catalogue.h>
+#include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/placed_condition.h>
 
 #include <cmath>
@@ -35,6 +36,27 @@ namespace Morula
         EffectFacts facts = ConditionKeys::facts();
         facts.topic       = "slip (Nitsche)";
         return facts;
+      }
+
+      /** Warns of tissue that passes through: what it holds leaves with it. */
+      void
+      check(const SceneKeys &scene, Review &review) const override
+      {
+        bool flows = scene.flows(), loses = false;
+        for (const EffectKeys *const keys : scene.keys_in_use())
+          {
+            flows = flows || keys->releases_shear();
+            loses = loses || keys->loses_cells();
+          }
+        if (is_on() && scene.has_active_tissue() && flows && loses)
+          review.warn(where.path(),
+                      where.text(),
+                      "it holds the boundary points that it finds at t = 0, "
+                      "not places. Tissue that grows, flows and is lost "
+                      "elsewhere carries them past their end, and what comes "
+                      "after them is not held.",
+                      "Put planes there (Obstacles/Names), with Two-sided = "
+                      "true where they shall hold tissue back, too.");
       }
     };
 

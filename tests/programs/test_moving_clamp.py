@@ -37,6 +37,19 @@ def test_moves_with_the_clamp(runs, form, ranks):
             <= rest.statistics["newton_iterations"].sum() + 2)
 
 
+@pytest.mark.parametrize("strain, iterations", [(0.02, 8), (0.1, 10), (0.3, 12), (0.6, 16)])
+def test_a_clamp_that_widens(runs, strain, iterations):
+    """No rigid motion: the inner side moves by 0.08 to 2.4 spacings in a step."""
+    run = runs.run(f"widens-{strain}", {
+        "Dimension": 2, "Time/End time": 1, "Time/Step": 1, "Tissue/Shape": "sphere",
+        "Tissue/Radius": 100, "Tissue/Inner radius": 40, "Tissue/Cell spacing": 2,
+        "Grid/Spacing": 10, "Material/Poisson's ratio": 0.4, "Output/Formats": "csv",
+        "Boundary conditions/Fixed where": "X^2 + Y^2 < 4900",
+        MOVES: f"{strain}*X; {strain}*Y; 0"})
+    assert len(run.statistics) == 2
+    assert run.statistics["newton_iterations"].sum() <= iterations
+
+
 def test_clamps_torn_apart(runs):
     """No rigid motion: the message says what is asked for."""
     said = runs.run("torn", SCENE, {

@@ -7,6 +7,7 @@
 #include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/mechanics/point_term.h>
@@ -51,24 +52,28 @@ namespace Morula
                 const LocalField<dim>   &field,
                 LocalSystem<dim>        &system) const override
       {
-        // These are energy, force and stiffness of doc/theory.md (4.6a). The
-        // deformation of the point does not enter, so there is nothing to be
-        // inverted.
+        // These are energy, force and stiffness of doc/theory.md (4.6a) and
+        // (4.6d). The deformation of the point does not enter, so there is
+        // nothing to be inverted. Of the penalty, c is what the energy has
+        // beyond that of β alone, and more what the force has. At a gap of 0
+        // the stiffness along the gap has no value.
         const HeldPoint      &held = held_points[p];
         const double          a_t = held.area, beta = held.penalty;
         const Tensor<1, dim>  gap = held.gap_with(field, splines);
         const Tensor<1, dim> &T   = tractions[p];
         system.note_gap(gap.norm(), this->points.xi[p]);
-        const double   ratio = gap.norm() / (stiffening_gap * this->points.h);
-        const double   more = std::pow(ratio, 4); // of the penalty, at this gap
+        const double r = gap.norm() / (stiffening_gap * this->points.h);
+        const bool   is_far = r > 1.;
+        const double more   = is_far ? 5. - 4. / r : std::pow(r, 4);
+        const double c =
+          is_far ? 5. - 8. / r + 10. / (3. * r * r) : more / 3.;
         Tensor<2, dim> stiffness = (1. + more) * held.projection;
         if (more > 0.)
-          // This is the derivative of the penalty along the gap. At a gap of 0
-          // it vanishes, and the quotient has no value.
-          stiffness += 4. * more / gap.norm_square() * outer_product(gap, gap);
+          stiffness += 4. * (is_far ? 1. / r : more) / gap.norm_square() *
+                       outer_product(gap, gap);
         add_force_at(splines,
-                     a_t * (0.5 * beta * (1. + more / 3.) * gap.norm_square() -
-                            T * gap),
+                     a_t *
+                       (0.5 * beta * (1. + c) * gap.norm_square() - T * gap),
                      a_t * (beta * (1. + more) * gap - T),
                      a_t * beta * stiffness,
                      system);

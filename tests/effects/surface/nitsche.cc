@@ -231,6 +231,18 @@ TEST_2D_3D(BoundedNitsche, EnergyHasALowerBound)
 }
 
 
+/** Small gaps, gaps at which the penalty rises, and far ones where its force
+ *  is linear. */
+TEST_2D_3D(BoundedNitsche, DerivativesAreExact)
+{
+  std::mt19937       generator(7);
+  const Problem<dim> problem(generator);
+  const auto         term = problem.bounded();
+  for (const double motion : {0., 0.01, 1., 30.})
+    expect_derivatives(*term, random_field<dim>(generator, motion));
+}
+
+
 /** The curvature is at least that of the penalty: no direction leads down for
  *  ever. */
 TEST_2D_3D(BoundedNitsche, IsConvex)

@@ -134,13 +134,15 @@ namespace Morula
    * Prescribed positions of boundary points by Nitsche's method with a traction
    * that does not change while an equilibrium is found, doc/theory.md (4.6a):
    *
-   *   Π = Σ a_t [β/2 g·g (1 + (|g|/g₀)⁴/3) - T·g], g = M (x_t + u - x̄).
+   *   Π = Σ a_t [β/2 g·g (1 + (|g|/g₀)⁴/3) - T·g], g = M (x_t + u - x̄),
    *
+   * and grows quadratically with |g| beyond g₀.
    * It is a convex function of u with a lower bound, whatever T and the
    * deformation of the point. Who owns T takes it anew at the equilibrium that
    * was found, and has another one found from there. g₀ is a fifth of the grid
-   * spacing: far smaller gaps meet the penalty β alone, larger ones ever more,
-   * so that tissue does not slip through a clamp that is soft at its edge.
+   * spacing: far smaller gaps meet the penalty β alone, larger ones up to six
+   * times as much, so that tissue does not slip through a clamp that is soft at
+   * its edge, while one that moves far still has a force that is linear.
    * @param tractions M T of the points, kPa; a reference is kept
    */
   template <int dim>

@@ -111,10 +111,8 @@ namespace Morula
                                     part == 0 ? at_wall : at_corner);
             if (!foot && part > 0 && left.norm() < uneven * area)
               return;
-            auto row = foot ? put_on_wall(*foot, x, A) : free_row(x, A);
-            if (cavity.exists())
-              cavity.set(make_array_view(row),
-                         faced_cavity(wish.body, surface.faced[k]));
+            const auto row =
+              foot ? put_on_wall(*foot, x, A) : free_row(x, A, part > 0);
             list.add(id + part, x, make_array_view(row));
             areas.push_back(A);
             is_free.push_back(!foot);
@@ -226,9 +224,13 @@ namespace Morula
         return columns.initial_point(foot.X, N, A.norm(), wall.condition);
       }
 
-      /** The row of a point that no wall holds. */
+      /** The row of a point that no wall holds. What is left beside a wall has
+       *  its place there, but not its normal: the scene's words do not hold
+       *  it. */
       std::vector<double>
-      free_row(const Point<dim> &x, const Tensor<1, dim> &A) const
+      free_row(const Point<dim>     &x,
+               const Tensor<1, dim> &A,
+               const bool            is_rest) const
       {
         // Only the geometry begins anew, a force is one of the area, and a dead
         // load is one of the area of t = 0.
@@ -237,8 +239,11 @@ namespace Morula
           nearest(x, n, wish.reach, [](const SurfaceCondition condition) {
             return !is_held(condition);
           });
+        SurfaceCondition condition = wish.scene.of_new(x, n);
+        if (is_rest && is_held(condition))
+          condition = SurfaceCondition::free;
         if (!i)
-          return columns.initial_point(x, n, A.norm(), wish.scene.of_new(x, n));
+          return columns.initial_point(x, n, A.norm(), condition);
         std::vector<double> row(former.row(*i).begin(), former.row(*i).end());
         const BoundaryView<dim, double> point(make_array_view(row), columns);
         const double                    before = point.area_vector().norm();

@@ -269,7 +269,6 @@ namespace Morula
         // multiplied by its normal. The motions of this rank's cells are found
         // first, many at once by the kernel. surroundings.values() then sends
         // stresses to the ranks that have held points nearby. Collective.
-        const std::string           &kernel = attempt.kernel;
         const DisplacementField<dim> displacement(attempt.space,
                                                   u,
                                                   tissue.communicator());
@@ -279,13 +278,13 @@ namespace Morula
                                              attempt.space,
                                              attempt.growth,
                                              attempt.material,
-                                             kernel,
+                                             attempt.kernel,
                                              displacement);
         const std::vector<PointMotion<dim>> motions =
           point_motions(tissue.cells(),
                         displacement,
                         motion_kernel<dim>(attempt.material.material(),
-                                           kernel));
+                                           attempt.kernel));
         // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t +
         // dt.
         const auto P = surroundings.values([&](const unsigned int p) {

@@ -382,6 +382,9 @@ namespace Morula
     if (gap.value >= 0.)
       text << ", and the largest gap of a held point is " << gap.value
            << " um, at (" << gap.place << ") um";
+    if (const double way = u.linfty_norm(); way > space.box().spacing())
+      text << ". The attempt has moved the tissue by up to " << way
+           << " um, near (" << place_of_largest(u) << ") um";
     return text.str();
   }
 

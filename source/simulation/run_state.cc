@@ -78,19 +78,11 @@ namespace Morula
     state_ = state;
     if (state.step == parameters.step && time() == state.time)
       return;
-    const double n_steps =
-      std::floor(state.time / parameters.step + time_slack);
-    state_ = {state.time,
-              parameters.step,
-              static_cast<unsigned int>(n_steps),
-              state.time,
-              0,
-              0,
-              state.past,
-              state.anew,
-              state.patience,
-              state.good,
-              state.drag};
+    state_.step = parameters.step;
+    state_.interval =
+      static_cast<unsigned int>(state.time / parameters.step + time_slack);
+    state_.begin = state.time;
+    state_.part = state_.level = 0;
   }
 
   void

@@ -202,7 +202,12 @@ namespace Morula
               is_solved                           = false;
               const Equilibrium::Evaluation found = find_in_turn(
                 attempt, parts.is_exact, balance, linear, u, report);
-              check_turn(tissue, DisplacementField<dim>(space, u, comm));
+              // Contact of folds does not see what meets then.
+              if (tissue.cells().has_parts() &&
+                  turns_too_far(tissue, {space, u, comm}))
+                throw StepFailed(
+                  "a strand of the tissue turns by more than 36 degrees, so "
+                  "that the step is too long for its contact");
               is_solved = true;
               return found;
             },
@@ -214,8 +219,7 @@ namespace Morula
       catch (const StepFailed &failure)
         {
           share_extremes();
-          // The failed state is evaluated once more: its energy and smallest
-          // J_e are signs of what went wrong.
+          // Its energy and smallest J_e are signs of what went wrong.
           Equilibrium::Vector R(u);
           report.failed_at            = balance.residual(u, R);
           report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
@@ -233,17 +237,14 @@ namespace Morula
                  Equilibrium::Vector  &u,
                  NewtonReport         &report) const
     {
-      // A step that is plainly too long is halved, since that is cheaper than a
-      // path and as good. All other failures have a path to their equilibrium,
-      // as the energy has a lowest value (doc/theory.md, section 5.9). Half the
-      // step would begin with as much unbalanced force where the last state is
-      // about to fold, or where something jumps. Where folds have contact the
-      // path goes step by step, as surfaces meet on it: hold_back().
+      // A step that is plainly too long is halved, which is cheaper than a path
+      // and as good. All other failures have a path to their equilibrium, as
+      // the energy has a lowest value (doc/theory.md, section 5.9). Where folds
+      // have contact the path goes step by step: hold_back().
       const Equilibrium::Vector begin(u);
       NewtonScales scales = balance.scales(attempt.typical_stiffness);
-      // A later turn begins near its equilibrium: only what was renewed is
-      // not balanced. Forces count as small in relation to those of the first
-      // turn, or it would be balanced more exactly than that one.
+      // In a later turn only what was renewed is not balanced. Forces count as
+      // small in relation to those of the first turn.
       if (report.place.turn > 1 && !is_exact)
         scales.small_force =
           std::max(scales.small_force, report.first_residual);
@@ -334,10 +335,9 @@ namespace Morula
           const MaterialPoints<dim> &points,
           const Parts               &parts) const
     {
-      // The list has the terms of doc/theory.md (2.1) that the scene calls for:
-      // the stress of the cells first, then forces on cells, held points (4.2)
-      // or (4.6a), and loads. surface_forces() relies on this order. All loads
-      // are taken at t + dt, as the equilibrium is that of the step's end,
+      // The list has the terms of doc/theory.md (2.1): the stress of the cells
+      // first, then forces on cells, held points (4.2) or (4.6a), and loads.
+      // surface_forces() relies on this order. All loads are taken at t + dt,
       // while readers of cells see the state at t. Where something may meet, a
       // weak drag decides where pieces go that nothing else holds (4.8f).
       const double t = attempt.t_next;

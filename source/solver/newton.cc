@@ -33,10 +33,10 @@ namespace Morula
 
     /** Where the residual is below so many times its bound, and this part of
      *  the energy has not been won in so many iterations, a motion is left that
-     *  hardly anything resists, as the bending of a sheet of one layer of cells.
-     *  Half the step or a proximal path ends it sooner. */
+     *  hardly anything resists, as the bending of a sheet of one layer of
+     * cells. Half the step or a proximal path ends it sooner. */
     constexpr double loose = 100., least_gain = 1e-4;
-    constexpr int    idle  = 80;
+    constexpr int    idle = 80;
 
     /** A residual that is lower by less than this part is no progress: without
      *  an energy it can creep down for ever towards a state that is none. */
@@ -188,8 +188,8 @@ namespace Morula
             gained  = energy;
             gain_at = iteration;
           }
-        has_risen     = has_risen || norm > last_norm;
-        last_norm     = norm;
+        has_risen = has_risen || norm > last_norm;
+        last_norm = norm;
         if (!report.wants_trace)
           return;
         NewtonIteration state;
@@ -214,7 +214,7 @@ namespace Morula
       double          lowest_norm = // that counted as progress, N
         std::numeric_limits<double>::infinity();
       double      lowest_energy = std::numeric_limits<double>::infinity();
-      double      gained = std::numeric_limits<double>::infinity();
+      double      gained        = std::numeric_limits<double>::infinity();
       int         progress_at   = 0; // the iteration that brought the lowest
       int         gain_at       = 0; // the one that brought the gained energy
       bool        has_risen     = false; // the residual, in any iteration
@@ -420,7 +420,9 @@ namespace Morula
       problem, linear_problem, tangents, linear_solver, report, u));
     const double rounding = group->compute_with_rounding();
     if (!std::isfinite(group->evaluation().energy))
-      throw StepFailed("there is no state to start from");
+      throw StepFailed(
+        "where the step begins, the growth, loads and held places of its end "
+        "invert a cell or a boundary point: there is no state to start from");
     const double first = group->getNormF();
     const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, scales.small_force),
@@ -476,42 +478,5 @@ namespace Morula
         group->getNormF() <= bound)
       return group->evaluation();
     throw StepFailed(reason);
-  }
-
-
-  namespace
-  {
-    /** A volume that is kept takes two to four turns, a held traction as many:
-     *  what needs more does not contract. */
-    constexpr unsigned int most_turns = 20;
-  } // namespace
-
-
-  Equilibrium::Evaluation
-  balance_in_turns(Equilibrium                                    &problem,
-                   const std::vector<TurnParticipant *>           &participants,
-                   const std::function<Equilibrium::Evaluation()> &solve,
-                   const Equilibrium::Vector                      &u,
-                   NewtonReport                                   &report)
-  {
-    // Each turn finds an equilibrium with what the participants hold fixed, and
-    // then has all of them renew it, doc/theory.md (5.6). All are asked, also
-    // after one has said that it needs another turn: their quantities belong to
-    // the same u. After the first turn the tissue has the new growth, and so
-    // have all further tangents.
-    for (report.place.turn = 1;; ++report.place.turn)
-      {
-        ++report.turns;
-        const Equilibrium::Evaluation evaluation = solve();
-        std::string                   unfinished;
-        for (TurnParticipant *const participant : participants)
-          if (participant->renew(u) && unfinished.empty())
-            unfinished = participant->unfinished();
-        if (unfinished.empty())
-          return evaluation;
-        if (report.place.turn == most_turns)
-          throw StepFailed(unfinished);
-        problem.use_growth_at_end();
-      }
   }
 } // namespace Morula

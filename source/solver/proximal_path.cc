@@ -6,8 +6,9 @@
 #include <morula/solver/proximal_path.h>
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -54,11 +55,7 @@ namespace Morula
   {
     ++report.proximal_paths;
     Equilibrium::Vector R(u);
-    if (!std::isfinite(problem.residual(u, R).energy))
-      throw StepFailed(
-        "where the step begins, the growth, loads and held places "
-        "of its end invert a cell or a boundary point, so that "
-        "there is no energy to start from");
+    problem.residual(u, R);
     // The residual at the start is the force that the path has to work off: a
     // part counts as solved relative to it.
     remove_parts(R, linear_problem.null_space);
@@ -115,5 +112,42 @@ namespace Morula
           u    = centre;
         }
     throw StepFailed(reason + "; this was on a proximal path");
+  }
+
+
+  namespace
+  {
+    /** A volume that is kept takes two to four turns, a held traction as many:
+     *  what needs more does not contract. */
+    constexpr unsigned int most_turns = 20;
+  } // namespace
+
+
+  Equilibrium::Evaluation
+  balance_in_turns(Equilibrium                                    &problem,
+                   const std::vector<TurnParticipant *>           &participants,
+                   const std::function<Equilibrium::Evaluation()> &solve,
+                   const Equilibrium::Vector                      &u,
+                   NewtonReport                                   &report)
+  {
+    // Each turn finds an equilibrium with what the participants hold fixed, and
+    // then has all of them renew it, doc/theory.md (5.6). All are asked, also
+    // after one has said that it needs another turn: their quantities belong to
+    // the same u. After the first turn the tissue has the new growth, and so
+    // have all further tangents.
+    for (report.place.turn = 1;; ++report.place.turn)
+      {
+        ++report.turns;
+        const Equilibrium::Evaluation evaluation = solve();
+        std::string                   unfinished;
+        for (TurnParticipant *const participant : participants)
+          if (participant->renew(u) && unfinished.empty())
+            unfinished = participant->unfinished();
+        if (unfinished.empty())
+          return evaluation;
+        if (report.place.turn == most_turns)
+          throw StepFailed(unfinished);
+        problem.use_growth_at_end();
+      }
   }
 } // namespace Morula

@@ -52,13 +52,6 @@ namespace Morula
   turns_too_far(const Tissue<dim>            &tissue,
                 const DisplacementField<dim> &displacement);
 
-  /** Refuses a step in which contact of folds does not see what meets: no
-   *  further turn makes it better. Collective. @throws StepFailed */
-  template <int dim>
-  void
-  check_turn(const Tissue<dim>            &tissue,
-             const DisplacementField<dim> &displacement);
-
   /** What is known of a step that no attempt has solved. */
   struct FailedStep
   {

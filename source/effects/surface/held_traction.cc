@@ -62,11 +62,10 @@ namespace Morula
         const Tensor<1, dim>  gap = held.gap_with(field, splines);
         const Tensor<1, dim> &T   = tractions[p];
         system.note_gap(gap.norm(), this->points.xi[p]);
-        const double r = gap.norm() / (stiffening_gap * this->points.h);
+        const double r      = gap.norm() / (stiffening_gap * this->points.h);
         const bool   is_far = r > 1.;
         const double more   = is_far ? 5. - 4. / r : std::pow(r, 4);
-        const double c =
-          is_far ? 5. - 8. / r + 10. / (3. * r * r) : more / 3.;
+        const double c = is_far ? 5. - 8. / r + 10. / (3. * r * r) : more / 3.;
         Tensor<2, dim> stiffness = (1. + more) * held.projection;
         if (more > 0.)
           stiffness += 4. * (is_far ? 1. / r : more) / gap.norm_square() *

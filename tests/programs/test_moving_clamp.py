@@ -7,6 +7,7 @@ import numpy
 import pytest
 
 from tests.common.program import assert_same_file
+from tests.common.results import read_csv
 
 SPACING = 25.0
 FORM = "Boundary conditions/Nitsche form"
@@ -66,3 +67,17 @@ def test_at_rest_nothing_changes(runs):
     other = runs.run("two", SCENE, {FORM: "symmetric", MOVES: "0*t; 0; 0"})
     assert_same_file(one.directory / "cells-0001.csv", other.directory / "cells-0001.csv")
     assert len(one.statistics) == 3
+
+
+def test_a_sheet_of_one_layer(runs):
+    """No strain resists its bending, so that a motion is left which need not come to rest:
+    no solve takes all of Solver/Newton iterations, and the held traction settles."""
+    run = runs.run("sheet", {
+        "Dimension": 3, "Time/End time": 0.425, "Time/Step": 0.1, "Tissue/Shape": "box",
+        "Tissue/Size": "100, 100, 6", "Tissue/Cell spacing": 6, "Grid/Spacing": 20,
+        "Grid/Offset": "3, 1, 2", "Boundary conditions/Fixed where": "X < -49.9",
+        "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.4*t*(X > 0)",
+        "Output/Formats": "csv", "Output/Newton trace": "true"})
+    trace = read_csv(run.directory / "newton.csv")
+    assert trace["iteration"].max() < 100
+    assert trace["turn"].max() <= 6

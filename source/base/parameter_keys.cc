@@ -326,7 +326,7 @@ namespace Morula
     }
 
     std::string
-    as_json(const AnyKey &key)
+    as_json(const AnyKey &key, const std::string *value)
     {
       // Members that do not apply to a key are left out.
       std::vector<std::pair<std::string, std::string>> members = {
@@ -336,6 +336,8 @@ namespace Morula
         {"allowed", Json::text(key.allowed())},
         {"default", Json::text(key.default_text())},
         {"meaning", Json::text(meaning_of(key))}};
+      if (value != nullptr)
+        members.emplace_back("value", Json::text(*value));
       if (!key.choices().empty())
         members.emplace_back("choices", Json::texts(key.choices()));
       if (!key.texts_by_method().empty())
@@ -364,11 +366,17 @@ namespace Morula
 
 
   void
-  ParameterKeys::print_json(std::ostream &out) const
+  ParameterKeys::print_json(
+    std::ostream &out, const std::map<std::string, std::string> &values) const
   {
     std::vector<std::string> all;
     for (const AnyKey *key : keys)
-      all.push_back("\n " + as_json(*key));
+      {
+        const auto value = values.find(key->path());
+        all.push_back(
+          "\n " +
+          as_json(*key, value == values.end() ? nullptr : &value->second));
+      }
     out << Json::list(all) << '\n';
   }
 } // namespace Morula

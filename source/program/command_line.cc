@@ -210,15 +210,18 @@ namespace Morula
                    const Catalogue   &catalogue)
   {
     // Sections of types, fields and obstacles exist only where a scene names
-    // them. So the scene is read for its names alone, and its sections are
+    // them. So the scene is read for its names and values, and its sections are
     // declared in a fresh scene, which has the defaults to print. Each word
     // then removes the keys that do not have it, so that several words mean all
     // of them.
     Scene scene(catalogue);
     if (!command.scene_file.empty())
-      scene.declare_sections(
-        Scene::read(command.scene_file, command.overrides, catalogue)
-          .as_written);
+      {
+        scene.as_written =
+          Scene::read(command.scene_file, command.overrides, catalogue)
+            .as_written;
+        scene.declare_sections(scene.as_written);
+      }
     KeyList keys = scene.list();
     for (const std::string &word : command.words)
       {
@@ -237,7 +240,7 @@ namespace Morula
               (command.words.size() > 1 ? ", and the words before it." : "."));
       }
     if (command.json)
-      ParameterKeys(keys).print_json(out);
+      ParameterKeys(keys).print_json(out, scene.as_written);
     else
       ParameterKeys(keys).print(out);
   }

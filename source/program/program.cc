@@ -325,14 +325,17 @@ namespace Morula
     // in the constructor of mpi, and the share of a rank in map_large_arrays()
     // needs MPI. deal.II must throw instead of abort, so that an error of one
     // rank can end all of them. One thread a rank is asked for: the ranks share
-    // the cores.
+    // the cores. PETSc would handle SIGHUP even where nohup lets it be ignored.
     set_up_open_mpi();
     // Libraries get the program's name only: PETSc would complain on the
     // standard output about every option that it does not know.
-    char                            *name[]    = {argv[0], nullptr};
-    char                           **only_name = name;
-    int                              n_words   = 1;
+    char            *name[]    = {argv[0], nullptr};
+    char           **only_name = name;
+    int              n_words   = 1;
+    struct sigaction hangup{};
+    sigaction(SIGHUP, nullptr, &hangup);
     Utilities::MPI::MPI_InitFinalize mpi(n_words, only_name, 1);
+    sigaction(SIGHUP, &hangup, nullptr);
     map_large_arrays();
     deal_II_exceptions::disable_abort_on_exception();
     deal_II_exceptions::suppress_stacktrace_in_exceptions();

@@ -3,8 +3,13 @@
 
 #include <morula/simulation/stop_signals.h>
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -15,6 +20,7 @@ namespace Morula
   {
     constexpr std::pair<int, const char *> names[] = {{SIGINT, "SIGINT"},
                                                       {SIGTERM, "SIGTERM"},
+                                                      {SIGHUP, "SIGHUP"},
                                                       {SIGUSR1, "SIGUSR1"}};
 
     // A signal handler gets only the number of the signal. It may use only
@@ -37,6 +43,41 @@ namespace Morula
           // An error of write() could not be reported.
           static_cast<void>(written);
         }
+    }
+
+    /** The reading end of the pipe that MORULA_LIFELINE names, or -1. */
+    int lifeline = -1;
+
+    int
+    open_lifeline()
+    {
+      // mpiexec closes what its ranks would inherit, but has it open itself, so
+      // the parent is looked at, too. Only the pipe's inode tells it from
+      // another file with the same number.
+      const char *const  text = std::getenv("MORULA_LIFELINE");
+      int                descriptor;
+      unsigned long long inode;
+      if (text == nullptr ||
+          std::sscanf(text, "%d:%llu", &descriptor, &inode) != 2)
+        return -1;
+      for (const pid_t process : {getpid(), getppid()})
+        {
+          const std::string path = "/proc/" + std::to_string(process) + "/fd/" +
+                                   std::to_string(descriptor);
+          struct stat about{};
+          if (stat(path.c_str(), &about) == 0 && S_ISFIFO(about.st_mode) &&
+              about.st_ino == inode)
+            return open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+        }
+      return -1;
+    }
+
+    /** Whether the process that began this run has ended. */
+    bool
+    is_orphan()
+    {
+      pollfd watched{lifeline, 0, 0};
+      return poll(&watched, 1, 0) > 0 && (watched.revents & POLLHUP) != 0;
     }
 
     std::string
@@ -65,6 +106,7 @@ namespace Morula
     // messages go on that a signal has interrupted. What was set before is kept
     // for the destructor.
     last_signal = 0;
+    lifeline    = open_lifeline();
     is_root     = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     struct sigaction action{};
     action.sa_handler = record_signal;
@@ -85,13 +127,16 @@ namespace Morula
   {
     for (const auto &[number, before] : actions_before)
       sigaction(number, &before, nullptr);
+    if (lifeline >= 0)
+      close(lifeline);
   }
 
   int
   StopSignals::received() const
   {
     // A launcher may send the signal to some ranks only, or to all at different
-    // times. All stop after the same step.
-    return dealii::Utilities::MPI::max(static_cast<int>(last_signal), comm);
+    // times. All stop after the same step. No descriptor (-1) is never ready.
+    const int signal = last_signal == 0 && is_orphan() ? SIGHUP : last_signal;
+    return dealii::Utilities::MPI::max(signal, comm);
   }
 } // namespace Morula

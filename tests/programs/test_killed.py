@@ -200,7 +200,7 @@ def test_that_leave_a_semaphore_locked(runs):
 # Ctrl-C, and SIGTERM or SIGUSR1 as batch systems send them; mpiexec hands SIGUSR1 on
 # to the ranks.
 @pytest.mark.parametrize("number, ranks", [
-    (signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGUSR1, 1),
+    (signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGHUP, 1), (signal.SIGUSR1, 1),
     pytest.param(signal.SIGUSR1, 2, marks=pytest.mark.release)])
 def test_asked_to_end(runs, whole, number, ranks):
     """The run saves its state and ends by the signal, as shells expect; nothing that was
@@ -222,6 +222,16 @@ def test_asked_to_end(runs, whole, number, ranks):
     else:
         assert process.returncode != 0
         resume(runs, output, ranks=ranks)
+
+
+def test_nohup(runs):
+    """A hangup that is to be ignored is."""
+    words = runs.command(SCENE, *overrides({**FINE, "Output directory": runs.work / "nohup"}))
+    with subprocess.Popen(["nohup", *words], env=environment(), stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL) as process:
+        wait_for_row(process, runs.work / "nohup", 3)
+        process.send_signal(signal.SIGHUP)
+    assert process.returncode == 0
 
 
 def test_asked_twice(runs):

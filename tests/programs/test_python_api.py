@@ -161,6 +161,66 @@ def test_function(runs, scene, tmp_path):
     assert all(math.isnan(value) for value in both(-1))
 
 
+START = """
+from morula import Scene, map
+scene = Scene({cube!r}, morula={morula!r})
+scene["Time/Step"], scene["Time/End time"], scene["Output/Formats"] = 0.01, 40, "none"
+{act}
+"""
+RUN, MAP = "scene.run({0!r}, progress=False, ranks={1})", (
+    "map(scene, [{{'Grid/Spacing': 35 + n}} for n in range(8)], lambda run: 1, directory={0!r}, "
+    "jobs=2, progress=False)")
+THREAD = "import threading; threading.Thread(target=lambda: " + RUN + ").start()"
+
+
+@pytest.mark.parametrize("act, number, ranks", [
+    (RUN, signal.SIGKILL, 1), (MAP, signal.SIGTERM, 1), *(
+        pytest.param(*case, marks=pytest.mark.release) for case in (
+            (RUN, signal.SIGTERM, 1), (RUN, signal.SIGHUP, 1), (THREAD, signal.SIGKILL, 1),
+            (MAP, signal.SIGKILL, 1), (RUN, signal.SIGKILL, 2)))],
+    ids=["kill", "term-map", "term", "hup", "kill-thread", "kill-map", "kill-ranks"])
+def test_runs_end_with_their_python(runs, tmp_path, act, number, ranks):
+    """However it ends, and with a snapshot; a run whose Python lives goes on."""
+    place = tmp_path / "runs"
+    words = [ROOT / "contrib/python/launch", "-c", START.format(
+        cube=str(CUBE), morula=str(runs.options.morula), act=act.format(str(place), ranks))]
+
+    def rows():
+        return [file.read_text().count("\n") for file in place.rglob("statistics.csv")]
+
+    def wait(done):
+        deadline = time.monotonic() + PATIENCE
+        while not done():
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+
+    with subprocess.Popen(words, stderr=subprocess.DEVNULL) as process:
+        wait(lambda: len(rows()) == 1 + (act == MAP) and min(rows()) > 5)
+        process.send_signal(number)
+    wait(lambda: len(list(place.rglob("snapshot.h5"))) == len(rows()))
+    for log in place.rglob("log.txt"):
+        wait(lambda: "Stopped at t = " in log.read_text())
+
+
+def test_values(runs, scene, tmp_path):
+    """3.0 is 3, also of NumPy; why a value is nan is said; signs are refused."""
+    f = Function(scene.with_keys({"Time/End time": 0.125}), ["Random seed"], cells_at_end,
+                 directory=tmp_path)
+    assert f(3.0) == f(3) == f(np.float32(3)) > 0
+    with pytest.warns(UserWarning, match="Random seed = '2.5'"):
+        assert math.isnan(f(2.5))
+    for value in ("a#b", "a\\", "a\nb"):
+        scene["Output directory"] = value
+        with pytest.raises(Refused, match="Output directory"):
+            scene.save(tmp_path / "scene.prm")
+    folder = tmp_path / "sub"
+    folder.mkdir()
+    (folder / "base.prm").write_text("subsection Grid\n  set Spacing = 41 # um\nend\n")
+    (folder / "top.prm").write_text("include base.prm\nset Random \\\n  seed = 7\n")
+    read = Scene(folder / "top.prm", morula=runs.options.morula)
+    assert (read["Grid/Spacing"], read["Random seed"]) == ("41", "7")
+
+
 def test_map(runs, tmp_path):
     samples = pandas.DataFrame({"Tissue/Radius": [30, 40, -1],
                                 "Grid/Spacing": [20, 20, 20]})

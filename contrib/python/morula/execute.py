@@ -3,7 +3,8 @@
 """How the program is started, by every tool and by every test.
 
 `command` makes the words of a run, `call` runs them to their end, `Processes` does that for
-several at a time and ends what is left when one of them, or the user, gives up."""
+several at a time and ends what is left when one of them, or the user, gives up. Runs watch a pipe
+that only this process can write to: however it ends, they save their state and end, too."""
 import contextlib
 import os
 import signal
@@ -26,9 +27,30 @@ MEASURE = Path(__file__).with_name("measure.py")
 PATIENCE = 60.0  # s, for the step that a run is at: then it saves its state
 
 
+LIFELINE = list(os.pipe())  # runs watch the first end; only this process has the other one open
+
+
+def _own_lifeline():
+    """A fork must not keep the runs of its parent alive."""
+    for descriptor in LIFELINE:
+        os.close(descriptor)
+    LIFELINE[:] = os.pipe()
+
+
+os.register_at_fork(after_in_child=_own_lifeline)
+
+
 def environment():
     """That of all processes started here."""
-    return {**os.environ, **ENVIRONMENT}
+    return {**os.environ, **ENVIRONMENT,
+            "MORULA_LIFELINE": f"{LIFELINE[0]}:{os.fstat(LIFELINE[0]).st_ino}"}
+
+
+def start(words, *, env=(), pass_fds=(), **options):
+    """A process in a session of its own; `env` has variables besides."""
+    return subprocess.Popen([str(word) for word in words], start_new_session=True,
+                            env={**environment(), **dict(env)},
+                            pass_fds=[*pass_fds, LIFELINE[0]], **options)
 
 
 def cores():
@@ -84,17 +106,14 @@ class Processes:
                        if isinstance(to, (str, os.PathLike)) else to
                        for name, to in (("stdout", stdout),
                                         ("stderr", stderr))}
-            words = [str(word) for word in words]
             if cost:
                 Path(cost).unlink(missing_ok=True)
                 words = [sys.executable, "-I", "-S", str(MEASURE), str(cost), *words]
             with self._guard:
                 if self.stopped:
                     return None
-                child = subprocess.Popen(
-                    words, cwd=cwd, text=True, errors="replace",
-                    env={**environment(), **dict(env)}, stdin=subprocess.DEVNULL,
-                    start_new_session=True, pass_fds=pass_fds, **streams)
+                child = start(words, cwd=cwd, text=True, errors="replace", env=env,
+                              stdin=subprocess.DEVNULL, pass_fds=pass_fds, **streams)
                 self._running.add(child)
             try:
                 out, err = child.communicate(timeout=timeout)
@@ -157,11 +176,16 @@ def call(words, **options):
 
 
 def end(children, patience):
-    """Asks the groups of processes to end, and kills them after so many seconds."""
-    for number, wait in ((signal.SIGTERM, patience), (signal.SIGKILL, 1.0)):
-        children = [child for child in children if _signalled(child, number)]
+    """Asks the groups of processes to end, and kills them after so many seconds. mpiexec hands
+    SIGUSR1 on; after SIGTERM it would kill the ranks before they have saved their state."""
+    launchers = [child for child in children if any(
+        Path(word).name in ("mpiexec", "mpirun") for word in getattr(child, "args", ()))]
+    for number, asked, wait in ((signal.SIGUSR1, launchers, patience),
+                                (signal.SIGTERM, children, patience),
+                                (signal.SIGKILL, children, 1.0)):
+        asked = [child for child in asked if _signalled(child, number)]
         until = time.monotonic() + wait
-        while (time.monotonic() < until and any(_signalled(child, 0) for child in children)):
+        while time.monotonic() < until and any(_signalled(child, 0) for child in asked):
             time.sleep(0.05)
 
 

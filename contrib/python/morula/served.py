@@ -10,7 +10,7 @@ import tempfile
 import threading
 from pathlib import Path
 
-from .execute import Ended, environment
+from .execute import Ended, start
 
 # Symbols are found once, before the forks.
 AT_ONCE = {"LD_BIND_NOW": "1"}
@@ -31,9 +31,8 @@ class Server:
     the descriptors pass_fds. To be closed, as a context or by close()."""
 
     def __init__(self, executable, pass_fds=()):
-        self._process = subprocess.Popen([str(executable), "--serve"], stdin=subprocess.PIPE,
-                                         stdout=subprocess.PIPE, env={**environment(), **AT_ONCE},
-                                         start_new_session=True, pass_fds=pass_fds)
+        self._process = start([executable, "--serve"], stdin=subprocess.PIPE,
+                              stdout=subprocess.PIPE, env=AT_ONCE, pass_fds=pass_fds)
         self._guard = threading.Lock()
 
     def __enter__(self):

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iosfwd>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -86,9 +87,10 @@ namespace Morula
     /** Prints a list of all keys as JSON: path, type, unit, allowed, choices,
      *  default, defaults by Method, meaning, former paths, and for expressions
      *  the number of components, when they are evaluated and the variables that
-     *  they may use. */
+     *  they may use. Keys that a scene sets have its @p values, too. */
     void
-    print_json(std::ostream &out) const;
+    print_json(std::ostream                             &out,
+               const std::map<std::string, std::string> &values = {}) const;
 
   private:
     bool

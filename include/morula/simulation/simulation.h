@@ -55,8 +55,8 @@ namespace Morula
      *        snapshot, and after every step; it may read this object
      * @throws std::runtime_error if a step fails at Smallest step, with the
      *         time and how to resume; the last good state is saved
-     * @throws StoppedBySignal if SIGINT, SIGTERM or SIGUSR1 asked for it, after
-     * the step in which it came; the state is saved
+     * @throws StoppedBySignal if SIGINT, SIGTERM, SIGHUP or SIGUSR1 asked for
+     * it, after the step in which it came; the state is saved
      */
     void
     run(const std::function<void()> &observe = {});

@@ -23,11 +23,16 @@ namespace Morula
   };
 
   /**
-   * While this object lives, SIGINT (Ctrl-C), SIGTERM and SIGUSR1 are recorded
-   * and do not end the program. (Batch systems send them before they kill.) A
-   * second signal of the same kind ends the program at once. A signal that the
-   * program was started to ignore stays ignored. Only one object may live at a
-   * time.
+   * While this object lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP and SIGUSR1 are
+   * recorded and do not end the program. (Batch systems send them before they
+   * kill.) A second signal of the same kind ends the program at once. A signal
+   * that the program was started to ignore stays ignored. Only one object may
+   * live at a time.
+   *
+   * The environment variable MORULA_LIFELINE = DESCRIPTOR:INODE names a pipe
+   * that this process or its parent has open for reading. If nobody has it open
+   * for writing any more, the process that began the run is gone, however it
+   * ended, and that counts as SIGHUP.
    */
   class StopSignals
   {

@@ -80,8 +80,8 @@ def _execute(words, directory, end, progress):
     """The exit code, and what was said to stderr. Ctrl-C is passed on as the
     signal after which the program saves its state."""
     with tempfile.TemporaryFile("w+") as errors:
-        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                 stderr=errors, start_new_session=True, env=execute.environment())
+        child = execute.start(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                              stderr=errors)
         try:
             while child.poll() is None:
                 with contextlib.suppress(subprocess.TimeoutExpired):

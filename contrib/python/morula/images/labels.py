@@ -41,8 +41,26 @@ def whole(image, file):
         image.words.append(f"It is a mask, with one number: its {parts.max()} parts that are not "
                            "connected count as cells. Cells that touch are one then.")
         return parts, np.arange(parts.max() + 1)
-    labels, _, names = segmentation.relabel_sequential(array.astype(np.int64))
-    return labels, np.asarray(names[np.arange(len(values) + 1)])
+    labels = np.where(array > 0, np.searchsorted(values, array) + 1, 0)
+    return labels, np.array([0, *map(int, values)], dtype=object)
+
+
+def refuse_times(labels):
+    """Asks what the first axis is if cells are in nearly all of its planes, as in a time-lapse."""
+    planes = sum(np.bincount(np.unique(plane), minlength=labels.max() + 1) for plane in labels)
+    if len(labels) > 2 and np.median(planes[1:]) >= 0.9 * len(labels):
+        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: "
+                      "if these are times, say --axes tyx and --frame; if places, --axes zyx.")
+
+
+def refuse_sizes(shape, voxel, pad, file):
+    """Refuses edges that cannot be right, and images that would not fit into memory."""
+    size = (np.array(shape) + 2 * pad).prod(dtype=float)
+    if max(voxel) > MOST_RATIO * min(voxel) or size > MOST_VOXELS:
+        raise Refused("The image", file, f"edges of voxels that differ by less than {MOST_RATIO} "
+                      f"times, and at most {MOST_VOXELS:g} voxels with the space around the tissue",
+                      f"It has {size:.3g}, of " + " x ".join(f"{edge:.4g}" for edge in voxel[::-1])
+                      + " um: is the unit right (--voxel)? Else bin the image.")
 
 
 @dataclass

@@ -12,21 +12,20 @@ from morula.refusal import Refused
 
 from .read import IN_UM
 
-# Names that trackers give to a column, in small letters.
-NAMES = {"x": ("x", "position_x", "pos_x", "position x", "centroid_x",
-               "centroid-2", "x_um"),
-         "y": ("y", "position_y", "pos_y", "position y", "centroid_y",
-               "centroid-1", "y_um"),
-         "z": ("z", "position_z", "pos_z", "position z", "centroid_z",
-               "centroid-0", "z_um"),
-         "frame": ("frame", "t", "time", "timepoint", "time_point", "position_t",
-                   "time index"),
-         "id": ("id", "label", "track_id", "trackid", "cell_id", "spot id"),
-         "volume": ("volume", "area_um3", "volume_um3"),
-         "radius": ("radius", "radius_um"), "diameter": ("diameter",),
-         "type": ("type", "class", "cell_type"),
-         "generation": ("generation",), "phase": ("phase",)}
-TEXTS = ("id", "type", "generation", "phase")  # taken as they are
+# Names that trackers give to a column, in small letters, '_' for blanks; the first that is there
+# counts.
+AXIS = "{0} position_{0} pos_{0} centroid_{0} {0}_um {0}_px location_center_{0} center_{0}"
+NAMES = {name: known.split() for name, known in {
+    **{axis: AXIS.format(axis) for axis in "xyz"},
+    "frame": "frame t time timepoint time_point position_t time_index imagenumber",
+    "id": "id label track_id trackid cell_id spot_id objectnumber",
+    "volume": "volume volume_um3 area_um3 areashape_volume area_3d area area_um2 areashape_area",
+    "radius": "radius radius_um",
+    "diameter": "diameter equivalent_diameter equivalent_diameter_area estimated_diameter "
+                "areashape_equivalentdiameter",
+    "type": "type class cell_type", "generation": "generation", "phase": "phase",
+    "unit": "unit"}.items()}
+TEXTS = ("id", "type", "generation", "phase", "unit", "frame")  # taken as they are
 OVERLAP = 1e-3  # cells nearer to each other than so many lengths are one
 
 
@@ -159,10 +158,8 @@ def _with_volumes(file, table, voxel, words):
     length = float(np.median(nearest))
     double = nearest < OVERLAP * length if length > 0 else nearest >= 0
     if double.any():
-        raise Refused("The table", file, "one cell at each place",
-                      f"{double.sum()} rows have the place of another one: is "
-                      "it a table of several times without a column frame?")
-    ball = np.pi * (4 / 3 if dim == 3 else 1)
+        raise Refused("The table", file, "one cell at each place", f"{double.sum()} rows have the "
+                      "place of another one: is it one of several times without a column frame?")
     if "volume" in table:
         pass
     elif "radius" in table or "diameter" in table:

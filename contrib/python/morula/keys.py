@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Key:
     """path: full, separated by '/'. type: a word of ParameterKeys::print_json: number, expression,
     file, ... allowed: a noun phrase, or empty for expressions and texts. choices: the words to
-    choose from. former: paths that it had. paper: its default with Method = paper, or None where
+    choose from. value: what a scene sets, or None. former: paths that it had. paper: its default with Method = paper, or None where
     that is the same. evaluated, variables: of an expression."""
 
     path: str
@@ -24,6 +24,7 @@ class Key:
     components: int = 1
     evaluated: str = ""
     variables: tuple = ()
+    value: str = None
 
 
 def read_keys(text):
@@ -31,7 +32,7 @@ def read_keys(text):
     return [Key(key["path"], key["default"], key["unit"], key["allowed"], key["meaning"],
                 tuple(key.get("formerly", ())), key.get("default by method", {}).get("paper"),
                 key["type"], tuple(key.get("choices", ())), key.get("components", 1),
-                key.get("evaluated", ""), tuple(key.get("variables", ()))) for key
+                key.get("evaluated", ""), tuple(key.get("variables", ())), key.get("value")) for key
             in json.loads(text)]
 
 

@@ -47,8 +47,8 @@ class Program:
 
     def keys_with(self, scene, overrides=()):
         """The same, and those of the types, fields and obstacles that a scene names."""
-        return read_keys(self._run("--parameters=json", scene,
-                                   *execute.overrides(overrides)).stdout)
+        return read_keys(self._run("--parameters=json", scene, *execute.overrides(overrides),
+                                   what=("The scene", scene, "what Morula accepts")).stdout)
 
     def complete(self, written, keys=None):
         """All keys of a scene that sets these: path -> value as text."""
@@ -79,9 +79,10 @@ class Program:
                           "what Morula accepts", f"It says: {message}")
         return json.loads(result.stdout)
 
-    def _run(self, *arguments):
+    def _run(self, *arguments, what=()):
         result = execute.call([self.executable, *arguments])
         if result.code != 0:
-            raise Refused("--morula", self.executable, "Morula's executable, but this one fails",
-                          result.stderr.strip())
+            raise Refused(*(what or ("--morula", self.executable, "Morula's executable, but this "
+                                     "one fails")),
+                          result.stderr.strip().removeprefix("morula: "))
         return result

@@ -6,6 +6,7 @@ from __future__ import annotations
 import functools
 import inspect
 import math
+import warnings
 import weakref
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -75,7 +76,11 @@ class Function:
         all_points = [self._point((point,), {}) for point in points]
         if len(all_points) > MAX_RUNS:
             raise Refused("The number of points", len(all_points), f"at most {MAX_RUNS} at once")
-        found = [self._measured(record) for record in self._records(all_points, jobs, progress)]
+        records = self._records(all_points, jobs, progress)
+        found = [self._measured(record) for record in records]
+        for point, record in zip(all_points, records):
+            if not record.finished:
+                warnings.warn(f"nan at {point}: the run {record.summary()}", stacklevel=2)
         shapes = [np.shape(value) for value in found if value is not None]
         if shapes:
             self._shape = shapes[0]
@@ -106,7 +111,7 @@ class Function:
         for name, value in () if self._keys else point.items():
             target = self.parameters[name]
             keys.update(dict.fromkeys([target] if isinstance(target, str) else target, value))
-        return {scenes.clean_path(key): _plain(value) for key, value in keys.items()}
+        return {scenes.clean_path(key): as_text(value) for key, value in keys.items()}
 
     def _records(self, points, jobs, progress):
         """Records of the kept runs at points."""
@@ -134,10 +139,6 @@ class Function:
         if not record.finished:
             return None
         return self.measure(Run(record.output))
-
-
-def _plain(value: Any) -> str:
-    return as_text(value.item() if hasattr(value, "item") else value)
 
 
 def _close(servers: list[Server]) -> None:

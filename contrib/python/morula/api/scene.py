@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-from morula import prm, scene
+from morula import scene
 from morula.places import MORULA
 from morula.program import Program
 from morula.refusal import Refused
@@ -18,11 +18,14 @@ from .running import run_scene
 
 
 def as_text(value: Any) -> str:
-    """A value as a .prm file has it: True is true, a list has commas."""
+    """A value as a .prm file has it: True is true, 3.0 is 3, a list has commas."""
+    value = value.tolist() if hasattr(value, "tolist") else value  # of NumPy
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
         return ", ".join(map(as_text, value))
+    if isinstance(value, float) and value.is_integer() and abs(value) < 2**53:
+        return str(int(value))
     return str(value)
 
 
@@ -51,6 +54,7 @@ class Scene(Mapping):
         self.program = program(str(morula))
         self.path: Path | None = None
         self._set: dict[str, str] = {}
+        self._in_file: dict[str, str] = {}
         if isinstance(source, Scene):
             self.path, self._set = source.path, dict(source._set)
             name = name or source.name
@@ -62,14 +66,16 @@ class Scene(Mapping):
         self.name = name or (self.path.stem if self.path else "scene")
         if isinstance(source, Mapping) and not isinstance(source, Scene):
             self._set = {scene.clean_path(key): as_text(value) for key, value in source.items()}
+        if self.path:
+            self._in_file = source._in_file if isinstance(source, Scene) else {
+                key.path: key.value for key in self.program.keys_with(self.path)
+                if key.value is not None}
         self._known = self._find_known()
         for key in self._set:
             self._require(key)
 
     def _written(self) -> dict[str, str]:
-        in_file = prm.parse(self.path.read_text(encoding="utf-8"),
-                            self.path.parent) if self.path else {}
-        return {**in_file, **self._set}
+        return {**self._in_file, **self._set}
 
     def _find_known(self) -> dict[str, Any]:
         """The keys that there are, of types, fields and obstacles, too."""

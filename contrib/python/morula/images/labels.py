@@ -5,11 +5,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import ndimage
-from skimage import measure, segmentation
+from skimage import measure
 
 from morula.refusal import Refused
 
 FEWEST = 2
+MOST_RATIO = 100  # of the edges of a voxel
+MOST_VOXELS = 4e8  # 20 bytes each
 
 
 def whole(image, file):
@@ -22,11 +24,10 @@ def whole(image, file):
                           "voxel", "It has fractions, so it is an intensity or "
                           "a probability: segment it first.")
         image.words.append("Its numbers are floating-point, but whole.")
-        array = array.astype(np.int64)
-    if array.dtype.kind not in "biu":
+    elif array.dtype.kind not in "biu":
         raise Refused("The image", file, "labels: a whole number for each "
                       "voxel", f"Its numbers are of the type {array.dtype}.")
-    if array.dtype.kind == "i" and (array < 0).any():
+    if array.dtype.kind in "if" and (array < 0).any():
         image.words.append("Labels below 0 are taken for no cell.")
         array = np.maximum(array, 0)
     values = np.unique(array[array > 0])
@@ -49,8 +50,8 @@ def refuse_times(labels):
     """Asks what the first axis is if cells are in nearly all of its planes, as in a time-lapse."""
     planes = sum(np.bincount(np.unique(plane), minlength=labels.max() + 1) for plane in labels)
     if len(labels) > 2 and np.median(planes[1:]) >= 0.9 * len(labels):
-        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: "
-                      "if these are times, say --axes tyx and --frame; if places, --axes zyx.")
+        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: if "
+                      "these are times, say --axes tyx and --frame; if places, --axes zyx.")
 
 
 def refuse_sizes(shape, voxel, pad, file):

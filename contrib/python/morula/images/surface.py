@@ -13,6 +13,8 @@ from skimage import measure, segmentation
 
 from morula.refusal import Refused
 
+from .labels import refuse_sizes
+
 # In lengths of the mean cell:
 SMOOTH = 0.25  # standard deviation of the Gaussian
 GAP = 0.4      # gaps narrower than this are closed
@@ -40,10 +42,11 @@ class Part:
         return float(0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum())
 
 
-def tissue_of(cells, smallest_cavity, fill_gaps, words):
+def tissue_of(cells, smallest_cavity, fill_gaps, words, file):
     """The mask of the tissue, padded, and the padding in voxels: narrow gaps
     are closed, and small cavities filled."""
     pad = np.ceil(4 * cells.length / cells.voxel).astype(int)
+    refuse_sizes(cells.labels.shape, cells.voxel, pad, file)
     mask = np.pad(cells.labels > 0, [(n, n) for n in pad])
     half = max(0.5 * GAP * cells.length, 1.01 * min(cells.voxel))
     wide = ndimage.distance_transform_edt(~mask, cells.voxel) <= half

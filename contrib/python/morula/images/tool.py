@@ -1,28 +1,33 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/import."""
+import re
 from pathlib import Path
 
 import numpy as np
 
 from morula.command_line import output_directory, run_tool
 from morula.files import write
+from morula.program import Program
 from morula.refusal import Refused
 
 from .options import parser, voxel_of
-from .writing import prm, write_cells, write_off, write_wkt
+from .writing import prm, refuse_signs, write_cells, write_off, write_wkt
 
 MOST_BALLS = 40  # around a lumen
+TENSION = 0.05   # kPa, times the length of a cell: it keeps the wall of a lumen even
 
 
 def main(words=None):
     """Exit code 0, or 1 for what makes no sense."""
     def tool():
         options = parser().parse_args(words)
-        if not options.file.is_file():
+        if not options.file.exists():
             raise Refused("The file", options.file, "a label image or a table "
                           "that can be read", "Correct its name.")
-        directory = output_directory(options, Path(options.file.stem .partition(".")[0]))
+        name = re.sub(r"(\.ome|_seg)?(\.[A-Za-z][A-Za-z0-9]*)?$", "", options.file.name)
+        directory = output_directory(options, Path(name or "tissue"))
+        refuse_signs("--output", directory, "Choose another one: --output NAME.")
         if (directory / "scene.prm").exists() and not options.again:
             raise Refused("--output", directory, "a directory without a scene.prm",
                           "Choose another one, or replace that one with --again.")
@@ -33,50 +38,49 @@ def main(words=None):
 
 def make_scene(options, directory):
     """Reads, judges, writes, and says what it found."""
-    from .read import IMAGES
-    found = (scene_of_image if options.file.suffix.lower() in IMAGES
-             else scene_of_table)(options, directory)
+    from .read import is_image
+    found = (scene_of_image if is_image(options.file) else scene_of_table)(options, directory)
     for line in found:
         print(f"import: {line}")
     write(directory / "report.txt", "".join(f"{line}\n" for line in found))
 
 
 def scene_of_image(options, directory):
-    from .labels import cells_of, whole
+    from .labels import cells_of, refuse_times, whole
     from .read import read_image
     from .surface import surface_of, tissue_of
-    image = read_image(options.file, options.channel, options.frame)
+    image = read_image(options.file, options, options.channel)
     words = image.words
     labels, names = whole(image, options.file)
+    if labels.ndim == 3 and not options.axes:
+        refuse_times(labels)
     voxel = voxel_of(options.voxel, image.voxel, labels.ndim)
-    words.append("A voxel is " + " x ".join(f"{edge:.6g}" for edge
-                                            in voxel[::-1]) + " um (x, y, z).")
+    words.append(f"A voxel is {' x '.join(f'{edge:.6g}' for edge in voxel[::-1])} um (x, y, z).")
     cells = cells_of(labels, names, voxel, options.smallest, words)
     types = _types(options, cells, words)
     if types is not None:
         types = dict(zip(cells.names, types))
-    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps, words)
+    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps, words,
+                          options.file)
     parts = surface_of(cells, mask, pad, words)
     directory.mkdir(parents=True, exist_ok=True)
     kinds = [types[name] for name in cells.names] if types else None
-    write_cells(directory / "cells.csv", cells.places[:, ::-1], cells.volumes,
-                {"type": kinds})
+    write_cells(directory / "cells.csv", cells.places[:, ::-1], cells.volumes, {"type": kinds})
     surface = "surface.off" if labels.ndim == 3 else "outline.wkt"
     (write_off if labels.ndim == 3 else write_wkt)(directory / surface, parts)
     words += _about_parts(parts, labels.ndim)
     keys = scene_keys(cells.places.shape[1], cells.length, surface, kinds)
     # patches half as long as a cell: those of a small cavity are curved
     keys["Tissue/Boundary points"] = round(
-        sum(part.area for part in parts) / (0.5 * cells.length)
-        ** (labels.ndim - 1))
-    keys |= _lumen(parts, words)
+        sum(part.area for part in parts) / (0.5 * cells.length) ** (labels.ndim - 1))
+    keys |= _lumen(parts, cells.length, words)
     return _finish(options, directory, keys, cells.length, len(cells.volumes), cells.volumes, words)
 
 
 def scene_of_table(options, directory):
     from .table import read_table
     words = []
-    voxel = None if options.voxel is None else voxel_of(options.voxel, None, 3)
+    voxel = None if options.voxel is None else voxel_of(options.voxel, None, 3, 2)
     table = read_table(options.file, options.frame, voxel, words)
     types = None
     if options.types:
@@ -85,18 +89,16 @@ def scene_of_table(options, directory):
             raise Refused("--types", options.types, "nothing for a table " "without a column id")
         types = types_of_table(options.types, table["id"], words)
     elif "type" in table:
-        from .types import checked
-        types = checked(table["type"], "The table", options.file)
+        from .types import named
+        types = named(table["type"], words)
     axes = [axis for axis in "xyz" if axis in table]
     volumes = table["volume"].to_numpy()
     length = float(volumes.mean() ** (1 / len(axes)))
     directory.mkdir(parents=True, exist_ok=True)
-    write_cells(directory / "cells.csv", table[axes].to_numpy(), volumes,
-                {"type": types, **{name: list(table[name])
-                                   for name in ("generation", "phase")
-                                   if name in table}})
-    words.append("A table has no surface: the program makes one around the "
-                 "cells, in which narrow gaps and cavities are closed.")
+    write_cells(directory / "cells.csv", table[axes].to_numpy(), volumes, {"type": types, **{
+        name: list(table[name]) for name in ("generation", "phase") if name in table}})
+    words.append("A table has no surface: the program makes one around the cells, in which narrow "
+                 "gaps and cavities are closed.")
     keys = scene_keys(len(axes), length, "always", types)
     return _finish(options, directory, keys, length, len(table), volumes, words)
 
@@ -139,8 +141,8 @@ def _about_parts(parts, dim):
     return words
 
 
-def _lumen(parts, words):
-    """The keys of the largest cavity, which keeps its volume."""
+def _lumen(parts, length, words):
+    """The keys of the largest cavity, which keeps its volume; cells divide slowly around it."""
     from .surface import balls_around
     cavities = [part for part in parts if part.volume < 0]
     if not cavities:
@@ -148,8 +150,8 @@ def _lumen(parts, words):
     lumen = cavities[-1]  # the most negative
     balls = balls_around(lumen, [part for part in parts if part is not lumen])
     if balls is None or len(balls) > MOST_BALLS:
-        words.append("The wall around the largest cavity is too thin to tell "
-                     "its surface from the outer one: no lumen is set.")
+        words.append("The wall around the largest cavity is too thin to tell its surface from the "
+                     "outer one: no lumen is set.")
         return {}
     where = " || ".join(
         " + ".join(f"({axis} - {value:.6g})^2" for axis, value
@@ -157,18 +159,38 @@ def _lumen(parts, words):
         for centre, radius in balls)
     words.append("The largest cavity is a lumen that keeps its volume (Lumen where, Lumen volume "
                  "= 1)." + (" The surfaces of the others are free." if len(cavities) > 1 else ""))
-    return {"Boundary conditions/Lumen where": where, "Boundary conditions/Lumen volume": 1}
+    return {"Proliferation/Cell cycle/G0 exit rate": 0.1,
+            "Boundary conditions/Lumen where": where, "Boundary conditions/Lumen volume": 1,
+            "Boundary conditions/Surface tension": f"{TENSION * length:.3g}"}
+
+
+def _tune(options, file, keys, comments, words):
+    """Writes the scene with the widest grid of which the program does not warn."""
+    widest, said = float(keys["Grid/Spacing"]), ""
+    for share in (1, 0.85, 0.7, 0.6, 1):
+        keys["Grid/Spacing"] = f"{share * widest:.4g}"
+        write(file, prm(keys, comments))
+        try:
+            warnings = Program(options.morula).explain(file)["warnings"]
+        except Refused as refusal:
+            words.append(f"The scene was not tried: {refusal}")
+            return
+        if not warnings:
+            return
+        said = said or warnings[0]
+    words.append("The image is finer than the method resolves with any grid: " + said)
 
 
 def _finish(options, directory, keys, length, n, volumes, words):
     dim = keys["Dimension"]
-    keys["Output directory"] = f"output/{directory.resolve().name}"
-    write(directory / "scene.prm", prm(keys, [
+    place = directory.resolve()
+    keys["Output directory"] = "output/" + str(place.relative_to(
+        Path.cwd() if place.is_relative_to(Path.cwd()) else place.anchor))
+    _tune(options, directory / "scene.prm", keys, [
         f"From {options.file.name} by contrib/import; lengths in um, times in "
-        "days.", "Growth and mechanics are examples: set your own."]))
-    return [f"{n} cells in {dim}-D, together {np.sum(volumes):.5g} um^{dim}, "
-            f"on average {length:.4g} um long.", *words,
-            f"{directory / 'scene.prm'}, cells.csv"
-            + (", " + keys["Tissue/Points surface"]
-               if "." in keys["Tissue/Points surface"] else "")
+        "days.", "Growth and mechanics are examples: set your own."], words)
+    surface = keys["Tissue/Points surface"]
+    return [f"{n} cells in {dim}-D, together {np.sum(volumes):.5g} um^{dim}, on average "
+            f"{length:.4g} um long.", *words, f"{directory / 'scene.prm'}, cells.csv"
+            + (", " + surface if "." in surface else "")
             + f" are written; morula {directory / 'scene.prm'} runs the scene."]

@@ -2,10 +2,12 @@
 # Copyright (C) 2026 by the Morula authors
 """The files of a scene: cells, surface, .prm."""
 import itertools
+import re
 
 import numpy as np
 
 from morula.files import replaced, write, write_csv
+from morula.refusal import Refused, shown
 
 NAMES = "xyz"
 
@@ -52,10 +54,20 @@ def _ring(part):
     return "(" + ", ".join(f"{x:.9g} {y:.9g}" for x, y in line) + ")"
 
 
+def refuse_signs(what, value, remedy):
+    """Refuses what a .prm file would read otherwise: no sign can be quoted in it."""
+    found = re.search(r"[#\x00-\x1f\x7f]|\\\s*$", str(value))
+    if found:
+        raise Refused(what, value, f"a text without '{shown(found[0])}'"
+                      + (" at its end" if found[0][0] == "\\" else ""), remedy)
+
+
 def prm(keys, comments):
     """A .prm text of keys by full path; comments stand at its begin. Keys that
     follow each other in a section share it."""
-    lines = [*(f"# {line}" for line in comments), ""]
+    for path, value in keys.items():
+        refuse_signs(path, value, "A .prm file cannot hold this sign.")
+    lines = [*(f"# {shown(line)}" for line in comments), ""]
     for sections, group in itertools.groupby(keys.items(), lambda item: item[0].split("/")[:-1]):
         lines += ["  " * depth + f"subsection {section}" for depth, section in enumerate(sections)]
         lines += ["  " * len(sections) + f"set {path.split('/')[-1]} = {value}"

@@ -70,45 +70,34 @@ unset(CMAKE_TRY_COMPILE_TARGET_TYPE)
 unset(CMAKE_REQUIRED_INCLUDES)
 unset(CMAKE_REQUIRED_LIBRARIES)
 
+# Ends where something is missing, with Debian's packages of it, and what to set.
+function(morula_require found what packages place)
+  if(NOT ${found})
+    message(FATAL_ERROR "${what} is missing (Debian and Ubuntu: apt-get install "
+      "${packages}; contrib/setup does so). If it stands elsewhere, set ${place}.")
+  endif()
+endfunction()
+
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(Boost 1.74 QUIET COMPONENTS program_options)
-if(NOT Boost_FOUND)
-  message(FATAL_ERROR
-    "Boost.Program_options 1.74 or later is missing (Debian: "
-    "libboost-program-options-dev; contrib/setup installs it). If it stands "
-    "elsewhere, set Boost_ROOT.")
-endif()
+morula_require(Boost_FOUND "Boost.Program_options 1.74 or later"
+  libboost-program-options-dev Boost_ROOT)
 # deal.II brings muParser with it, as a library of its own or bundled.
 find_path(MUPARSER_INCLUDE_DIR muParser.h
   HINTS ${DEAL_II_INCLUDE_DIRS}
   PATH_SUFFIXES deal.II/bundled/muparser deal.II/bundled)
-if(NOT MUPARSER_INCLUDE_DIR)
-  message(FATAL_ERROR
-    "muParser's header muParser.h is missing (Debian and Ubuntu: apt-get "
-    "install libmuparser-dev; contrib/setup does so). If it stands elsewhere, "
-    "set MUPARSER_INCLUDE_DIR.")
-endif()
+morula_require(MUPARSER_INCLUDE_DIR "muParser's header muParser.h" libmuparser-dev
+  MUPARSER_INCLUDE_DIR)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h)
-if(NOT RANDOM123_INCLUDE_DIR)
-  message(FATAL_ERROR
-    "Random123 is missing (Debian: librandom123-dev; contrib/setup installs "
-    "it). If it stands elsewhere, set RANDOM123_INCLUDE_DIR.")
-endif()
+morula_require(RANDOM123_INCLUDE_DIR Random123 librandom123-dev RANDOM123_INCLUDE_DIR)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
-if(NOT CHOLMOD_INCLUDE_DIR OR NOT CHOLMOD_LIBRARY)
-  message(FATAL_ERROR
-    "CHOLMOD of SuiteSparse is missing (Debian: libsuitesparse-dev; "
-    "contrib/setup installs it). If it stands elsewhere, set "
-    "CHOLMOD_INCLUDE_DIR and CHOLMOD_LIBRARY.")
-endif()
+foreach(part CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY)
+  morula_require(${part} "CHOLMOD of SuiteSparse" libsuitesparse-dev ${part})
+endforeach()
 find_package(CGAL 5.5 QUIET)
-if(NOT CGAL_FOUND)
-  message(FATAL_ERROR
-    "CGAL 5.5 or later is missing, or its GMP and MPFR are (Debian: "
-    "libcgal-dev libgmp-dev libmpfr-dev; contrib/setup installs them). If it "
-    "stands elsewhere, set CGAL_DIR.")
-endif()
+morula_require(CGAL_FOUND "CGAL 5.5 or later, or its GMP or MPFR,"
+  "libcgal-dev libgmp-dev libmpfr-dev" CGAL_DIR)
 if(MORULA_TESTS)
   find_package(GTest QUIET)
   if(NOT TARGET GTest::gtest)

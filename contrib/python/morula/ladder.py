@@ -30,8 +30,8 @@ class Ladder:
         return ":".join(words)
 
 
-def read_ladder(text, scene):
-    """A --vary option."""
+def read_ladder(text, scene, not_varied=(), allowed=""):
+    """A --vary option; for the last two see refuse_keys."""
     left, equals, right = text.partition("=")
     name, colon, names_of_keys = left.rpartition(":")
     left = names_of_keys if colon else left
@@ -46,6 +46,7 @@ def read_ladder(text, scene):
         raise Refused("--vary", text, FORM, f"Not so: '{wrong[0]}'." if wrong
                       else "-s sets a single value.")
     _refuse_double("--vary", text, rungs)
+    refuse_keys("--vary", keys, not_varied, allowed)
     return Ladder(keys, rungs, name.strip() or " and ".join(keys))
 
 

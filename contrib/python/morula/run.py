@@ -7,11 +7,6 @@
     run.statistics["total_volume"]      # um^3, an entry a step
     cells = run.cells(-1)               # the last state written
     cells["energy_density"].mean()      # kPa
-    run.clone(17)                       # ids of all descendants of cell 17
-    run.type_names                      # of the cells' types, by their numbers
-    run.field_names                     # of what diffuses, e.g. oxygen
-    run.events                          # changes of type, deaths, removals
-    run.lineage.death_time              # day, of every cell; infinity: it lives
 
 The columns are those of the files (README.md, "What comes out").
 

@@ -28,18 +28,12 @@ class _Fork:
 
 class Server:
     """Does runs on one rank, one at a time; any thread may ask. Its runs inherit
-    the descriptors pass_fds. To be closed, as a context or by close()."""
+    the descriptors pass_fds. To be closed."""
 
     def __init__(self, executable, pass_fds=()):
         self._process = start([executable, "--serve"], stdin=subprocess.PIPE,
                               stdout=subprocess.PIPE, env=AT_ONCE, pass_fds=pass_fds)
         self._guard = threading.Lock()
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.close()
 
     def close(self):
         """Ends the process; a run that is at work goes on to its end."""

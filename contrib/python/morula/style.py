@@ -5,6 +5,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402,F401 (after the backend)
+import numpy as np  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator  # noqa: E402
 
 # Colours that people who see few colours can tell apart (Okabe & Ito 2008).
@@ -21,6 +22,14 @@ def colour(number):
 
 def marker(number):
     return MARKERS[number % len(MARKERS)]
+
+
+def pixels(figure):
+    """The picture (height, width, 3), bytes, of a figure, which is closed."""
+    figure.canvas.draw()
+    picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
+    plt.close(figure)
+    return picture
 
 
 def log_ticks(axis, low, high, short=False):

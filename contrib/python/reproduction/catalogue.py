@@ -41,18 +41,15 @@ FIGURES = {
 LONGEST = ("fig-4c", "fig-2e", "fig-4e-0.7", "fig-4b", "fig-4e-0.8", "fig-4e-0.95")
 
 
-class UnknownPanel(Exception):
-    """A name that is neither a panel nor the beginning of one."""
-
-
 def select(names):
-    """The panels of these names in the paper's order; no name stands for all."""
+    """The panels of these names in the paper's order; no name stands for all. Throws LookupError
+    with a name that is neither a panel nor the beginning of one."""
     chosen = set()
     for name in names:
         found = [panel for panel in PANELS if panel == name or
                  name in (panel[:-1], panel.rpartition("-")[0] + "s")]
         if not found:
-            raise UnknownPanel(name)
+            raise LookupError(name)
         chosen.update(found)
     return [panel for panel in PANELS if panel in chosen or not names]
 

@@ -8,11 +8,10 @@ import sys
 import traceback
 from pathlib import Path
 
-import matplotlib.pyplot as plt
-import numpy as np
 from morula.command_line import tell
 from morula.files import replaced
 from morula.render.films import write_ogg
+from morula.style import pixels, plt
 
 from . import catalogue, layout
 from .paper_run import Runs
@@ -32,14 +31,6 @@ def draw_panel(panel, runs, path):
         with replaced(path) as unfinished:
             write_ogg(map(pixels, DRAW[panel](runs)), unfinished, FRAMES_PER_SECOND)
     tell(f"reproduce: {path}")
-
-
-def pixels(figure):
-    """The picture (height, width, 3), bytes, of a figure."""
-    figure.canvas.draw()
-    picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
-    plt.close(figure)
-    return picture
 
 
 def draw_figures(panels, output):

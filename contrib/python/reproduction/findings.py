@@ -29,14 +29,6 @@ def listed(values, form):
     return ", ".join(f"{form.format(value)} ({scene[-1]})" for scene, value in values.items())
 
 
-def exponential_growth(runs):
-    return close_to_fits(runs, ("cells", "total_volume"), fits.fit_exponential)
-
-
-def linear_energy(runs):
-    return close_to_fits(runs, ("mean_energy_density",), fits.fit_line)
-
-
 def close_to_fits(runs, columns, fit):
     """By the largest relative distance of each column of Fig. 3 (c-e) from its fit."""
     rows, off = runs["fig-3b"].statistics, []
@@ -134,21 +126,14 @@ def at_equal_number(runs, column, sign, scale, unit, form):
                      f"{common:,.0f} in {unit}: " + by_checkpoint(runs, values, form))
 
 
-def larger_volume(runs):
-    return at_equal_number(runs, "total_volume", 1, 1e-6, "10⁶ µm³", "{:.1f}")
-
-
-def smaller_energy(runs):
-    return at_equal_number(runs, "mean_energy_density", -1, 1, "kPa", "{:.3f}")
-
-
 # (where, what the paper finds, scenes, test) in the paper's order.
 FINDINGS = (
     ("§2.5, Fig. 2", "33 and 50 µm agree with the fine reference, 75 and 100 µm are distorted "
      "near the clamp", GRIDS, grids),
     ("§3.1, Fig. 3 c, d", "N_p and V_tot increase exponentially", ("fig-3b",),
-     exponential_growth),
-    ("§3.1, Fig. 3 e", "Ψ_ave increases linearly", ("fig-3b",), linear_energy),
+     lambda runs: close_to_fits(runs, ("cells", "total_volume"), fits.fit_exponential)),
+    ("§3.1, Fig. 3 e", "Ψ_ave increases linearly", ("fig-3b",),
+     lambda runs: close_to_fits(runs, ("mean_energy_density",), fits.fit_line)),
     ("§3.2, Fig. 4 a", "cells with relatively large V_p only in the upper half", ("fig-4c",),
      large_cells_above),
     ("§3.2, Fig. 4 b, c", "with the checkpoint the lower half proliferates less, without it "
@@ -160,9 +145,9 @@ FINDINGS = (
      ("fig-4b", "fig-4c"), different_shapes),
     ("§3.2, Fig. 4 e", "the larger J_th, the slower N_p increases", CHECKPOINTS, slower),
     ("§3.2, Fig. 4 f", "at equal N_p, the larger J_th, the larger V_tot", CHECKPOINTS,
-     larger_volume),
+     lambda runs: at_equal_number(runs, "total_volume", 1, 1e-6, "10⁶ µm³", "{:.1f}")),
     ("§3.2, Fig. 4 g", "at equal N_p, the larger J_th, the smaller Ψ_ave", CHECKPOINTS,
-     smaller_energy),
+     lambda runs: at_equal_number(runs, "mean_energy_density", -1, 1, "kPa", "{:.3f}")),
 )
 
 

@@ -75,14 +75,12 @@ def residual_stress(run):
     return stress.abs().to_numpy().max() / run.number("Material/Young's modulus")
 
 
-def fit(column, function):
-    """The fitted function of a column of Fig. 3's random proliferation."""
-    return lambda run: function(run.statistics["time"], run.statistics[column])
-
-
-CELLS_OF = fit("cells", fits.fit_exponential)
-VOLUME_OF = fit("total_volume", fits.fit_exponential)
-ENERGY_OF = fit("mean_energy_density", fits.fit_line)
+def fitted(place, what, column, function, paper, *parts):
+    """The numbers (name, unit, limits) of the fit of a column of Fig. 3's random proliferation."""
+    def ours(name):
+        return lambda run: getattr(function(run.statistics["time"], run.statistics[column]), name)
+    return [Number(place, f"{what}: {name} {unit}".strip(), "fig-3b", getattr(paper, name),
+                   ours(name), **limits) for name, unit, limits in parts]
 
 
 def picture_cells(run):
@@ -111,18 +109,13 @@ NUMBERS = (
            remark="\"uniform volume expansion\""),
     Number("§3.1, Fig. 3 a", "residual stress / E", "fig-3a", 0.0, residual_stress, ".1e",
            remark="\"negligible\"; largest component of any cell"),
-    Number("Fig. 3 c", "N_p: factor", "fig-3b", CELLS_FIT.factor,
-           lambda run: CELLS_OF(run).factor, relative=0.05),
-    Number("Fig. 3 c", "N_p: rate [1/day]", "fig-3b", CELLS_FIT.rate,
-           lambda run: CELLS_OF(run).rate, absolute=0.02, remark="see below"),
-    Number("Fig. 3 d", "V_tot: factor [µm³]", "fig-3b", VOLUME_FIT.factor,
-           lambda run: VOLUME_OF(run).factor, relative=0.05),
-    Number("Fig. 3 d", "V_tot: rate [1/day]", "fig-3b", VOLUME_FIT.rate,
-           lambda run: VOLUME_OF(run).rate, absolute=0.02),
-    Number("Fig. 3 e", "Ψ_ave: slope [kPa/day]", "fig-3b", ENERGY_FIT.slope,
-           lambda run: ENERGY_OF(run).slope, relative=0.10),
-    Number("Fig. 3 e", "Ψ_ave: constant [kPa]", "fig-3b", ENERGY_FIT.constant,
-           lambda run: ENERGY_OF(run).constant),
+    *fitted("Fig. 3 c", "N_p", "cells", fits.fit_exponential, CELLS_FIT,
+            ("factor", "", {"relative": 0.05}),
+            ("rate", "[1/day]", {"absolute": 0.02, "remark": "see below"})),
+    *fitted("Fig. 3 d", "V_tot", "total_volume", fits.fit_exponential, VOLUME_FIT,
+            ("factor", "[µm³]", {"relative": 0.05}), ("rate", "[1/day]", {"absolute": 0.02})),
+    *fitted("Fig. 3 e", "Ψ_ave", "mean_energy_density", fits.fit_line, ENERGY_FIT,
+            ("slope", "[kPa/day]", {"relative": 0.10}), ("constant", "[kPa]", {})),
     Number("§3.2, Fig. 4 b", "N_p shown, with checkpoint", "fig-4b", 2.2e5, picture_cells,
            ",.0f", remark="the output nearest to 1.5³ times the founders"),
     Number("§3.2, Fig. 4 c", "N_p shown, without checkpoint", "fig-4c", 2.2e5, picture_cells,

@@ -18,7 +18,7 @@ import sys
 from pathlib import Path
 
 from morula.command_line import like_ctrl_c, tell
-from morula.draw.screen import require_virtual_screen, run_on_virtual_screen
+from morula.draw.screen import require_virtual_screen, virtual_screen
 from reproduction import catalogue
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -47,7 +47,7 @@ def arguments():
         parser.error(f"--jobs {options.jobs}: at least 1 is needed")
     try:
         options.panels = catalogue.select(options.panels)
-    except catalogue.UnknownPanel as error:
+    except LookupError as error:
         parser.error(f"there is no panel '{error}'; known are\n" + catalogue.listing())
     if options.no_videos:
         options.panels = [panel for panel in options.panels if not panel.startswith("video")]
@@ -91,9 +91,10 @@ def reproduce(options):
     failed = run_scenes(scenes, options, morula, ROOT / "prm/paper")
     print(write_table(options.output), flush=True)
     left = [panel for panel in options.panels if set(catalogue.PANELS[panel][0]) & set(failed)]
-    code = run_on_virtual_screen([
-        ROOT / "contrib/python/launch", "-P", "-m", "reproduction.draw", str(options.output),
-        *(panel for panel in options.panels if panel not in left)])
+    with virtual_screen():
+        code = subprocess.call([
+            ROOT / "contrib/python/launch", "-P", "-m", "reproduction.draw", str(options.output),
+            *(panel for panel in options.panels if panel not in left)])
     if failed:
         tell(f"reproduce: FAILED: the runs {', '.join(failed)}; therefore not drawn: "
              + ", ".join(left))

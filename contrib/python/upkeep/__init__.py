@@ -2,12 +2,19 @@
 # Copyright (C) 2026 by the Morula authors
 """Tools of contrib/upkeep, for those who work on Morula: they write pages. Only
 Morula's tree has this package; an installation has `morula` alone."""
+import argparse
 import sys
 from pathlib import Path
 
 from morula.execute import call
 
 ROOT = Path(__file__).resolve().parents[3]
+
+
+def parser(description):
+    """The command line of a tool, with line ends as they are."""
+    return argparse.ArgumentParser(description=description,
+                                   formatter_class=argparse.RawTextHelpFormatter)
 
 
 def said(*words):

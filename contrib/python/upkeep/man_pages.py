@@ -6,12 +6,11 @@ command line have changed, and for a release.
 
     contrib/upkeep/man-pages
 """
-import argparse
 import re
 import tempfile
 from pathlib import Path
 
-from . import ROOT, said
+from . import ROOT, parser, said
 
 # What a page says behind the name.
 SUMMARIES = {"morula": "grow and deform tissue of continuum-based cell particles",
@@ -75,9 +74,8 @@ def page_of(name, morula):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
-    options = parser.parse_args()
+    tool = parser(__doc__)
+    tool.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
+    options = tool.parse_args()
     for name in SUMMARIES:
         (ROOT / f"doc/man/{name}.1").write_text(page_of(name, options.morula), encoding="utf-8")

@@ -6,7 +6,6 @@ stands above its first section stays.
     contrib/upkeep/parameters            writes them
     contrib/upkeep/parameters --check    exit code 1 if they are not up to date
 """
-import argparse
 import re
 import tempfile
 from pathlib import Path
@@ -14,7 +13,7 @@ from pathlib import Path
 from morula.program import Program
 from morula.tables import markdown
 
-from . import ROOT
+from . import ROOT, parser
 
 PAGE = ROOT / "doc/parameters.md"
 
@@ -56,11 +55,10 @@ def sections(keys):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="write nothing")
-    parser.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
-    options = parser.parse_args()
+    tool = parser(__doc__)
+    tool.add_argument("--check", action="store_true", help="write nothing")
+    tool.add_argument("--morula", default=ROOT / "build/morula", help="the executable")
+    options = tool.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         scene = Path(scratch) / "scene.prm"
         scene.write_text(SCENE)

@@ -8,7 +8,6 @@ machine with nothing else to do. Done for a version, not for a change.
 
 A section that fails says so in the page, and gives exit code 1; the others are there.
 """
-import argparse
 import datetime
 import os
 import re
@@ -22,7 +21,7 @@ from morula.program import Program
 from morula.run import Run
 from morula.tables import markdown
 
-from . import ROOT, accuracy, said
+from . import ROOT, accuracy, parser, said
 
 OUTPUT = ROOT / "output/renew"
 
@@ -119,12 +118,11 @@ def head():
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("sections", nargs="*", metavar="SECTION", help=", ".join(SECTIONS))
-    chosen = parser.parse_args().sections
+    tool = parser(__doc__)
+    tool.add_argument("sections", nargs="*", metavar="SECTION", help=", ".join(SECTIONS))
+    chosen = tool.parse_args().sections
     if not set(chosen) <= set(SECTIONS):
-        parser.error(f"the sections are {', '.join(SECTIONS)}")
+        tool.error(f"the sections are {', '.join(SECTIONS)}")
     os.environ.pop("OMP_NUM_THREADS", None)
     said("contrib/build", "all")
     parts, failed = [head()], []

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 import numpy
 from morula.command_line import output_directory, ranks_and_jobs, whole_number
-from morula.ladder import (Plan, check_method, check_seeds, read_ladder, read_seeds, refuse_keys)
+from morula.ladder import Plan, check_method, check_seeds, read_ladder, read_seeds
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
@@ -75,10 +75,8 @@ class Request:
                                  or options.wanted or options.limit):
             raise Refused("--vary", "", "at least one ladder (--offsets alone estimates no error)",
                           "For instance " '--vary "Grid/Spacing=100,75,50".')
-        ladders = [read_ladder(text, self.scene) for text in options.vary]
-        for ladder in ladders:
-            refuse_keys("--vary", ladder.keys, NOT_VARIED,
-                        "a key that changes how well the same state is computed")
+        ladders = [read_ladder(text, self.scene, NOT_VARIED, "a key that changes how well the same "
+                               "state is computed") for text in options.vary]
         names = [ladder.name for ladder in ladders]
         if len(set(names)) < len(names):
             raise Refused("--vary", ", ".join(names), "one ladder for the same keys",

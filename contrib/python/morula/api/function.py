@@ -77,7 +77,8 @@ class Function:
         if len(all_points) > MAX_RUNS:
             raise Refused("The number of points", len(all_points), f"at most {MAX_RUNS} at once")
         records = self._records(all_points, jobs, progress)
-        found = [self._measured(record) for record in records]
+        found = [self.measure(Run(record.output)) if record.finished else None
+                 for record in records]
         for point, record in zip(all_points, records):
             if not record.finished:
                 warnings.warn(f"nan at {point}: the run {record.summary()}", stacklevel=2)
@@ -120,7 +121,7 @@ class Function:
         while self.ranks == 1 and len(self._servers) < min(jobs, len(points)):
             self._servers.append(Server(self.scene.program.executable))
         kept = KeptRuns(self._inner, self.directory / "runs", self.ranks, jobs, resume=True,
-                        say=print if progress else _silent, servers=self._servers)
+                        say=print if progress else lambda _: None, servers=self._servers)
         wanted = [_job(self._inner, self.keys_at(point)) for point in points]
         unique = {job.name: job for job in wanted}
         found = dict(zip(unique, kept.run(list(unique.values()))))
@@ -135,19 +136,10 @@ class Function:
         overrides = scene._overrides() if scene.path else ()
         return scenes.Scene(file, scene.program, [f"{key}={value}" for key, value in overrides])
 
-    def _measured(self, record):
-        if not record.finished:
-            return None
-        return self.measure(Run(record.output))
-
 
 def _close(servers: list[Server]) -> None:
     for server in servers:
         server.close()
-
-
-def _silent(_: str) -> None:
-    pass
 
 
 def _job(inner, keys):

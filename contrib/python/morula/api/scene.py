@@ -56,20 +56,18 @@ class Scene(Mapping):
         self._set: dict[str, str] = {}
         self._in_file: dict[str, str] = {}
         if isinstance(source, Scene):
-            self.path, self._set = source.path, dict(source._set)
+            self.path, self._set, self._in_file = source.path, dict(source._set), source._in_file
             name = name or source.name
-        elif not isinstance(source, Mapping):
+        elif isinstance(source, Mapping):
+            self._set = {scene.clean_path(key): as_text(value) for key, value in source.items()}
+        else:
             self.path = Path(source)
             if not self.path.is_file():
                 raise Refused("The scene", source, "a .prm file that can be "
                               "read", "Correct its name.")
+            self._in_file = {key.path: key.value for key in self.program.keys_with(self.path)
+                             if key.value is not None}
         self.name = name or (self.path.stem if self.path else "scene")
-        if isinstance(source, Mapping) and not isinstance(source, Scene):
-            self._set = {scene.clean_path(key): as_text(value) for key, value in source.items()}
-        if self.path:
-            self._in_file = source._in_file if isinstance(source, Scene) else {
-                key.path: key.value for key in self.program.keys_with(self.path)
-                if key.value is not None}
         self._known = self._find_known()
         for key in self._set:
             self._require(key)

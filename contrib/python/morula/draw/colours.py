@@ -151,10 +151,8 @@ def colours_of(field, values=None, limits=None, types=()):
     label, name = style_of(field)
     palette, whole = palette_of(name), field in WHOLE_NUMBERS
     low, high = limits_of(field, values) if limits is None else limits
-    extend = "neither" if values is None else {
-        (False, False): "neither", (True, False): "min",
-        (False, True): "max", (True, True): "both"}[
-            bool(np.min(values) < low), bool(np.max(values) > high)]
+    extend = "neither" if values is None else ("neither", "min", "max", "both")[
+        int(np.min(values) < low) + 2 * int(np.max(values) > high)]
     if whole:
         low, high = low - 0.5, high + 0.5
         palette = palette.resampled(int(high - low))

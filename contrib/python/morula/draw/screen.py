@@ -57,9 +57,3 @@ def virtual_screen():
         os.environ.update(before)
         server.terminate()
         server.wait()
-
-
-def run_on_virtual_screen(command):
-    """Runs a command with a virtual screen as its display and returns its exit code."""
-    with virtual_screen():
-        return subprocess.call(command)

@@ -31,11 +31,12 @@ def write(run, numbers, file):
         uns = _group(out, "uns")
         about = _group(uns, "morula")
         for name, text in (("run", run.name), ("length", "um"), ("time", "day")):
-            _string(about, name, text)
-        obs = _frame(out, "obs", names)
-        for name in (name for name in OF_CELL if name in cells):
+            _texts(about, name, text, "string")
+        of_cell = [name for name in OF_CELL if name in cells]
+        obs = _frame(out, "obs", names, of_cell)
+        for name in of_cell:
             _observation(obs, uns, name, cells[name].to_numpy(), run.type_names)
-        var = _frame(out, "var", amounts)
+        var = _frame(out, "var", amounts, ["unit"])
         _column(var, "unit", [unit_of(name, run.dimension) for name in amounts])
         places = _group(out, "obsm")
         for name, axes in (("spatial", "xyz"), ("initial", "XYZ")):
@@ -59,9 +60,8 @@ def _observation(obs, uns, name, values, type_names):
     group = _group(obs, name, "categorical", "0.2.0")
     group.attrs["ordered"] = False
     _array(group, "codes", np.searchsorted(numbers, values).astype(np.int16))
-    _strings(group, "categories", [known[number][0] for number in numbers])
-    _strings(uns, f"{name}_colors", [known[number][1] for number in numbers])
-    _listed(obs, name)
+    _texts(group, "categories", [known[number][0] for number in numbers])
+    _texts(uns, f"{name}_colors", [known[number][1] for number in numbers])
 
 
 def _mark(element, kind, version):
@@ -80,36 +80,23 @@ def _array(parent, name, values):
                                 if values.size else None), "array", "0.2.0")
 
 
-def _string(parent, name, text):
-    import h5py
-    _mark(parent.create_dataset(name, data=text, dtype=h5py.string_dtype()), "string", "0.2.0")
-
-
-def _strings(parent, name, texts):
+def _texts(parent, name, texts, kind="string-array"):
     import h5py
     _mark(parent.create_dataset(name, data=np.array(texts, dtype=object),
-                                dtype=h5py.string_dtype()), "string-array", "0.2.0")
+                                dtype=h5py.string_dtype()), kind, "0.2.0")
 
 
-def _frame(parent, name, index):
+def _frame(parent, name, index, columns):
+    import h5py
     group = _group(parent, name, "dataframe", "0.2.0")
     group.attrs["_index"] = "_index"
-    group.attrs["column-order"] = np.array([], dtype="S1")
-    _strings(group, "_index", index)
+    group.attrs.create("column-order", columns, dtype=h5py.string_dtype())
+    _texts(group, "_index", index)
     return group
-
-
-def _listed(frame, name):
-    import h5py
-    before = [word.decode() if isinstance(word, bytes) else word
-              for word in frame.attrs["column-order"]]
-    del frame.attrs["column-order"]
-    frame.attrs.create("column-order", [*before, name], dtype=h5py.string_dtype())
 
 
 def _column(frame, name, values):
     if len(values) and isinstance(values[0], str):
-        _strings(frame, name, values)
+        _texts(frame, name, values)
     else:
         _array(frame, name, np.asarray(values))
-    _listed(frame, name)

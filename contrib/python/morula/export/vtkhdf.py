@@ -30,7 +30,7 @@ def write(run, numbers, file):
         steps.attrs["NSteps"] = np.int64(len(numbers))
         n_points, columns = 0, {}
         for step, number in enumerate(numbers):
-            columns = _columns(run.cells(number), run.dimension)
+            columns = _columns(run.cells(number))
             points = columns.pop("Points")
             _append_offsets(steps, run.times[number], step, n_points, columns)
             _append_points(root, points)
@@ -40,16 +40,10 @@ def write(run, numbers, file):
     return n_points, len(columns)
 
 
-def _columns(cells, dimension):
+def _columns(cells):
     """Places as "Points", (n, 3), then what the points have."""
-    def vectors(axes):
-        places = np.zeros((len(cells), 3))
-        for axis, name in enumerate(axes[:dimension]):
-            places[:, axis] = cells[name]
-        return places
-    found = {"Points": vectors("xyz")}
-    if "X" in cells:
-        found["initial_position"] = vectors("XYZ")
+    found = {name: cells.reindex(columns=[*axes], fill_value=0.0).to_numpy(float) for name, axes
+             in (("Points", "xyz"), ("initial_position", "XYZ")) if axes[0] in cells}
     for name in cells:
         if name not in tuple("xyzXYZ"):
             found[name] = cells[name].to_numpy()

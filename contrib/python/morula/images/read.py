@@ -206,7 +206,7 @@ def _without_axes(file, array, axes, channel, frame, words):
     for axis, choice, option in (("C", channel, "--channel"), ("T", frame, "--frame")):
         if axis in axes:
             at = axes.index(axis)
-            array = np.take(array, _chosen(option, choice, array.shape[at]), at)
+            array = np.take(array, chosen(option, choice, array.shape[at]), at)
             axes = axes.replace(axis, "", 1)
         elif choice not in (None, 0):
             raise Refused(option, choice, "nothing for this image", f"Its axes are {axes}.")
@@ -223,10 +223,10 @@ def _without_axes(file, array, axes, channel, frame, words):
     return array, words
 
 
-def _chosen(option, choice, length):
-    if choice is None and length > 1:
-        raise Refused(option, "", f"a number from 0 to {length - 1}",
-                      "The image has several: say which one has the labels.")
-    if not 0 <= (choice or 0) < length:
-        raise Refused(option, choice, f"a number from 0 to {length - 1}")
+def chosen(option, choice, length):
+    """The number of a channel or a time, which must be said if there are several."""
+    if not 0 <= (choice or 0) < length or choice is None and length > 1:
+        kind = "times" if option == "--frame" else "channels"
+        raise Refused(option, "" if choice is None else choice, f"a number from 0 to {length - 1}",
+                      f"There are {length} {kind}: say which one has the labels.")
     return choice or 0

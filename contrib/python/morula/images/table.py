@@ -9,7 +9,7 @@ from scipy import spatial
 
 from morula.refusal import Refused
 
-from .read import IN_UM
+from .read import IN_UM, chosen
 from .volumes import clipped_volumes
 
 # Names that trackers give to a column, in small letters, '_' for blanks; the first that is there
@@ -187,13 +187,9 @@ def _of_frame(file, table, frame, words):
     numbers = _as_numbers(table["frame"])
     times = table["frame"] if numbers.isna().any() else numbers
     frames = np.unique(times)
-    if frame is None and len(frames) > 1:
-        raise Refused("--frame", "", f"a number from 0 to {len(frames) - 1}",
-                      f"The table has {len(frames)} times: say which one.")
-    if not 0 <= (frame or 0) < len(frames):
-        raise Refused("--frame", frame, f"a number from 0 to {len(frames) - 1}")
-    words.append(f"Of {len(frames)} times it is that of {frames[frame or 0]}.")
-    return table[times == frames[frame or 0]].drop(columns="frame")
+    time = frames[chosen("--frame", frame, len(frames))]
+    words.append(f"Of {len(frames)} times it is that of {time}.")
+    return table[times == time].drop(columns="frame")
 
 
 def _with_volumes(file, table, axes, words):
@@ -205,19 +201,17 @@ def _with_volumes(file, table, axes, words):
     double = nearest < OVERLAP * length if length > 0 else nearest >= 0
     if double.any():
         raise Refused("The table", file, "one cell at each place", f"{double.sum()} rows have the "
-                      "place of another one: is it a table of several times without a column frame?")
-    if "volume" in table:
-        pass
-    elif "radius" in table or "diameter" in table:
+                      "place of another one: is it one of several times without a column frame?")
+    if "volume" not in table and ("radius" in table or "diameter" in table):
         radius = table["radius"] if "radius" in table else 0.5 * table["diameter"]
         table["volume"] = np.pi * (4 / 3 if dim == 3 else 1) * radius ** dim
         words.append("Volumes are those of balls with the radii of the table; cells side by side "
                      "fill more.")
-    elif len(table) < FEW:
+    elif "volume" not in table and len(table) < FEW:
         table["volume"] = length ** dim
         words.append("The table has no volumes: all cells get that of a cube with the median "
                      f"distance to the nearest cell, {length:.4g} um.")
-    else:
+    elif "volume" not in table:
         table["volume"], far = clipped_volumes(places)
         words.append("The table has no volumes: cells get those of their Voronoi regions, cut off "
                      f"{far:.3g} um outside of the outer places, together "

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Panels with their title, scale bar and colour bar as one picture."""
 import numpy as np
-from morula.style import plt
+from morula.style import pixels, plt
 from scipy.ndimage import gaussian_filter
 
 DPI = 200
@@ -39,10 +39,7 @@ def compose(panels, cut_open, view, colours, title, outline=None):
                     ha="left", va="top", fontsize=11, parse_math=False)
         bar = figure.add_axes([(len(panels) * wide + 0.15) / total[0], 0.2, 0.14 / total[0], 0.6])
         colours.draw_bar(figure, bar)
-        figure.canvas.draw()
-        picture = np.array(figure.canvas.buffer_rgba())[:, :, :3]
-        plt.close(figure)
-    return picture
+        return pixels(figure)
 
 
 def silhouette(panel):

@@ -6,7 +6,7 @@ Positions and radii are written with 16 bits of the box round all states, fields
 with 8 bits of their range."""
 import base64
 import zlib
-from dataclasses import dataclass
+from collections import namedtuple
 
 import numpy as np
 import pandas
@@ -108,13 +108,8 @@ def quantised(values, low, high, dtype):
     return np.clip(np.rint(scaled), 0, steps).astype(dtype)
 
 
-@dataclass
-class Selection:
-    """Numbers of the states that are shown, and every how-manieth cell."""
-
-    states: list
-    stride: int
-    words: list
+# Numbers of the states that are shown, and every how-manieth cell.
+Selection = namedtuple("Selection", "states stride words")
 
 
 def choose(times, counts, bytes_per_cell, wanted, limit):

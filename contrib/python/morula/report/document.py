@@ -8,7 +8,6 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from morula.refusal import Refused
-from morula.run import NoStates
 
 from . import curves, lineage, numbers, scene
 from .cells import DEFAULT_FIELDS, Packed, fields_of
@@ -28,11 +27,13 @@ def page(run, program, options):
     code = scripts() if cells else []
     return TEMPLATES.get_template("template.html").render(
         run=run, program=program, cells=cells, numbers=numbers, scene=scene,
-        why_no_view=why_no_view(options) if not cells else "",
+        why_no_view="" if cells else
+        "The page was made without the 3-D view (--states 0)." if options.states == 0 else
+        "No cells were written (Output/Formats = none).",
         pictures=pictures(run) if options.pictures else [],
         curves=curves.figures(run, curves.results(run)),
         effort=curves.figures(run, curves.effort(run)),
-        lineage=lineage if has_lineage(run) else None,
+        lineage=(run.directory / "lineage.csv").is_file() and len(run.lineage) and lineage,
         style=(PAGE / "style.css").read_text(encoding="utf-8"),
         scripts=code, digests=[digest(script) for script in code])
 
@@ -44,19 +45,6 @@ def pack_cells(run, options):
     there = fields_of(run.cells(-1))
     fields = options.fields or [f for f in DEFAULT_FIELDS if f in there]
     return Packed(run, fields, options.states, options.limit * 1e6)
-
-
-def has_lineage(run):
-    try:
-        return len(run.lineage) > 0
-    except NoStates:
-        return False
-
-
-def why_no_view(options):
-    if options.states == 0:
-        return "The page was made without the 3-D view (--states 0)."
-    return "No cells were written (Output/Formats = none)."
 
 
 def scripts():

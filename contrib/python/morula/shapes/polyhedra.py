@@ -11,11 +11,6 @@ FLAT = -2     # bottom and top of a prism, that is of a region in 2-D
 FAR = -3      # nothing: one of the points far away that bound all regions
 
 
-def row_sums(values, starts):
-    """Sums of the rows from each start to the next; no part may be empty."""
-    return np.add.reduceat(values, starts[:-1], axis=0)
-
-
 def ranges(starts, counts):
     """All of start, start + 1, ... start + count - 1, one after the other."""
     ends = np.cumsum(counts)
@@ -65,7 +60,7 @@ class Polyhedra:
         """Area (um^2) times outward unit normal of each face."""
         first = np.repeat(self.points[self.corners[self.starts[:-1]]], self.counts, axis=0)
         arms = self.points[self.corners] - first
-        return 0.5 * row_sums(np.cross(arms, arms[self.following()]), self.starts)
+        return 0.5 * np.add.reduceat(np.cross(arms, arms[self.following()]), self.starts[:-1])
 
     def volumes(self, centres):
         """Volumes (um^3) of the polyhedra round the centres (n, 3), which

@@ -62,10 +62,7 @@ class Request:
         if not self.options.vary and not self.seeds:
             raise Refused("--vary", "", "at least one key with its values, --samples, or --seeds",
                           "For instance --vary " '"Grid/Spacing=60,40" --seeds 1-5.')
-        ladders = [read_ladder(text, self.scene) for text in self.options.vary]
-        for ladder in ladders:
-            refuse_keys("--vary", ladder.keys, NOT_VARIED, CHANGES)
-        return ladders
+        return [read_ladder(text, self.scene, NOT_VARIED, CHANGES) for text in self.options.vary]
 
     def label(self, point):
         """A combination in few words."""

@@ -4,6 +4,10 @@
 showcase. Each module has the scene, its cases, and what is read from their runs."""
 from typing import NamedTuple
 
+from upkeep import ROOT
+
+SCENES = ROOT / "prm/showcase"
+
 
 class Case(NamedTuple):
     """A run: the keys besides those of the file, and the values that tell it from others."""

@@ -6,11 +6,9 @@ import numpy
 from morula.style import COLOURS, plt
 from scipy.special import eval_gegenbauer, gammaln
 
-from upkeep import ROOT
+from . import SCENES, Case
 
-from . import Case
-
-SCENE = ROOT / "prm/showcase/cortex.prm"
+SCENE = SCENES / "cortex.prm"
 LAYER = 20.0  # um, thickness of the layer at the start
 DEGREES = numpy.arange(3, 41)  # of waves on the ball; 0 to 2 are its shape
 FOLDED = 0.1 * LAYER  # um, depth from which on the surface has folds

@@ -5,11 +5,9 @@ stand apart afterwards, with different growth before, with and without relaxatio
 import numpy
 from morula.style import COLOURS, plt
 
-from upkeep import ROOT
+from . import SCENES, Case
 
-from . import Case
-
-SCENE = ROOT / "prm/showcase/cut.prm"
+SCENE = SCENES / "cut.prm"
 HALF_WIDTH = 31.0  # um, of the cut
 CUT = 1.05  # day, the end of the step in which cells are removed
 BEYOND = 120.0  # um from the centre: lips near the surface, of a radius of 150

@@ -5,11 +5,9 @@ the crypts are, at two volumes of the lumen."""
 import numpy
 from morula.style import COLOURS, plt
 
-from upkeep import ROOT
+from . import SCENES, Case
 
-from . import Case
-
-SCENE = ROOT / "prm/showcase/organoid.prm"
+SCENE = SCENES / "organoid.prm"
 BETWEEN = 90.0  # um, initial radius between the inner and the outer surface
 CRYPTS = 4
 FULL, EMPTY, AGAIN = 1.0, 2.0, 3.0  # days: full of volume, emptied, refilled

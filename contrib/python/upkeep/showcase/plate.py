@@ -7,11 +7,9 @@ from morula.style import COLOURS, plt
 from scipy.integrate import simpson
 from scipy.optimize import brentq
 
-from upkeep import ROOT
+from . import SCENES, Case
 
-from . import Case
-
-SCENE = ROOT / "prm/showcase/growth-plate.prm"
+SCENE = SCENES / "growth-plate.prm"
 
 REACH_IHH, REACH_PTHRP = 150.0, 100.0  # um, roots of D over the loss
 ANSWER = 279.4  # of PTHrP to Ihh, 1/day

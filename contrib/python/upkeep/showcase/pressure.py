@@ -6,11 +6,9 @@ import numpy
 from morula.style import COLOURS, plt
 from scipy.optimize import brentq
 
-from upkeep import ROOT
+from . import SCENES, Case
 
-from . import Case
-
-SCENE = ROOT / "prm/showcase/pressure.prm"
+SCENE = SCENES / "pressure.prm"
 
 DOUBLING = 17 / 24  # days, of free CT26 (Van Liedekerke et al. 2019, Fig. 1)
 QUIESCENT = 0.3  # of the free rate: below it nothing grows (their Fig. 3)

@@ -8,14 +8,12 @@ pictures of doc/images/showcase.
 
 Runs that are finished below output/showcase are not repeated.
 """
-import argparse
-
 from morula import Scene
 from morula.run import Run
 from morula.style import RC, plt
 from morula.tables import markdown
 
-from upkeep import ROOT
+from upkeep import ROOT, parser
 
 from . import cortex, cut, organoid, plate, pressure, spheroids
 
@@ -30,13 +28,12 @@ def run_of(subject, case, again):
 
 
 def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SUBJECTS))
-    parser.add_argument("--again", action="store_true", help="repeat finished runs")
-    options = parser.parse_args()
+    tool = parser(__doc__)
+    tool.add_argument("names", nargs="*", metavar="NAME", help=", ".join(SUBJECTS))
+    tool.add_argument("--again", action="store_true", help="repeat finished runs")
+    options = tool.parse_args()
     if not set(options.names) <= set(SUBJECTS):
-        parser.error(f"the scenes are {', '.join(SUBJECTS)}")
+        tool.error(f"the scenes are {', '.join(SUBJECTS)}")
     plt.rcParams.update(RC)
     for name in options.names or SUBJECTS:
         subject = SUBJECTS[name]

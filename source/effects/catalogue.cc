@@ -14,11 +14,11 @@ namespace Morula
   // effect and example stand together in the file of that name.
   using Addition = void(Catalogue &);
   Addition add_isotropic_growth, add_rate_growth, add_contraction,
-    add_relaxation, add_cell_cycle, add_division_by_size, add_death,
-    add_extrusion, add_fields, add_division_rules, add_rearrangement,
-    add_neighbours, add_present_depth, add_shape_numbers, add_body_force,
-    add_friction, add_type_tension, add_fixed, add_slip, add_traction,
-    add_pressure, add_surface_tension, add_lumen, add_obstacles,
+    add_relaxation, add_cell_cycle, add_division_by_size, add_division_at_rate,
+    add_death, add_extrusion, add_fields, add_division_rules, add_rearrangement,
+    add_cell_numbers, add_neighbours, add_present_depth, add_shape_numbers,
+    add_body_force, add_friction, add_type_tension, add_fixed, add_slip,
+    add_traction, add_pressure, add_surface_tension, add_lumen, add_obstacles,
     add_type_surface_tension, add_contact;
 
 

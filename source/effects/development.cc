@@ -354,13 +354,14 @@ namespace Morula
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
       {
         const CellView<dim, double> cell = tissue.cell(p);
-        const Tensor<2, dim>        F_g  = cell.growth(), F = cell.F();
-        const double g = std::pow(determinant(F_g), 1. / dim);
+        const Tensor<2, dim>        F_g = cell.growth(), F = cell.F();
+        const double                g = std::pow(determinant(F_g), 1. / dim);
         if (F_g.norm_square() < longest * g * g)
           continue;
-        const Tensor<2, dim> F_e  = F * invert(F_g);
+        const Tensor<2, dim> F_e       = F * invert(F_g);
         const bool           has_shape = columns_.shape.exists();
-        const Tensor<2, dim> shape = has_shape ? cell.shape() : Tensor<2, dim>();
+        const Tensor<2, dim> shape =
+          has_shape ? cell.shape() : Tensor<2, dim>();
         cell.set(columns_.growth, absorb(g * invert(F_g), F_g, cell));
         cell.set(columns_.deformation, g * F_e);
         if (has_shape)
@@ -368,7 +369,8 @@ namespace Morula
                    invert(cell.unrelaxed_deformation()) * shape);
         if (state_.surface_normal.exists())
           cell.set(state_.surface_normal,
-                   transpose(g * invert(F_g)) * cell.get(state_.surface_normal));
+                   transpose(g * invert(F_g)) *
+                     cell.get(state_.surface_normal));
       }
   }
 

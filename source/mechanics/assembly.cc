@@ -138,21 +138,24 @@ namespace Morula
   MatrixScatter<dim, n_components>::make_received(const Messages &announced)
   {
     // The values that arrive have no indices. So each announced block gets its
-    // place in the matrix.
+    // place in the matrix. A rank may send none.
     for (const auto &[rank, message] : announced)
-      for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
-        {
-          const auto row     = space.owned().index_within_set(message[m]);
-          const auto columns = matrix.columns(row);
-          for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
-            received[rank].push_back(
-              matrix.blocks(row) +
-              block_size *
-                (std::lower_bound(columns.begin(),
-                                  columns.end(),
-                                  matrix.column_of(message[m + 2 + k])) -
-                 columns.begin()));
-        }
+      {
+        std::vector<double *> &blocks = received[rank];
+        for (std::size_t m = 0; m < message.size(); m += 2 + message[m + 1])
+          {
+            const auto row     = space.owned().index_within_set(message[m]);
+            const auto columns = matrix.columns(row);
+            for (types::global_dof_index k = 0; k < message[m + 1]; ++k)
+              blocks.push_back(
+                matrix.blocks(row) +
+                block_size *
+                  (std::lower_bound(columns.begin(),
+                                    columns.end(),
+                                    matrix.column_of(message[m + 2 + k])) -
+                   columns.begin()));
+          }
+      }
   }
 
   template <int dim, int n_components>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/instantiate.h>
 #include <morula/base/input_error.h>
+#include <morula/base/instantiate.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/relaxation.h>
 
@@ -157,9 +157,10 @@ namespace Morula
             for (unsigned int j = 0; j < dim; ++j)
               {
                 const double b_j = point.b()[j][j];
-                slope[i][j] = w * (r.total_A() + r.B * (b + b_j) + r.C * b * b_j +
-                                   (i == j ? 2. * r.alpha * b : 0.)) -
-                              (per_grown_volume ? stress[i] : 0.);
+                slope[i][j] =
+                  w * (r.total_A() + r.B * (b + b_j) + r.C * b * b_j +
+                       (i == j ? 2. * r.alpha * b : 0.)) -
+                  (per_grown_volume ? stress[i] : 0.);
               }
           }
       }
@@ -292,8 +293,8 @@ namespace Morula
     // for small ones, and goes by a bounded way at a time.
     constexpr double       longest = 0.3, near = 1e-9; // of the way
     constexpr unsigned int most = 50;
-    const auto     C = eigenvectors(symmetrize(transpose(F_e) * F_e));
-    Tensor<1, dim> x0, step;
+    const auto             C = eigenvectors(symmetrize(transpose(F_e) * F_e));
+    Tensor<1, dim>         x0, step;
     for (unsigned int i = 0; i < dim; ++i)
       x0[i] = 0.5 * std::log(C[i].first);
     const Tensor<1, dim> stress =
@@ -313,8 +314,7 @@ namespace Morula
         if (step.norm() > longest)
           step *= longest / step.norm();
         x += step;
-      }
-    while (step.norm() > near);
+    } while (step.norm() > near);
 
     SymmetricTensor<2, dim> D;
     for (unsigned int i = 0; i < dim; ++i)

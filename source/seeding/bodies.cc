@@ -86,8 +86,10 @@ namespace Morula
     for (unsigned int p = 0; p < cells.size(); ++p)
       left.volumes.push_back(cells.volume(p));
     const auto sizes = Utilities::MPI::all_gather(comm, left.volumes.size());
-    left.first_id    = std::accumulate(
-      sizes.begin(), sizes.begin() + Utilities::MPI::this_mpi_process(comm), 0ul);
+    left.first_id =
+      std::accumulate(sizes.begin(),
+                      sizes.begin() + Utilities::MPI::this_mpi_process(comm),
+                      0ul);
     left.bodies = bodies_apart(left, comm);
     std::vector<double> lowest(number_of_bodies(left, comm),
                                std::numeric_limits<double>::max());
@@ -105,8 +107,9 @@ namespace Morula
           });
         tissue.cell(p).set(cells.columns().body, left.bodies[p]);
       }
-    const std::vector<Point<dim>> positions = of_all_ranks(left.positions, comm);
-    const NearTree<dim> tree(positions);
+    const std::vector<Point<dim>> positions =
+      of_all_ranks(left.positions, comm);
+    const NearTree<dim>             tree(positions);
     const std::vector<unsigned int> bodies = of_all_ranks(left.bodies, comm);
     const auto &body = tissue.boundary_points().columns().body;
     for (std::size_t i = 0; i < former.size() && !bodies.empty(); ++i)

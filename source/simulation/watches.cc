@@ -274,8 +274,8 @@ namespace Morula
     // Where the rate follows the state, what it was in the last step is kept
     // in a column. Who leaves relieves the others only in the next step.
     constexpr double most = 0.3;
-    const auto       rate = tissue.cells().columns().template find<double>(
-      "extrusion_rate");
+    const auto       rate =
+      tissue.cells().columns().template find<double>("extrusion_rate");
     if (!rate.exists() || has_told_of_extrusion)
       return;
     double largest = 0.;

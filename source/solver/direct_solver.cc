@@ -251,12 +251,12 @@ namespace Morula
   }
 
   void
-  DirectSolver::solve(const Matrix               &K,
-                      Vector                     &x,
-                      const Vector               &b,
-                      unsigned int               &iterations,
-                      double                     &largest_shift,
-                      const Equilibrium::RankOne *rank_one)
+  DirectSolver::solve(const Matrix                &K,
+                      Vector                      &x,
+                      const Vector                &b,
+                      unsigned int                &iterations,
+                      double                      &largest_shift,
+                      const Equilibrium::RankOnes &rank_ones)
   {
     // What acts along unsupported motions is left out, as inertia balances it:
     // doc/theory.md (4.10). The diagonal is raised, doc/theory.md (5.4), until
@@ -274,8 +274,7 @@ namespace Morula
         if (factor->is_usable())
           {
             solve_bordered(K, x, balanced);
-            if (rank_one != nullptr)
-              add_correction(K, *rank_one, x);
+            add_corrections(K, rank_ones, x);
             // An unsymmetric system has no energy, so any finite solution will
             // do. Of a symmetric one a direction along which the energy rises
             // shows that the tangent is indefinite.
@@ -353,15 +352,29 @@ namespace Morula
   }
 
   void
-  DirectSolver::add_correction(const Matrix               &K,
-                               const Equilibrium::RankOne &part,
-                               Vector                     &x) const
+  DirectSolver::add_corrections(const Matrix                &K,
+                                const Equilibrium::RankOnes &parts,
+                                Vector                      &x) const
   {
-    // The system has the matrix K + σ b bᵀ. The formula of Sherman and
-    // Morrison corrects x = K⁻¹ r by one more solution, w = K⁻¹ b.
-    Vector b(part.b), w(part.b);
-    remove_parts(b, problem.null_space);
-    solve_bordered(K, w, b);
-    x.add(-part.factor * (b * x) / (1. + part.factor * (b * w)), w);
+    // The system has the matrix K + σ b bᵀ. The formula of Sherman and Morrison
+    // corrects x = K⁻¹ r by one more solution, w = K⁻¹ b. Of several parts each
+    // w is that of K with the parts before.
+    std::vector<Vector> b, w;
+    const auto          correct = [&](Vector &y) {
+      for (std::size_t k = 0; k < w.size(); ++k)
+        y.add(-parts[k].factor * (b[k] * y) /
+                (1. + parts[k].factor * (b[k] * w[k])),
+              w[k]);
+    };
+    for (const Equilibrium::RankOne &part : parts)
+      {
+        Vector next(part.b);
+        b.push_back(part.b);
+        remove_parts(b.back(), problem.null_space);
+        solve_bordered(K, next, b.back());
+        correct(next);
+        w.push_back(next);
+      }
+    correct(x);
   }
 } // namespace Morula

@@ -111,8 +111,11 @@ namespace Morula
                                     part == 0 ? at_wall : at_corner);
             if (!foot && part > 0 && left.norm() < uneven * area)
               return;
-            const auto row =
+            auto row =
               foot ? put_on_wall(*foot, x, A) : free_row(x, A, part > 0);
+            if (cavity.exists())
+              cavity.set(make_array_view(row),
+                         faced_cavity(wish.body, surface.faced[k]));
             list.add(id + part, x, make_array_view(row));
             areas.push_back(A);
             is_free.push_back(!foot);

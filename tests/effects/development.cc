@@ -145,49 +145,50 @@ TEST_2D_3D(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep)
 TEST(CellDevelopment, RefersAnew)
 {
   for (const std::string law : {"none", "cell cycle"})
-      {
-        const std::vector<std::string> settings = {
-          "Dimension=2",
-          "Proliferation/Law=" + law,
-          std::string("Division by size/Volume=") +
-            (law == "none" ? "150" : "0"),
-          "Growth/Law=rate",
-          "Growth/Rate/Rate=0.3",
-          "Growth/Rate/Share along=1",
-          "Material/Relaxation time=0.3"};
-        Alone alone(settings), far(settings);
-        alone.live(0., 0.1);
-        far.live(0., 0.1);
-        const Tensor<2, 2> shear({{1., 3000.}, {0., 1.}});
-        const auto         cell    = far.tissue.cell(0);
-        const auto        &columns = cell.columns();
-        const auto         F_r     = law == "none" ?
-                                       columns.relaxed :
-                                       columns.find<Tensor<2, 2>>(
-                             "growth_before_the_cycle");
-        for (const auto &column : {columns.deformation, columns.growth, F_r})
-          cell.set(column, cell.get(column) * shear);
-        far.development.refer_anew(far.tissue);
-        EXPECT_NEAR(cell.growth().norm(),
-                    std::sqrt(2. * determinant(cell.growth())),
-                    1e-6);
-        for (const double t : {0.1, 0.2})
-          {
-            EXPECT_NEAR((far.cell().elastic_deformation() -
-                         alone.cell().elastic_deformation())
-                          .norm(),
-                        0.,
-                        1e-8)
-              << law << t;
-            EXPECT_NEAR(determinant(far.cell().growth()),
-                        determinant(alone.cell().growth()),
-                        1e-8);
-            alone.live(t, t + 0.1);
-            far.live(t, t + 0.1);
-          }
-        if (columns.shape.exists())
+    {
+      const std::vector<std::string> settings = {
+        "Dimension=2",
+        "Proliferation/Law=" + law,
+        std::string("Division by size/Volume=") + (law == "none" ? "150" : "0"),
+        "Growth/Law=rate",
+        "Growth/Rate/Rate=0.3",
+        "Growth/Rate/Share along=1",
+        "Growth/Rate/Direction=1; 0",
+        "Material/Relaxation time=0.3"};
+      Alone alone(settings), far(settings);
+      alone.live(0., 0.1);
+      far.live(0., 0.1);
+      const Tensor<2, 2> shear({{1., 3000.}, {0., 1.}});
+      const auto         cell    = far.tissue.cell(0);
+      const auto        &columns = cell.columns();
+      const auto         F_r     = law == "none" ?
+                                     columns.relaxed :
+                                     columns.find<Tensor<2, 2>>("growth_before_the_cycle");
+      for (const auto &column : {columns.deformation, columns.growth, F_r})
+        cell.set(column, cell.get(column) * shear);
+      far.development.refer_anew(far.tissue);
+      EXPECT_NEAR(cell.growth().norm(),
+                  std::sqrt(2. * determinant(cell.growth())),
+                  1e-6);
+      for (const double t : {0.1, 0.2})
+        {
+          EXPECT_NEAR((far.cell().elastic_deformation() -
+                       alone.cell().elastic_deformation())
+                        .norm(),
+                      0.,
+                      1e-8)
+            << law << t;
+          EXPECT_NEAR(determinant(far.cell().growth()),
+                      determinant(alone.cell().growth()),
+                      1e-8);
+          alone.live(t, t + 0.1);
+          far.live(t, t + 0.1);
+        }
+      if (columns.shape.exists())
+        {
           EXPECT_NEAR((far.cell().shape() - alone.cell().shape()).norm(),
                       0.,
                       1e-6);
-      }
+        }
+    }
 }

@@ -23,10 +23,10 @@
 #include <morula/effects/state/state_columns.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
-#include <morula/mechanics/relaxation.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/effects/volumes_of_step.h>
+#include <morula/mechanics/relaxation.h>
 #include <morula/particles/detached_points.h>
 #include <morula/scene/tissue_model.h>
 

@@ -312,7 +312,8 @@ true_stress(const Tensor<2, dim> &F_e,
             const std::string    &law,
             const bool            per_grown_volume)
 {
-  return ElasticPoint<dim>(F_e, lame, material_of_test(law)).kirchhoff_stress() /
+  return ElasticPoint<dim>(F_e, lame, material_of_test(law))
+           .kirchhoff_stress() /
          (per_grown_volume ? determinant(F_e) : 1.);
 }
 
@@ -331,10 +332,8 @@ stiffens_at_the_same_stress()
             const Tensor<2, dim> F_e = some_strain<dim>(generator);
             const auto           D   = given_up_by_stiffening<dim>(
               F_e, constants, after, material_of_test(law), grown);
-            EXPECT_LT((true_stress<dim>(F_e * invert(Tensor<2, dim>(D)),
-                                        after,
-                                        law,
-                                        grown) -
+            EXPECT_LT((true_stress<dim>(
+                         F_e * invert(Tensor<2, dim>(D)), after, law, grown) -
                        true_stress<dim>(F_e, constants, law, grown))
                         .norm(),
                       1e-10)

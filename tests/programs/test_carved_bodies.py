@@ -47,3 +47,18 @@ def test_the_rim_of_a_held_side(runs):
     slip = surface["condition"] == 2
     assert slip.sum() > 100
     assert (abs(surface["nx"][slip]) > 0.99).all()
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_what_is_left_apart_is_two_bodies(runs, ranks):
+    """A bar whose middle is carved away: its ends are pushed together, and press."""
+    keys = {**CARVED, "Tissue/Shape": "box", "Tissue/Size": "200, 60", "Tissue/Cell spacing": 5,
+            "Grid/Spacing": 15, "Death/When": "abs(X) < 10", "Time/End time": 1,
+            "Boundary conditions/Fixed where": "abs(X) > 99",
+            "Boundary conditions/Displacement": "15*t*(1 - 2*(X > 0)); 0"}
+    run = runs.run(f"parted-{ranks}", keys, ranks=ranks)
+    cells = run.cells(0)
+    assert {*cells[cells["x"] < 0]["body"]} == {0} and {*cells[cells["x"] > 0]["body"]} == {1}
+    pressed = run.cells(len(run.times) - 1)
+    assert pressed[pressed["x"] > 0]["x"].min() > 0 > pressed[pressed["x"] < 0]["x"].max()
+    assert pressed["sigma_xx"].mean() < -0.02

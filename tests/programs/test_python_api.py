@@ -176,9 +176,11 @@ THREAD = "import threading; threading.Thread(target=lambda: " + RUN + ").start()
 
 
 @pytest.mark.parametrize("act, number, ranks", [
-    (RUN, signal.SIGTERM, 1), (RUN, signal.SIGHUP, 1), (THREAD, signal.SIGKILL, 1),
-    (MAP, signal.SIGKILL, 1), pytest.param(RUN, signal.SIGKILL, 2, marks=pytest.mark.release)],
-    ids=["term", "hup", "kill-thread", "kill-map", "kill-ranks"])
+    (RUN, signal.SIGKILL, 1), (MAP, signal.SIGTERM, 1), *(
+        pytest.param(*case, marks=pytest.mark.release) for case in (
+            (RUN, signal.SIGTERM, 1), (RUN, signal.SIGHUP, 1), (THREAD, signal.SIGKILL, 1),
+            (MAP, signal.SIGKILL, 1), (RUN, signal.SIGKILL, 2)))],
+    ids=["kill", "term-map", "term", "hup", "kill-thread", "kill-map", "kill-ranks"])
 def test_runs_end_with_their_python(runs, tmp_path, act, number, ranks):
     """However it ends, and with a snapshot; a run whose Python lives goes on."""
     place = tmp_path / "runs"

@@ -91,7 +91,7 @@ struct System
   {
     const std::vector<Vector> none;
     return solve_by(one_reduction,
-                    ShiftedSystem{product, none, 0., {}},
+                    ShiftedSystem{K, none, 0., {}},
                     P,
                     b,
                     tolerance,
@@ -135,7 +135,7 @@ TEST(ConjugateGradients, FormsAgree)
       for (const auto &rank_ones : {parts, Equilibrium::RankOnes()})
         {
           const std::vector<Vector> motions(has_motion ? 1 : 0, n1);
-          const ShiftedSystem       system{product, motions, shift, rank_ones};
+          const ShiftedSystem       system{K, motions, shift, rank_ones};
           for (const double tolerance : {1e-1, 1e-4, 1e-10})
             {
               const Result plain =
@@ -233,7 +233,7 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
                          const unsigned int           reductions) {
     for (const double shift : {0., 0.1})
       {
-        const ShiftedSystem system{product, motions, shift, rank_ones};
+        const ShiftedSystem system{K, motions, shift, rank_ones};
         MpiCounts           counts[2];
         unsigned int        n_iterations[2];
         for (const unsigned int k : {0, 1})

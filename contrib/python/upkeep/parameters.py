@@ -19,8 +19,8 @@ PAGE = ROOT / "doc/parameters.md"
 
 # Sections that exist where a scene names something, each with one name.
 SCENE = "".join(f"subsection {section}\n  set Names = {names}\nend\n" for section, names
-                in (("Cell types", "NAME, OTHER"), ("Fields", "name"), ("Obstacles", "name"),
-                    ("Lumens", "name")))
+                in (("Cell types", "NAME, OTHER"), ("Fields", "name"), ("Cell numbers", "number"),
+                    ("Obstacles", "name"), ("Lumens", "name")))
 
 # Keys that a type of cells has because all cells have them.
 OF_TYPE = "For cells of this type; empty: as for all"

@@ -60,16 +60,16 @@ namespace Morula
      * @param iterations in/out: the factorisations are added
      * @param largest_shift in/out: raised to the largest σ at which the tangent
      *                      was still indefinite
-     * @param rank_one what K lacks, or null
+     * @param rank_ones what K lacks
      * @throws StepFailed on all ranks together
      */
     void
-    solve(const Matrix               &K,
-          Vector                     &x,
-          const Vector               &b,
-          unsigned int               &iterations,
-          double                     &largest_shift,
-          const Equilibrium::RankOne *rank_one = nullptr);
+    solve(const Matrix                &K,
+          Vector                      &x,
+          const Vector                &b,
+          unsigned int                &iterations,
+          double                      &largest_shift,
+          const Equilibrium::RankOnes &rank_ones);
 
     /** Whether the factor is that of a raised diagonal. The least shift, which
      *  supports unsupported motions, does not count. */
@@ -97,9 +97,9 @@ namespace Morula
 
     /** Corrects @p x, the solution with the factor, for what K lacks. */
     void
-    add_correction(const Matrix               &K,
-                   const Equilibrium::RankOne &part,
-                   Vector                     &x) const;
+    add_corrections(const Matrix                &K,
+                    const Equilibrium::RankOnes &parts,
+                    Vector                      &x) const;
 
     const LinearProblem     &problem;
     const double             least_shift;

@@ -4,6 +4,7 @@
 #ifndef morula_surface_surface_from_cells_h
 #define morula_surface_surface_from_cells_h
 
+#include <morula/particles/cavity_column.h>
 #include <morula/particles/tissue.h>
 #include <morula/surface/walls.h>
 
@@ -11,23 +12,6 @@
 
 namespace Morula
 {
-  /** The column that says which cavity a boundary point faces, if the scene has
-   *  declared it by the name "cavity". */
-  template <int dim>
-  Column<unsigned int>
-  cavity_column(const BoundaryColumns<dim> &columns)
-  {
-    return columns.template find<unsigned int>("cavity");
-  }
-
-  /** A value of cavity_column(), the same for no two bodies' cavities; 0: it is
-   *  not known, 1: the outside. @param faced as in CellSurface */
-  constexpr unsigned int
-  faced_cavity(const unsigned int body, const unsigned int faced)
-  {
-    return faced == 0 ? 1 : 1 + faced + (body << 16);
-  }
-
   /** What the boundary points of a body shall be when they are made from its
    *  cells. */
   template <int dim>

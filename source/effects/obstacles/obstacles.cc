@@ -313,30 +313,27 @@ namespace Morula
       void
       add_columns(BoundaryColumns<dim> &columns) const override
       {
-        if (std::any_of(list.begin(), list.end(), [](const Obstacle &one) {
-              return one.bit != 0;
-            }))
-          columns.touched = columns.template add<unsigned int>(
-            {"touched",
-             "",
-             "sum of 2^k for each two-sided obstacle k that holds the point",
-             0,
-             AtDivision::copied,
-             true});
+        for (const Obstacle &one : list)
+          if (one.bit != 0 && !columns.touched.exists())
+            columns.touched = columns.template add<unsigned int>(
+              {"touched",
+               "",
+               "sum of 2^k for each two-sided obstacle k that holds the point",
+               0,
+               AtDivision::copied,
+               true});
       }
       void
       touch(Tissue<dim> &tissue, const double t) const override
       {
         // A point is held once it touches with its side towards the obstacle,
-        // until it is out of reach or turns away. New patches have this from
-        // their predecessors, also one at the rim that does not face it.
+        // until it is out of reach or turns away; new patches inherit it.
         const BoundaryPoints<dim> &points = tissue.boundary_points();
         const auto                &column = points.columns().touched;
         const double               h      = tissue.grid().box().spacing();
         for (const Obstacle &one : list)
           {
-            const Tensor<1, dim> way =
-              one.bit != 0 ? one.way(t) : Tensor<1, dim>();
+            const Tensor<1, dim> way = one.way(t);
             for (unsigned int p = 0; one.bit != 0 && p < points.size(); ++p)
               {
                 const auto           point = tissue.boundary_point(p);
@@ -452,13 +449,10 @@ namespace Morula
         Tensor<1, dim>
         way(const double t) const
         {
-          // The velocity depends on the time alone, so its integral needs no
-          // steps of the simulation and is the same after a resumed start. A
-          // constant velocity needs no quadrature. Otherwise each component is
-          // integrated with the 15 points of Gauss and Kronrod, and intervals
-          // are halved up to 12 times until the estimated error is below 1e-10
-          // of the integral, so that also a velocity with jumps gives the way
-          // to much less than a grid spacing.
+          // The velocity depends on the time alone, so its integral is the same
+          // after a resumed start. A constant one needs no quadrature. Else the
+          // 15 points of Gauss and Kronrod serve each component, with intervals
+          // that are halved up to 12 times until the error is below 1e-10.
           const Point<dim> nowhere;
           if (velocity.is_constant())
             return t * velocity.vector(nowhere, t);

@@ -253,7 +253,6 @@ namespace Morula
   void
   add_shape_numbers(Catalogue &catalogue)
   {
-    catalogue.add_own<ShapeNumbers>("shape numbers",
-                                    {"Shape/Numbers=true"});
+    catalogue.add_own<ShapeNumbers>("shape numbers", {"Shape/Numbers=true"});
   }
 } // namespace Morula

@@ -4,9 +4,9 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/effects/surface/lumen_spaces.h>
+#include <morula/particles/cavity_column.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/surface/surface_from_cells.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -160,12 +160,12 @@ TEST(CellTypes, MayForgetTheirStress)
                 Tensor<2, 2>(unit_symmetric_tensor<2>()) :
               what == "keep strain" ?
                 F :
-                F * invert(Tensor<2, 2>(
-                      given_up_by_stiffening<2>(F,
-                                                lame(1., 0.4),
-                                                lame(9., 0.4),
-                                                alone.development.reader(0.).material.material(),
-                                                true)));
+                F * invert(Tensor<2, 2>(given_up_by_stiffening<2>(
+                      F,
+                      lame(1., 0.4),
+                      lame(9., 0.4),
+                      alone.development.reader(0.).material.material(),
+                      true)));
             EXPECT_NEAR((F_e - expected).norm(), 0., 1e-14) << what << law;
             alone.live(t, t + 0.1);
           }

@@ -50,8 +50,8 @@ def refuse_times(labels):
     """Asks what the first axis is if cells are in nearly all of its planes, as in a time-lapse."""
     planes = sum(np.bincount(np.unique(plane), minlength=labels.max() + 1) for plane in labels)
     if len(labels) > 2 and np.median(planes[1:]) >= 0.9 * len(labels):
-        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: if "
-                      "these are times, say --axes tyx and --frame; if places, --axes zyx.")
+        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: "
+                      "if these are times, say --axes tyx and --frame; if places, --axes zyx.")
 
 
 def refuse_sizes(shape, voxel, pad, file):

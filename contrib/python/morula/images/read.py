@@ -12,7 +12,7 @@ import numpy as np
 from morula.refusal import Refused
 
 # What other programs read and save as TIFF, or tables as CSV; JPEG changes labels.
-FOREIGN = set(".nrrd .czi .lif .nd2 .ims .oib .oif .jpg .jpeg .nii .mha .mat .xls .xlsx .ods".split())
+FOREIGN = ".nrrd .czi .lif .nd2 .ims .oib .oif .jpg .jpeg .nii .mha .mat .xls .xlsx .ods".split()
 IN_UM = {"um": 1.0, "µm": 1.0, "\u03bcm": 1.0, "\\u00b5m": 1.0, "micron": 1.0, "microns": 1.0,
          "micrometer": 1.0, "micrometers": 1.0, "micrometre": 1.0, "nm": 1e-3, "nanometer": 1e-3,
          "mm": 1e3, "millimeter": 1e3, "cm": 1e4, "m": 1e6}

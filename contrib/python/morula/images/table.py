@@ -14,7 +14,7 @@ from .volumes import clipped_volumes
 
 # Names that trackers give to a column, in small letters, '_' for blanks; the first that is there
 # counts.
-AXIS = "{0} position_{0} pos_{0} centroid_{0} {0}_um {0}_px location_center_{0} areashape_center_{0}"
+AXIS = "{0} position_{0} pos_{0} centroid_{0} {0}_um {0}_px location_center_{0} center_{0}"
 NAMES = {name: known.split() for name, known in {
     **{axis: AXIS.format(axis) for axis in "xyz"},
     "frame": "frame t time timepoint time_point position_t time_index imagenumber",

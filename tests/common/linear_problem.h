@@ -66,12 +66,13 @@ namespace Morula
         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
       owned = IndexSet(n);
       owned.add_range(n * rank / n_ranks, n * (rank + 1) / n_ranks);
+      zero_.reinit(owned, MPI_COMM_WORLD);
     }
 
     Vector
     zero() const
     {
-      return Vector(owned, MPI_COMM_WORLD);
+      return zero_;
     }
 
     Evaluation
@@ -148,6 +149,7 @@ namespace Morula
     }
 
     Matrix K;
+    Vector zero_; // copies share its partition
   };
 
 

@@ -172,6 +172,7 @@ TEST(LinearSolver, GoesDownhillOnNegativeCurvature)
 // No residual is below zero: GMRES gives up.
 TEST(LinearSolver, FactorisesNoMoreThanIsAllowed)
 {
+  ONE_RANK_IS_ENOUGH();
   ChainProblem problem = chain_of_springs(n, 1., 0.3);
   const auto   b       = problem.vector_of(random_values(1));
   const auto   solve   = [&](const std::string &solver) {

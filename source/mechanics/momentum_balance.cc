@@ -234,9 +234,8 @@ namespace Morula
     // with a kept tangent these drift.
     constexpr double least_cells_a_spline = dim == 2 ? 20. : 2.;
     LinearProblem    result;
-    result.symmetric    = has_energy();
-    result.null_space   = std::move(null_space);
-    result.n_components = dim;
+    result.symmetric  = has_energy();
+    result.null_space = std::move(null_space);
     // E h^(dim-2) is the size of an entry of the tangent, doc/theory.md (2.5):
     // W/h² times E, with W = h^dim.
     result.typical_entry =

@@ -169,7 +169,7 @@ namespace Morula
         const CgOutcome outcome =
           factorisation != nullptr ?
             iterate(*factorisation) :
-            iterate(Jacobi(diagonal_magnitude(s.K, s.b), shift));
+            iterate(jacobi(diagonal_magnitude(s.K, s.b), shift));
         has_shifted_ = has_shifted_ || shift > 0.;
         if (outcome == CgOutcome::converged)
           return;
@@ -219,7 +219,7 @@ namespace Morula
         if (preconditioner.factorisation() != nullptr)
           iterate(*preconditioner.factorisation());
         else
-          iterate(Jacobi(diagonal_magnitude(s.K, s.b), 0.));
+          iterate(jacobi(diagonal_magnitude(s.K, s.b), 0.));
         remove_parts(s.x, problem.null_space);
       }
     catch (const SolverControl::NoConvergence &)

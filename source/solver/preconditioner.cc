@@ -230,7 +230,6 @@ namespace Morula
 
   Preconditioner::Preconditioner(const LinearProblem &problem)
     : problem(problem)
-    , n_tried(problem.n_components > 1 ? first_of_vectors : 0)
   {}
 
   void
@@ -240,7 +239,10 @@ namespace Morula
       K.is_symmetric() ? BlockMatrix() : K.symmetric_part();
     const BlockMatrix &A = K.is_symmetric() ? K : part;
     factorisation_.reset();
-    // Free bodies leave the last factorisation out (see attempts).
+    // Vectors leave the first factorisation out, free bodies the last one (see
+    // attempts).
+    if (A.n_components() > 1)
+      n_tried = std::max(n_tried, first_of_vectors);
     const std::size_t n_usable =
       problem.null_space.empty() ? std::size(attempts) : n_of_free_bodies;
     for (; !factorisation_ && n_tried < n_usable; ++n_tried)
@@ -267,5 +269,14 @@ namespace Morula
     for (double &entry : diagonal)
       entry = std::abs(entry);
     return diagonal;
+  }
+
+  DiagonalMatrix<Equilibrium::Vector>
+  jacobi(const Equilibrium::Vector &magnitude, const double shift)
+  {
+    Equilibrium::Vector inverse(magnitude);
+    for (double &entry : inverse)
+      entry = entry > 0. ? 1. / ((1. + shift) * entry) : 1.;
+    return DiagonalMatrix<Equilibrium::Vector>(inverse);
   }
 } // namespace Morula

@@ -81,7 +81,7 @@ struct System
   explicit System(ChainProblem &problem)
     : K(problem.tangent(problem.zero(), GrowthAt::current))
     , b(load(problem))
-    , P(diagonal_magnitude(K, b), 0.)
+    , P(jacobi(diagonal_magnitude(K, b), 0.))
   {}
 
   Result
@@ -105,9 +105,9 @@ struct System
     return Morula::defect(K, x, b) / b.l2_norm();
   }
 
-  const Equilibrium::Matrix &K;
-  const Vector               b;
-  const Jacobi               P;
+  const Equilibrium::Matrix   &K;
+  const Vector                 b;
+  const DiagonalMatrix<Vector> P;
 };
 
 /** The largest one, of b's largest entry. */
@@ -139,9 +139,9 @@ TEST(ConjugateGradients, FormsAgree)
           for (const double tolerance : {1e-1, 1e-4, 1e-10})
             {
               const Result plain =
-                solve_by(false, system, Jacobi(m, shift), b, tolerance);
+                solve_by(false, system, jacobi(m, shift), b, tolerance);
               const Result other =
-                solve_by(true, system, Jacobi(m, shift), b, tolerance);
+                solve_by(true, system, jacobi(m, shift), b, tolerance);
               EXPECT_EQ(other.outcome, CgOutcome::converged);
               EXPECT_EQ(other.iterations, plain.iterations);
               EXPECT_LE(difference(other.x, plain.x), 1e-10 + 0.01 * tolerance);
@@ -221,7 +221,7 @@ TEST(ConjugateGradients, OneReductionAndNoBarrierAnIteration)
   OverlappingCholesky::Parameters raised;
   raised.relative_diagonal = 3.;
   const OverlappingCholesky P(K, raised);
-  const Jacobi              J(diagonal_magnitude(K, b), 0.);
+  const auto                J = jacobi(diagonal_magnitude(K, b), 0.);
   const auto                motion =
     problem.vector_of(std::vector<double>(n, 1. / std::sqrt(1. * n)));
   const Equilibrium::RankOnes parts{{load(problem), 2.}};

@@ -108,8 +108,6 @@ namespace Morula
      * to them.
      */
     std::vector<Equilibrium::Vector> null_space;
-    /** Unknowns of a spline: they follow each other, on the same rank. */
-    unsigned int n_components = 1;
     /** Typical entry of a matrix; of a tangent in kPa µm^(dim-2). */
     double typical_entry = 1.;
     /** Whether making a matrix costs more than an iteration or two of Newton's

@@ -9,6 +9,7 @@
 #include <morula/solver/block_cholesky.h>
 
 #include <deal.II/base/index_set.h>
+#include <deal.II/lac/diagonal_matrix.h>
 
 #include <cstddef>
 #include <memory>
@@ -101,7 +102,7 @@ namespace Morula
   private:
     const LinearProblem                 &problem;
     std::unique_ptr<OverlappingCholesky> factorisation_;
-    std::size_t                          n_tried; // or left out
+    std::size_t                          n_tried = 0; // or left out
   };
 
   /** |diag K|, in the layout of @p like. */
@@ -110,31 +111,10 @@ namespace Morula
                      const Equilibrium::Vector &like);
 
   /** Jacobi's preconditioner of K + σ |diag K|: the inverse of
-   *  (1 + σ) |diag K|; always positive. */
-  class Jacobi
-  {
-  public:
-    using Vector = Equilibrium::Vector;
-
-    /** @param magnitude |diag K| */
-    Jacobi(const Vector &magnitude, const double shift)
-      : inverse(magnitude)
-    {
-      for (double &entry : inverse)
-        entry = entry > 0. ? 1. / ((1. + shift) * entry) : 1.;
-    }
-
-    /** No communication. */
-    void
-    vmult(Vector &y, const Vector &x) const
-    {
-      y = x;
-      y.scale(inverse);
-    }
-
-  private:
-    Vector inverse;
-  };
+   *  (1 + σ) |diag K|; always positive.
+   *  @param magnitude |diag K| */
+  DiagonalMatrix<Equilibrium::Vector>
+  jacobi(const Equilibrium::Vector &magnitude, const double shift);
 } // namespace Morula
 
 #endif

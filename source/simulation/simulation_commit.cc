@@ -332,7 +332,7 @@ namespace Morula
     // Boundary points of lost tissue go with it. A cut also changes what the
     // next step has to balance, so that its length is chosen anew.
     const TimerOutput::Scope section(timer, "removal");
-    watches.look_at_extrusion(tissue, time_steps.time(), row.dt);
+    watches.look_at_losses(tissue, time_steps.time(), row.dt);
     const std::vector<CellEvent> removals = remove_dead_cells(tissue,
                                                               model.development,
                                                               time_steps.time(),

@@ -267,33 +267,39 @@ namespace Morula
 
   template <int dim>
   void
-  Watches<dim>::look_at_extrusion(const Tissue<dim> &tissue,
-                                  const double       t,
-                                  const double       dt)
+  Watches<dim>::look_at_losses(const Tissue<dim> &tissue,
+                               const double       t,
+                               const double       dt)
   {
-    // Where the rate follows the state, what it was in the last step is kept
-    // in a column. Who leaves relieves the others only in the next step.
+    // Where a rate follows the state, what it was in the last step is kept in a
+    // column. Who leaves relieves the others only in the next step.
     constexpr double most = 0.3;
-    const auto       rate =
-      tissue.cells().columns().template find<double>("extrusion_rate");
-    if (!rate.exists() || has_told_of_extrusion)
-      return;
-    double largest = 0.;
-    for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      largest = std::max(largest, dt * tissue.cells()[p].get(rate));
-    largest               = Utilities::MPI::max(largest, tissue.communicator());
-    has_told_of_extrusion = largest > most;
-    if (!has_told_of_extrusion)
-      return;
-    std::ostringstream text;
-    text << "Warning: in the step to t = " << t
-         << " day the Extrusion/Rate of some cells times the step is "
-         << largest
-         << ", more than 0.3: cells leave together that would stay once "
-            "others have left, as the rate follows the state of the step's "
-            "beginning. Shorten Time/Step, or lower the rate. Later ones are "
-            "not told of.";
-    announce(text.str());
+    for (const auto &fate : model.development.fates().list)
+      if (dynamic_cast<const Dies<dim> *>(fate.get()) != nullptr)
+        for (unsigned int k = 0; k < fate->hazards(0).size(); ++k)
+          {
+            const CellHazard<dim> &hazard = fate->hazards(0)[k];
+            if (!hazard.expected.exists() || has_told_of_losses)
+              continue;
+            double largest = 0.;
+            for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+              largest =
+                std::max(largest, dt * tissue.cells()[p].get(hazard.expected));
+            largest = Utilities::MPI::max(largest, tissue.communicator());
+            has_told_of_losses = largest > most;
+            if (!has_told_of_losses)
+              continue;
+            std::ostringstream text;
+            text
+              << "Warning: in the step to t = " << t << " day the "
+              << hazard.rate.key() << " of some cells times the step is "
+              << largest
+              << ", more than 0.3: cells leave together that would stay once "
+                 "others have left, as the rate follows the state of the "
+                 "step's beginning. Shorten Time/Step, or lower the rate. "
+                 "Later ones are not told of.";
+            announce(text.str());
+          }
   }
 
 

@@ -70,12 +70,10 @@ namespace Morula
                   const bool                 with_obstacles,
                   const double               t);
 
-    /** Tells, once a run, of cells that leave at a rate which follows their
-     *  state faster than steps of @p dt (day) can follow it. Collective. */
+    /** Tells, once a run, of lives that end at a rate which follows the state
+     *  of cells faster than steps of @p dt (day) can follow it. Collective. */
     void
-    look_at_extrusion(const Tissue<dim> &tissue,
-                      const double       t,
-                      const double       dt);
+    look_at_losses(const Tissue<dim> &tissue, const double t, const double dt);
 
   private:
     const TissueModel<dim>              &model;
@@ -86,7 +84,7 @@ namespace Morula
     PieceWatch<dim>                      watch;
     unsigned int                         n_pieces_ = 0;
     bool has_joined = false, has_parted = false, has_told_of_gap = false,
-         has_told_of_cells = false, has_told_of_extrusion = false;
+         has_told_of_cells = false, has_told_of_losses = false;
   };
 } // namespace Morula
 

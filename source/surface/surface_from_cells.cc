@@ -268,7 +268,7 @@ namespace Morula
       PointList<dim>               former; // near this rank's part, by id
       std::optional<NearTree<dim>> tree;
       PointList<dim>               list;
-      const Column<unsigned int>   cavity = cavity_column(columns);
+      const Column<unsigned int>   cavity = columns.cavity;
       std::vector<Tensor<1, dim>>  areas; // outward, µm^(dim-1)
       std::vector<bool>            is_free;
     };

@@ -54,6 +54,14 @@ namespace Morula
            condition == SurfaceCondition::slip;
   }
 
+  /** A value of BoundaryColumns::cavity, the same for no two bodies' cavities;
+   *  0: it is not known, 1: the outside. @param faced as in CellSurface */
+  constexpr unsigned int
+  faced_cavity(const unsigned int body, const unsigned int faced)
+  {
+    return faced == 0 ? 1 : 1 + faced + (body << 16);
+  }
+
   /**
    * The columns of the boundary points. All scenes have the same ones, except
    * those of a point's patch, which exist only if the scene refines the
@@ -131,6 +139,9 @@ namespace Morula
     /** Which two-sided obstacles hold the point, as a sum of 2^k for number k
      *  of them; only where there are some. */
     Column<unsigned int> touched;
+    /** Which cavity the point faces, see faced_cavity(); only where an effect
+     *  has to know. */
+    Column<unsigned int> cavity;
   };
 
   /**

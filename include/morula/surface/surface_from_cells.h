@@ -4,7 +4,6 @@
 #ifndef morula_surface_surface_from_cells_h
 #define morula_surface_surface_from_cells_h
 
-#include <morula/particles/cavity_column.h>
 #include <morula/particles/tissue.h>
 #include <morula/surface/walls.h>
 

@@ -72,8 +72,9 @@ namespace Morula
           if (one.where.empty() && !key->is_default())
             key->refuse("its default, as " + one.where.path() + " is not set",
                         "Set " + one.where.path() + ", or remove this key.");
-        for (const LumenKeys &keys : parameters.all())
+        for (const LumenKeys *const lumen : parameters.all())
           {
+            const LumenKeys &keys = *lumen;
             if (keys.where.empty())
               keys.where.refuse("a condition that chooses the surface of a "
                                 "lumen",
@@ -106,7 +107,7 @@ namespace Morula
       void
       add_columns(BoundaryColumns<dim> &columns) const override
       {
-        columns.template add<unsigned int>(
+        columns.cavity = columns.template add<unsigned int>(
           {"cavity", "", "number of the cavity that the point faces"});
         columns.template add<unsigned int>({"lumen",
                                             "",

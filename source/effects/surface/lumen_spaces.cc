@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/effects/surface/lumen_spaces.h>
-#include <morula/particles/cavity_column.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
 
@@ -32,7 +31,7 @@ namespace Morula
     {
       const BoundaryPoints<dim> &points = tissue.boundary_points();
       const auto                 space  = space_column(tissue);
-      const auto                 cavity = cavity_column(points.columns());
+      const auto                 cavity = points.columns().cavity;
       Votes                      own, all;
       for (unsigned int p = 0; p < points.size(); ++p)
         ++own[{points[p].get(cavity), points[p].get(space)}];
@@ -66,7 +65,7 @@ namespace Morula
       // cells that touch. A row that thin has torn, too.
       const BoundaryPoints<dim> &points = tissue.boundary_points();
       const auto                 space  = space_column(tissue);
-      const auto                 cavity = cavity_column(points.columns());
+      const auto                 cavity = points.columns().cavity;
       const double   l    = std::pow(mean_cell_volume(tissue), 1. / dim);
       const double   near = std::max(l, 0.5 * tissue.grid().box().spacing());
       PointList<dim> walls(1), cells(1);
@@ -194,7 +193,7 @@ namespace Morula
       }
 
     const BoundaryColumns<dim> &columns = tissue.boundary_points().columns();
-    const auto column = space_column(tissue), cavity = cavity_column(columns);
+    const auto column = space_column(tissue), cavity = columns.cavity;
     for (unsigned int p = 0; p < tissue.boundary_points().size(); ++p)
       {
         const auto         point = tissue.boundary_point(p);

@@ -31,8 +31,7 @@ namespace
     explicit Surface(const Points &points)
     {
       columns.need_bodies();
-      const auto cavity =
-        columns.template add<unsigned int>({"cavity", "", "c"});
+      columns.cavity = columns.template add<unsigned int>({"cavity", "", "c"});
       const auto lumen = columns.template add<unsigned int>({"lumen", "", "l"});
       tissue           = std::make_unique<Tissue<dim>>(GridParameters(),
                                              CellColumns<dim>(),
@@ -47,7 +46,7 @@ namespace
             const auto view                 = make_array_view(row);
             const auto [body, faced, space] = points[k];
             columns.body.set(view, body);
-            cavity.set(view, faced);
+            columns.cavity.set(view, faced);
             lumen.set(view, space);
             Point<dim> x;
             x[0] = 90. * k;

@@ -100,12 +100,14 @@ namespace Morula
     std::deque<LumenKeys> named;
 
     /** The lumens that the scene has. */
-    std::vector<LumenKeys>
+    std::vector<const LumenKeys *>
     all() const
     {
-      std::vector<LumenKeys> all(named.begin(), named.end());
+      std::vector<const LumenKeys *> all;
       if (!one.where.empty())
-        all.insert(all.begin(), one);
+        all.push_back(&one);
+      for (const LumenKeys &lumen : named)
+        all.push_back(&lumen);
       return all;
     }
     bool
@@ -117,8 +119,8 @@ namespace Morula
     details() const override
     {
       std::string text;
-      for (const LumenKeys &lumen : all())
-        text += lumen.details();
+      for (const LumenKeys *const lumen : all())
+        text += lumen->details();
       return text;
     }
     EffectFacts

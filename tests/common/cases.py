@@ -153,8 +153,11 @@ class Case(Runs):
             ("at least", at_least), ("at most", at_most)) if math.isfinite(limit))
         assert limits, f"the figure '{text}' has no limit"
         holds = at_least <= value <= at_most
-        self.table.add("figures", {"figure": text, "value": f"{value:.4g}",
-                                   "limits": limits + ("" if holds else " **not met**")})
+        used = (value / (at_most or 1) if math.isinf(at_least) else
+                at_least / (value or 1) if math.isinf(at_most) else
+                abs(2 * value - at_least - at_most) / (at_most - at_least or 1))
+        self.table.add("figures", {"figure": text, "value": f"{value:.4g}", "limits": limits + (
+            "" if holds else " **not met**"), "of the limit": f"{used:.3g}"})
         assert holds, f"{text}: {value:.6g} is not {limits}"
 
     def finish(self):

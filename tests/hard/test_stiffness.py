@@ -29,19 +29,19 @@ def test_cook(case, nu, form):
         "Solver/Linear solver": "direct"},
         exits=(0,) if pooled else (0, 2))
     if trial.code == 2:
-        case.found(f"energy, {form}, nu = {nu}: fails at t", trial.last("time"),
+        case.found(f"nu = {nu}: energy, {form}, fails at t", trial.last("time"),
                    at_most=0.99)
         return
     volume, energy = PANEL[nu]
     error = trial.last("mean_energy_density") / energy - 1
     if pooled:
-        case.found(f"energy, {form}, nu = {nu}", error, equals=(0, 0.01))
+        case.found(f"nu = {nu}: energy, {form}", error, equals=(0, 0.01))
         ratio = trial.last("total_volume") / trial.rows["total_volume"][0]
-        case.found(f"volume, nu = {nu}", ratio / volume - 1, equals=(0, 3e-4))
+        case.found(f"nu = {nu}: volume", ratio / volume - 1, equals=(0, 3e-4))
     elif nu == 0.4999:
-        case.found(f"energy, {form}, nu = {nu}", error, at_most=-0.04)
+        case.found(f"nu = {nu}: energy, {form}", error, at_most=-0.04)
     else:
-        case.found(f"energy, {form}, nu = {nu}", error, equals=(0, 0.15))
+        case.found(f"nu = {nu}: energy, {form}", error, equals=(0, 0.15))
 
 
 def energy_density(lame_constants, ln_J, trace):
@@ -52,8 +52,8 @@ def energy_density(lame_constants, ln_J, trace):
 
 def effort(case, name, trial):
     figures = trial.figures()
-    case.found(f"tangents a step, {name}", figures["tangents/step"], at_most=5)
-    case.found(f"Newton iterations a step, {name}", figures["Newton/step"], at_most=12)
+    case.found(f"{name}: tangents a step", figures["tangents/step"], at_most=5)
+    case.found(f"{name}: Newton iterations a step", figures["Newton/step"], at_most=12)
 
 
 def test_confined(case):
@@ -100,7 +100,7 @@ def test_stiff_core(case):
     fine = case.trial("stiff-core", "stiff-core.prm")
     errors = [trial.last("mean_energy_density") / exact - 1 for trial in (coarse, fine)]
     for name, error in zip(("coarse", "fine"), errors):
-        case.found(f"energy, stiff core, {name}", error, at_least=-0.02, at_most=0.4)
+        case.found(f"{name}: energy", error, at_least=-0.02, at_most=0.4)
     case.found("energy, stiff core: error with h halved over that before",
                errors[1] / errors[0], at_most=0.5)
     effort(case, "stiff-core", fine)

@@ -52,11 +52,14 @@ class Ladder:
         rungs = [errors(*self.trials(case, size)) for size in sizes]
         found = {name: [rung[name] for rung in rungs] for name in rungs[0]}
         orders = {name: order(sizes, values) for name, values in found.items()}
+        asserted = {**{name: f" (≥ {least:g})" for name, least in self.least_orders.items()},
+                    **{name: f" (error ≤ {most:g})" for name, most in self.most.items()}}
         case.table.add("ladders", {
             "ladder": self.name, "varied": f"{self.key}: {sizes[0]:g} → {sizes[-1]:g}",
             "fixed": self.fixed, **{
-                name: f"{values[0]:.1e} → {values[-1]:.1e}, order {orders[name]:.1f}"
-                for name, values in found.items()}})
+                name: f"{values[0]:.1e} → {values[-1]:.1e}"
+                      + (f", order {orders[name]:.1f}" if name not in self.most else "")
+                      + asserted.get(name, "") for name, values in found.items()}})
         for name, least in self.least_orders.items():
             case.found(f"{self.name}: order of {name}", orders[name], at_least=least)
         for name, most in self.most.items():

@@ -17,16 +17,10 @@ def expected_fit(step):
 
 
 def notes():
-    return f"""Fits are over {fits.RANGE[0]:g} ≤ t ≤ {fits.RANGE[1]:g} days, all step ends alike: exponentials by
-least squares of the logarithm, the line by least squares of the values.
-
-The rate of the number of cells: a cell waits W ~ Exp(Λ), then takes T. Far from the start N_p
-grows as e^{{rt}} with 2 e^{{-rT}} Λ/(Λ + r) = 1, which for T = 1 day and Λ = 1/day is
-r = {renewal.rate():.4f}/day. Over 2 ≤ t ≤ 4 days the expected number of cells, which began together, fits
-{expected_fit(0.001)}; Morula places every phase change at its exact time and differs from that only
-by chance. Where phases change at step ends, the wait is rounded up: r is {renewal.rate(0.1):.3f} for steps of
-0.1 day, and the expected number fits {expected_fit(0.1)}. The paper's {CELLS_FIT.factor:.0f} e^{{{CELLS_FIT.rate}t}}
-is what such rounding gives; its step is not stated.
+    return f"""Fits are over {fits.RANGE[0]:g} ≤ t ≤ {fits.RANGE[1]:g} days: exponentials by least squares of
+the logarithm. The expected number of cells (theory.md, 6.4) grows by {renewal.rate():.4f} a day in the long run, and
+fits {expected_fit(0.001)}. With phases that change at the ends of steps of 0.1 day it fits {expected_fit(0.1)}, as
+the paper's {CELLS_FIT.factor:.0f} e^{{{CELLS_FIT.rate}t}} does.
 """
 
 

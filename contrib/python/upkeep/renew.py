@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Measures all tables of doc/results.md and writes that page, in some hours, on a
+"""Measures the tables of doc/results.md and writes that page, in some hours, on a
 machine with nothing else to do. Done for a version, not for a change.
 
     contrib/upkeep/renew                the whole page, and the pictures of doc/images
-    contrib/upkeep/renew steps speed    prints these sections; the page stays
+    contrib/upkeep/renew hard speed     prints these sections; the page stays
 
-A section that fails says so in the page, and gives exit code 1; the others are there.
+Runs that are neither fast nor right, columns that nobody reads and figures that say the
+same are left out. A section that fails says so in the page, and gives exit code 1.
 """
 import datetime
 import os
@@ -14,104 +15,108 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
-from morula.execute import cores, overrides
+from morula.execute import cores
 from morula.program import Program
-from morula.run import Run
 from morula.tables import markdown
 
 from . import ROOT, accuracy, parser, said
 
 OUTPUT = ROOT / "output/renew"
+LEFT_OUT = "unknowns", "memory, MB", "runs", "mean", "smallest", "largest", "minutes", "refilled"
 
 
-def deeper(text, level):
-    """Markdown whose highest headings are of this level, and the others below."""
-    highest = min((len(marks) for marks in re.findall("^#+(?= )", text, re.M)), default=0)
-    return re.sub("^#+(?= )", lambda marks: "#" * (len(marks[0]) - highest + level),
-                  text, flags=re.M)
+def tables_of(text):
+    """The tables of a Markdown text: lists of rows of cells, the header first."""
+    return [[re.split(r"(?<!\\) \| ", line[2:-2].strip()) for line in lines.splitlines()
+             if "---" not in line] for lines in re.findall(r"(?:^\|.*\n?)+", text, re.M)]
 
 
-def paper():
-    return deeper(said("contrib/reproduce", "--fresh", "--document", "--morula", "build/morula"), 3)
+def without(table, keep=lambda row: True):
+    """A table without the columns that are left out and the rows that are not kept."""
+    columns = [i for i, name in enumerate(table[0]) if name not in LEFT_OUT]
+    return markdown([table[0][i] for i in columns],
+                    [[row[i].replace("\\|", "|") for i in columns] for row in table[1:] if keep(row)])
+
+
+def ladder(title, text):
+    """The tables of a table.md of contrib/accuracy: of runs those than which none is both faster
+    and better, of ladders those that are no tolerance."""
+    parts = [f"### Error against seconds: {title}"]
+    for heading, body in re.findall(r"^#+ ((?:Runs|Each|Scatter).*)\n([^#]*)", text, re.M):
+        def kept(row):
+            return ("Solver/" not in row[0] if not heading.startswith("Runs") else
+                    re.match(r"the scene itself|\*\*", row[0]) or re.search("failed|●", "".join(row)))
+        parts += [f"#### {heading}", *(without(table, kept) for table in tables_of(body))]
+    return "\n\n".join(parts)
 
 
 def ladders():
-    parts = []
+    parts = ["●: no run is both faster and better; others are left out. ★: the fastest for the "
+             "wanted error.\nIn brackets: cannot be told from zero, or does not count."]
     for name, words in accuracy.LADDERS.items():
         output = OUTPUT / "accuracy" / name
         said("contrib/accuracy", *words, "--again", "--output", output)
         for picture in output.glob("*.png"):
             shutil.copy(picture, ROOT / f"doc/images/accuracy/{name}-{picture.name}")
-        tables = (output / "table.md").read_text(encoding="utf-8").partition("\n## ")
-        parts += [f"### Error against seconds: {name}",
-                  f"```\n{accuracy.wrapped(words)}\n```", deeper("## " + tables[2], 4)]
+        parts.append(ladder(name, (output / "table.md").read_text(encoding="utf-8")))
     return "\n\n".join(parts)
 
 
-def cases(kind, title):
+def cases(kind):
     """What the cases below tests/KIND write at full length, whether limits are met or not."""
     tables = OUTPUT / kind
     shutil.rmtree(tables, ignore_errors=True)
     subprocess.run(["/usr/bin/python3", "-m", "pytest", "-q", f"tests/{kind}", "--ring=release",
                     f"--work={OUTPUT}/runs", f"--tables={tables}"], cwd=ROOT, stdout=sys.stderr)
-    found = sorted(tables.glob("*.md"))
+    found = {file.stem.replace("_", " "): {table[0][0]: table[1:] for table in tables_of(
+        file.read_text(encoding="utf-8"))} for file in sorted(tables.glob("*.md"))}
     if not found:
         raise RuntimeError(f"pytest has written no tables of tests/{kind}")
-    return "\n\n".join(f"### {title}: {file.stem.replace('_', ' ')}\n\n"
-                       + file.read_text(encoding="utf-8").strip() for file in found)
+    return found
 
 
-def step(number, **keys):
-    """What a step program prints, but for what the run inside it says."""
-    text = said(f"build/step-{number}", f"prm/step-{number}.prm", "--replace",
-                *overrides({"Output directory": OUTPUT / f"step-{number}", **keys}))
-    lines = [line for line in text.splitlines() if line and not re.match(
-        r"step \d|Finished|  |(Warning|Material|Applied|Piece): ", line)]
-    return "```\n" + "\n".join(lines) + "\n```"
+def orders(found):
+    """Ladders of all cases of verification, and the limits that are not met."""
+    rows = [[f"{case}: {row[0]}", row[1], row[3], next(filter(None, row[4:]), "")]
+            for case, parts in found.items() for row in parts["ladder"]]
+    missed = [f"- **Not met**: {case}, {figure}: {value} ({limit.partition(' **')[0]})"
+              for case, parts in found.items() for figure, value, limit, _ in parts["figure"]
+              if "not met" in limit]
+    return "\n\n".join([markdown(["case: ladder", "varied", "displacement", "stress"], rows),
+                        "\n".join(missed)]).strip()
 
 
-def laws_and_rules():
-    """The four runs of step 7."""
-    rows = []
-    for law in ("none", "crowding limited"):
-        for rule in ("random", "long axis"):
-            step(7, **{"Growth/Law": law, "Proliferation/Cell cycle/Division axis": rule})
-            last = Run(OUTPUT / "step-7").statistics.iloc[-1]
-            rows.append([f"{law}, {rule}", *(f"{number:.5g}" for number in (
-                last["cells"], last["mean_energy_density"], last["min_elastic_volume_ratio"],
-                last["max_elastic_volume_ratio"], last["ymax"] - last["ymin"]))])
-    return markdown(["growth law, division rule", "cells", "mean energy, kPa",
-                     "smallest $J_e$", "largest $J_e$", "largest width, µm"], rows)
-
-
-def steps():
-    top = {"Growth/Isotropic/Stretch": "1 + 0.1*t*(Z > 100)"}
-    parts = {**{f"Step {number}": step(number) for number in range(1, 7)},
-             "Step 3, only the top grows": step(3, **top),
-             "Step 7, laws and rules": laws_and_rules()}
-    return "\n\n".join(f"### {title}\n\n{parts[title]}" for title in sorted(parts))
+def limits(found):
+    """Of the figures of hard cases that are alike the one nearest to its limit, but for those of
+    less than a tenth of it."""
+    rows = {}
+    for case, parts in found.items():
+        for figure, value, limit, used in parts["figure"]:
+            of, _, kind = figure.rpartition(": ")
+            alike = case, figure if "not met" in limit else kind
+            rows[alike] = max(rows.get(alike, (0.1,)), (float(used), case, kind, of, value, limit))
+    return markdown(["case", "what is asserted", "of", "measured", "limit"],
+                    [row[1:] for row in rows.values() if row[1:]])
 
 
 SECTIONS = {  # name: title, page, what measures it
-    "paper": ("The paper's numbers", "reproduction.md", paper),
+    "paper": ("The paper's numbers", "reproduction.md", lambda: said(
+        "contrib/reproduce", "--fresh", "--document", "--morula", "build/morula")),
     "accuracy": ("Error against seconds", "accuracy-and-cost.md", ladders),
-    "verification": ("Verification", "verification.md",
-                     lambda: cases("verification", "Verification")),
-    "hard": ("Hard cases", "hard-cases.md", lambda: cases("hard", "Hard case")),
-    "showcase": ("Published data", "showcase.md",
-                 lambda: said("contrib/upkeep/showcase", "--again")),
-    "speed": ("Speed", "performance.md", lambda: said("contrib/upkeep/benchmark")),
-    "steps": ("Steps", "steps/README.md", steps)}
+    "verification": ("Verification", "verification.md", lambda: orders(cases("verification"))),
+    "hard": ("Hard cases", "hard-cases.md", lambda: limits(cases("hard"))),
+    "showcase": ("Published data", "showcase.md", lambda: re.sub(
+        r"(?:^\|.*\n?)+", lambda lines: without(tables_of(lines[0])[0]) + "\n",
+        said("contrib/upkeep/showcase", "--again"), flags=re.M)),
+    "speed": ("Speed", "performance.md", lambda: said("contrib/upkeep/benchmark"))}
 
 
 def head():
     """With what the page is made."""
     commit = said("git", "describe", "--always", "--dirty", "--exclude=*")
-    processor = re.search(r"^model name\s*: (.*)",
-                          Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.M)[1]
-    return ("# Results\n\nAll measured tables; pages link to their headings here. "
+    processor = re.search(r"^model name\s*: (.*)", said("cat", "/proc/cpuinfo"), re.M)[1]
+    return ("# Results\n\nThe tables that a version was measured with; pages link here. "
             "`contrib/upkeep/renew` writes this page\nfrom runs, for a version and not for "
             f"a change.\n\n{Program(ROOT / 'build/morula').version}, {processor}, "
             f"{cores()} cores; {datetime.date.today()}, commit {commit}.")

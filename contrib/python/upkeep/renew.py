@@ -46,7 +46,7 @@ def ladder(title, text):
     parts = [f"### Error against seconds: {title}"]
     for heading, body in re.findall(r"^#+ ((?:Runs|Each|Scatter).*)\n([^#]*)", text, re.M):
         def kept(row):
-            return (not re.search(r"Solver/|\[", "".join(row)) if heading[0] != "R" else
+            return (not re.search(r"Solver/|\[|spread", "".join(row)) if heading[0] != "R" else
                     re.match(r"the scene itself|\*\*", row[0]) or re.search("failed|●", "".join(row)))
         parts += [f"#### {heading}", *(without(table, kept) for table in tables_of(body))]
     return "\n\n".join(parts)

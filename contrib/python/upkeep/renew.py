@@ -24,7 +24,7 @@ from . import ROOT, accuracy, parser, said
 
 OUTPUT = ROOT / "output/renew"
 LEFT_OUT = ("unknowns", "memory, MB", "runs", "mean", "smallest", "largest", "refilled", "cells",
-            "minutes", "volume off, relative", "surface over that of a ball", "of the diameter")
+            "minutes", "ours / paper", "volume off, relative", "surface over that of a ball")
 
 
 def tables_of(text):
@@ -40,9 +40,12 @@ def without(table, keep=lambda row: True):
                     [[row[i].replace("\\|", "|") for i in columns] for row in table[1:] if keep(row)])
 
 
+def shorter(text):
+    return re.sub(r"(?:^\|.*\n?)+", lambda lines: without(*tables_of(lines[0])) + "\n", text, flags=re.M)
+
+
 def ladder(title, text):
-    """The tables of a table.md of contrib/accuracy: of runs those than which none is both faster
-    and better, of ladders those that are no tolerance."""
+    """The tables of a table.md of contrib/accuracy, but for runs behind the front, and tolerances."""
     parts = [f"### Error against seconds: {title}"]
     for heading, body in re.findall(r"^#+ ((?:Runs|Each|Scatter).*)\n([^#]*)", text, re.M):
         def kept(row):
@@ -101,14 +104,13 @@ def limits(found):
 
 
 SECTIONS = {  # name: title, page, what measures it
-    "paper": ("The paper's numbers", "reproduction.md", lambda: said(
-        "contrib/reproduce", "--fresh", "--document", "--morula", "build/morula")),
+    "paper": ("The paper's numbers", "reproduction.md", lambda: shorter(said(
+        "contrib/reproduce", "--fresh", "--document", "--morula", "build/morula"))),
     "accuracy": ("Error against seconds", "accuracy-and-cost.md", ladders),
     "verification": ("Verification", "verification.md", lambda: orders(cases("verification"))),
     "hard": ("Hard cases", "hard-cases.md", lambda: limits(cases("hard"))),
-    "showcase": ("Published data", "showcase.md", lambda: re.sub(
-        r"(?:^\|.*\n?)+", lambda lines: without(tables_of(lines[0])[0]) + "\n",
-        said("contrib/upkeep/showcase", "--again"), flags=re.M)),
+    "showcase": ("Published data", "showcase.md", lambda: shorter(said(
+        "contrib/upkeep/showcase", "--again"))),
     "speed": ("Speed", "performance.md", lambda: said("contrib/upkeep/benchmark"))}
 
 

@@ -110,7 +110,7 @@ namespace Morula
 
   /** The records of all ranks, by rank. deal.II's all_gather compresses what it
    *  sends, on one rank, too: a fifth of a run whose surface is merged in each
-   *  step (doc/performance.md, Free tissue). Collective. */
+   *  step (doc/performance.md). Collective. */
   template <typename Record>
   std::vector<std::vector<Record>>
   gather_everywhere(const std::vector<Record> &own, const MPI_Comm comm)

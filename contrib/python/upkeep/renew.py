@@ -83,7 +83,7 @@ def cases(kind):
 def orders(found):
     """Ladders of all cases of verification, and the limits that are not met."""
     rows = [[f"{case}: {row[0]}", row[3], next(filter(None, row[4:]), "")]
-            for case, parts in found.items() for row in parts["ladder"]]
+            for case, parts in found.items() for row in parts["ladder"] if row[0][-3:] != "-dt"]
     missed = [f"- **Not met**: {case}, {figure}: {value} ({limit.partition(' **')[0]})"
               for case, parts in found.items() for figure, value, limit, _ in parts["figure"]
               if "not met" in limit]

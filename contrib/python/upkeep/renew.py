@@ -92,13 +92,13 @@ def orders(found):
 
 
 def limits(found):
-    """Of the figures of hard cases that are alike the one nearest to its limit, from a third on."""
+    """Of the figures of hard cases that are alike the one nearest to its limit, from half on."""
     rows = {}
     for case, parts in found.items():
         for figure, value, limit, used in parts["figure"]:
             of, _, kind = figure.rpartition(": ")
             alike = case, figure if "not met" in limit else kind
-            rows[alike] = max(rows.get(alike, (1 / 3,)), (float(used), case, kind, of, value, limit))
+            rows[alike] = max(rows.get(alike, (0.5,)), (float(used), case, kind, of, value, limit))
     return markdown(["case", "what is asserted", "of", "measured", "limit"],
                     [row[1:] for row in rows.values() if row[1:]])
 

@@ -48,7 +48,7 @@ namespace Morula
 
   /**
    * Which tissue belongs together where surfaces face each other across a gap:
-   * doc/theory.md, section 3.3b. A grid cell near such a gap is *contested*.
+   * doc/theory.md, section 3.3a. A grid cell near such a gap is *contested*.
    * Two cells are *bonded* if they are neighbours and no patch of the surface
    * stands between them. The cells that reach into a contested grid cell form
    * parts, those that bonds inside of it connect. Parts of two grid cells that

@@ -10,6 +10,7 @@
 #include <deal.II/base/mpi.templates.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -359,22 +360,24 @@ namespace Morula
   Surroundings<dim>::Surroundings(const std::vector<Point<dim>> &places,
                                   const Tissue<dim>             &tissue,
                                   const std::vector<Side<dim>>  &sides)
-    : places(places)
-    , cells(tissue.cells())
-    , grid(tissue.grid())
+    : cells(tissue.cells())
+    , comm(tissue.communicator())
   {
     // Cells within reach are at most in the neighbouring grid cells, of this or
-    // another rank; they come with their volumes. Bins find those around
-    // each place. Their weights fall to zero at the reach, so that no cell
-    // enters or leaves with a jump, and are made linear after that,
-    // doc/theory.md (4.6c). A place without cells keeps an empty list.
-    const double radius = reach * grid.box().spacing();
-    const auto   volume = [&](const unsigned int p, std::vector<double> &list) {
-      list.push_back(cells[p].volume());
-      list.push_back(cells.body(p));
+    // another rank; they come with their volumes and where they are. Bins find
+    // those around each place. Their weights fall to zero at the reach, so that
+    // no cell enters or leaves with a jump, and are made linear after that,
+    // doc/theory.md (4.6c). A place without cells keeps an empty list. In the
+    // end the ranks are told which of their cells count here.
+    const BackgroundGrid<dim> &grid   = tissue.grid();
+    const double               radius = reach * grid.box().spacing();
+    const unsigned int         rank   = Utilities::MPI::this_mpi_process(comm);
+    const auto append = [&](const unsigned int p, std::vector<double> &list) {
+      list.insert(list.end(),
+                  {cells[p].volume(), 1. * cells.body(p), 1. * rank, 1. * p});
     };
     const PointList<dim> near =
-      near_points(places, cells, {2, volume, Ties::lowest_id}, grid, 1);
+      near_points(places, cells, {4, append, Ties::lowest_id}, grid, 1);
     const PointBins<dim> bins(grid.box(), near.positions);
     for (std::size_t place = 0; place < places.size(); ++place)
       {
@@ -410,6 +413,42 @@ namespace Morula
         for (std::size_t k = 0; k < around.size(); ++k)
           shares.back().emplace_back(around[k], weights[k]);
       }
+
+    std::vector<bool> counts(near.size());
+    for (const auto &of_place : shares)
+      for (const auto &[i, weight] : of_place)
+        counts[i] = true;
+    // Answers come in the order of the ranks, and of the cells on each.
+    using Cell = std::array<unsigned int, 3>; // rank, number there, place here
+    std::vector<Cell> list;
+    for (unsigned int i = 0; i < near.size(); ++i)
+      if (counts[i])
+        list.push_back(Cell{{static_cast<unsigned int>(near.row(i)[2]),
+                             static_cast<unsigned int>(near.row(i)[3]),
+                             i}});
+    std::sort(list.begin(), list.end());
+    std::map<unsigned int, std::vector<unsigned int>> wanted;
+    std::vector<std::size_t>                          answer(near.size());
+    for (std::size_t k = 0; k < list.size(); ++k)
+      {
+        wanted[list[k][0]].push_back(list[k][1]);
+        answer[list[k][2]] = k;
+      }
+    for (auto &of_place : shares)
+      for (auto &[i, weight] : of_place)
+        i = answer[i];
+    asked = send_records(wanted, comm);
+  }
+
+  template <int dim>
+  std::vector<bool>
+  Surroundings<dim>::counts() const
+  {
+    std::vector<bool> result(cells.size());
+    for (const auto &[rank, list] : asked)
+      for (const unsigned int p : list)
+        result[p] = true;
+    return result;
   }
 
   template class Surroundings<2>;

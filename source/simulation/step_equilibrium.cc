@@ -198,11 +198,10 @@ namespace Morula
           const Equilibrium::Evaluation evaluation = balance_in_turns(
             balance,
             participants,
-            [&]() {
+            [&](const Renewal &early) {
               is_solved                           = false;
               const Equilibrium::Evaluation found = find_in_turn(
-                attempt, parts.is_exact, balance, linear, u, report);
-              // Contact of folds does not see what meets then.
+                attempt, parts.is_exact, early, balance, linear, u, report);
               if (tissue.cells().has_parts() &&
                   turns_too_far(tissue, {space, u, comm}))
                 throw StepFailed(
@@ -232,6 +231,7 @@ namespace Morula
     Equilibrium::Evaluation
     find_in_turn(const Attempt        &attempt,
                  const bool            is_exact,
+                 const Renewal        &early,
                  MomentumBalance<dim> &balance,
                  const LinearProblem  &linear,
                  Equilibrium::Vector  &u,
@@ -260,7 +260,7 @@ namespace Morula
       try
         {
           return Morula::solve(
-            balance, linear, scales, parameters, timer, u, report);
+            balance, linear, scales, parameters, timer, u, report, early);
         }
       catch (const StepFailed &)
         {

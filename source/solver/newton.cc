@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <ostream>
 #include <stdexcept>
@@ -46,6 +47,14 @@ namespace Morula
      *  displacements, one with a kept tangent anywhere below: it has to reach
      *  this part of the bound. */
     constexpr double part_of_kept = 0.1;
+
+    /** What is held fixed may be renewed as soon as the first iteration has
+     *  brought the residual down to this part without moving anything by more
+     *  than a grid spacing: then what is left of it counts little in comparison
+     *  with what the renewal changes. */
+    constexpr double early = 0.1;
+    /** What needs more turns than these is not renewed early any more. */
+    constexpr unsigned int last_early_turn = 10;
 
     /** The largest change of a coefficient by the last iteration, µm. */
     double
@@ -153,9 +162,6 @@ namespace Morula
       double
       left_over(const NOX::Solver::Generic &solver) const
       {
-        // The next change is about the last one times the rate of convergence,
-        // doc/theory.md (5.3). Once the residual has risen that rate says
-        // nothing.
         const double size = last_motion(solver);
         if (!(size > 0.))
           return std::numeric_limits<double>::infinity();
@@ -173,10 +179,8 @@ namespace Morula
         const double norm      = group.getNormF();
         const double energy    = group.evaluation().energy;
         const int    iteration = solver.getNumIterations();
-        // Here is noted what the test above asks of this iteration, whether it
-        // was progress, and what the report tells of it. The lowest residual
-        // stays until it is beaten by a hundredth, so that many small falls add
-        // up to progress.
+        // The lowest residual stays until it is beaten by a hundredth, so that
+        // many small falls add up to progress.
         const bool falls = norm < (1. - least_fall) * lowest_norm;
         if (falls || (has_energy && energy < lowest_energy))
           progress_at = iteration;
@@ -192,11 +196,10 @@ namespace Morula
         last_norm = norm;
         if (!report.wants_trace)
           return;
-        NewtonIteration state;
-        state.iteration  = iteration;
-        state.evaluation = group.evaluation();
-        state.residual   = norm;
-        state.place      = report.place;
+        NewtonIteration state{report.place,
+                              static_cast<unsigned int>(iteration),
+                              group.evaluation(),
+                              norm};
         if (iteration > 0)
           {
             state.part      = group.part_taken();
@@ -239,8 +242,7 @@ namespace Morula
      * of the last ten states of this solve (Grippo, Lampariello and Lucidi,
      * 1986). A soft motion, such as a fold's, that follows a curved stiff path
      * would otherwise be cut to a small part of itself in every other
-     * iteration. The state where the solve starts does not count: its energy,
-     * with the growth of the whole step, would admit anything.
+     * iteration.
      */
     class EnergyLineSearch : public NOX::LineSearch::Generic
     {
@@ -333,24 +335,17 @@ namespace Morula
     };
 
 
-    class EnergyLineSearchFactory : public NOX::LineSearch::UserDefinedFactory
+    /** How NOX wants to be given it. */
+    struct Factory : public NOX::LineSearch::UserDefinedFactory
     {
-    public:
-      EnergyLineSearchFactory(const Equilibrium &problem, const bool has_energy)
-        : problem(problem)
-        , has_energy(has_energy)
-      {}
-
       Teuchos::RCP<NOX::LineSearch::Generic>
       buildLineSearch(const Teuchos::RCP<NOX::GlobalData> &,
                       Teuchos::ParameterList &) const override
       {
-        return Teuchos::rcp(new EnergyLineSearch(problem, has_energy));
+        return search;
       }
 
-    private:
-      const Equilibrium &problem;
-      const bool         has_energy;
+      Teuchos::RCP<NOX::LineSearch::Generic> search;
     };
 
     Teuchos::RCP<Teuchos::ParameterList>
@@ -384,16 +379,40 @@ namespace Morula
       newton.set("Forcing Term Maximum Tolerance", 1e-1);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
       newton.set("Set Tolerance in Parameter List", true);
-      // A linear solve that fails throws StepFailed: there is no direction to
-      // rescue.
       newton.set("Rescue Bad Newton Solve", false);
 
       Teuchos::ParameterList &search = parameters->sublist("Line Search");
       search.set("Method", "User Defined");
-      const Teuchos::RCP<NOX::LineSearch::UserDefinedFactory> factory =
-        Teuchos::rcp(new EnergyLineSearchFactory(problem, has_energy));
-      search.set("User Defined Line Search Factory", factory);
+      const auto factory = Teuchos::rcp(new Factory);
+      factory->search = Teuchos::rcp(new EnergyLineSearch(problem, has_energy));
+      search.set<Teuchos::RCP<NOX::LineSearch::UserDefinedFactory>>(
+        "User Defined Line Search Factory", factory);
       return parameters;
+    }
+
+    /** What @p run returns, or the message of a failure that it throws. */
+    std::string
+    message_of(const std::function<std::string()> &run)
+    {
+      try
+        {
+          return run();
+        }
+      catch (const StepFailed &error)
+        {
+          return error.what();
+        }
+      catch (const char *message) // NOX before Trilinos 14.2
+        {
+          return message;
+        }
+      catch (const std::runtime_error &error) // and since
+        {
+          // Errors that are not NOX's own are passed on.
+          if (std::string(error.what()).find("NOX") == std::string::npos)
+            throw;
+          return error.what();
+        }
     }
   } // namespace
 
@@ -404,16 +423,18 @@ namespace Morula
         const SolverParameters &parameters,
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
-        NewtonReport           &report)
+        NewtonReport           &report,
+        const Renewal          &renew)
   {
     // The state u, which is where the solve starts, is evaluated first,
     // together with the rounding error of its residual. From both follows the
     // bound of doc/theory.md (5.3): a start that is below it is the solution
     // already, and NOX never runs. Else NOX iterates with our group, line
-    // search and convergence test. Whatever ends it, u and the report have its
-    // last state, from which a caller may go on. A state within the bound is
-    // accepted even after a failure: then rounding, not the equilibrium, has
-    // stopped the search.
+    // search and convergence test. Where its first iteration has gone well,
+    // what is held fixed may be renewed, doc/theory.md, section 5.8: NOX then
+    // begins anew, as its line search compares energies, while tangents and
+    // preconditioner are kept. Whatever ends it, u and the report have its last
+    // state, from which a caller may go on.
     Tangents     tangents(problem, linear_problem.costly);
     LinearSolver linear_solver(parameters, linear_problem, timer);
     const auto   group    = Teuchos::rcp(new NoxGroup(
@@ -437,46 +458,45 @@ namespace Morula
     if (first <= bound)
       return group->evaluation();
 
-    ConvergenceTest::Bounds bounds;
-    bounds.residual     = bound;
-    bounds.rounding     = rounding;
-    bounds.displacement = parameters.newton_tolerance * scales.length;
-    bounds.iterations   = parameters.newton_iterations;
-    const auto test     = Teuchos::rcp(
-      new ConvergenceTest(bounds, tangents, linear_problem.symmetric, report));
-    std::string reason = "Newton's method has not converged: ";
-    try
-      {
-        NOX::Solver::buildSolver(group,
-                                 test,
-                                 nox_parameters(problem,
-                                                linear_problem.symmetric,
-                                                parameters.linear_tolerance))
-          ->solve();
-        reason += test->reason_of_failure();
-      }
-    catch (const StepFailed &error)
-      {
-        reason += error.what();
-      }
-    catch (const char *message) // NOX before Trilinos 14.2
-      {
-        reason += message;
-      }
-    catch (const std::runtime_error &error) // and since
-      {
-        // Errors that are not NOX's own are passed on.
-        if (std::string(error.what()).find("NOX") == std::string::npos)
-          throw;
-        reason += error.what();
-      }
-    u               = values_of(group->getX());
-    report.residual = relative(group->getNormF());
-    // The residual is below its bound already, so a failed line search does not
-    // matter.
+    const ConvergenceTest::Bounds bounds{bound,
+                                         rounding,
+                                         parameters.newton_tolerance *
+                                           scales.length,
+                                         parameters.newton_iterations};
+    const std::string             reason = message_of([&]() {
+      for (;;)
+        {
+          const auto test   = Teuchos::rcp(new ConvergenceTest(
+            bounds, tangents, linear_problem.symmetric, report));
+          const auto solver = NOX::Solver::buildSolver(
+            group,
+            test,
+            nox_parameters(problem,
+                           linear_problem.symmetric,
+                           parameters.linear_tolerance));
+          const double start = group->getNormF();
+          if (solver->step() == NOX::StatusTest::Unconverged && renew &&
+              report.place.turn < last_early_turn &&
+              group->part_taken() == 1. && group->getNormF() <= early * start &&
+              last_motion(*solver) <= scales.length &&
+              renew(values_of(group->getX())))
+            {
+              group->renew();
+              ++report.turns;
+              ++report.place.turn;
+              continue;
+            }
+          while (solver->step() == NOX::StatusTest::Unconverged)
+            ;
+          return test->reason_of_failure();
+        }
+    });
+    u                                    = values_of(group->getX());
+    report.residual                      = relative(group->getNormF());
+    // Below its bound rounding, not the equilibrium, has stopped the search.
     if (group->isF() && std::isfinite(group->evaluation().energy) &&
         group->getNormF() <= bound)
       return group->evaluation();
-    throw StepFailed(reason);
+    throw StepFailed("Newton's method has not converged: " + reason);
   }
 } // namespace Morula

@@ -124,28 +124,38 @@ namespace Morula
 
 
   Equilibrium::Evaluation
-  balance_in_turns(Equilibrium                                    &problem,
-                   const std::vector<TurnParticipant *>           &participants,
-                   const std::function<Equilibrium::Evaluation()> &solve,
-                   const Equilibrium::Vector                      &u,
-                   NewtonReport                                   &report)
+  balance_in_turns(Equilibrium                          &problem,
+                   const std::vector<TurnParticipant *> &participants,
+                   const SolveTurn                      &solve,
+                   const Equilibrium::Vector            &u,
+                   NewtonReport                         &report)
   {
     // Each turn finds an equilibrium with what the participants hold fixed, and
     // then has all of them renew it, doc/theory.md (5.6). All are asked, also
     // after one has said that it needs another turn: their quantities belong to
-    // the same u. After the first turn the tissue has the new growth, and so
-    // have all further tangents.
+    // the same u. If all of them allow that, they are renewed on the way, too.
+    // After the first turn the tissue has the new growth, and so have all
+    // further tangents.
+    std::string   unfinished;
+    const Renewal renew = [&](const Equilibrium::Vector &u) {
+      unfinished.clear();
+      for (TurnParticipant *const participant : participants)
+        if (participant->renew(u) && unfinished.empty())
+          unfinished = participant->unfinished();
+      return !unfinished.empty();
+    };
+    const bool early =
+      std::all_of(participants.begin(),
+                  participants.end(),
+                  [](const auto *const p) { return p->renews_early(); });
     for (report.place.turn = 1;; ++report.place.turn)
       {
         ++report.turns;
-        const Equilibrium::Evaluation evaluation = solve();
-        std::string                   unfinished;
-        for (TurnParticipant *const participant : participants)
-          if (participant->renew(u) && unfinished.empty())
-            unfinished = participant->unfinished();
-        if (unfinished.empty())
+        const Equilibrium::Evaluation evaluation =
+          solve(early ? renew : Renewal());
+        if (!renew(u))
           return evaluation;
-        if (report.place.turn == most_turns)
+        if (report.place.turn >= most_turns)
           throw StepFailed(unfinished);
         problem.use_growth_at_end();
       }

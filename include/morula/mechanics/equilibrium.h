@@ -176,6 +176,13 @@ namespace Morula
     virtual bool
     renew(const Equilibrium::Vector &u) = 0;
 
+    /** Whether it may be renewed on the way to an equilibrium, too. */
+    virtual bool
+    renews_early() const
+    {
+      return false;
+    }
+
     /** What is still wrong after the last turn, for the message of a step that
      *  fails by it. */
     virtual std::string

@@ -63,12 +63,14 @@ namespace Morula
     return &find_motions_plainly<dim>;
   }
 
-  /** The motions of the points of a store, in order. */
+  /** The motions of the points of a store, in order.
+   *  @param wanted if given, others may be left out */
   template <int dim>
   std::vector<PointMotion<dim>>
   point_motions(const PointStore<dim>        &store,
                 const DisplacementField<dim> &displacement,
-                const FindMotions             find_motions)
+                const FindMotions             find_motions,
+                const std::vector<bool>      &wanted = {})
   {
     // Kernels write u and f one after the other as plain numbers, into the
     // memory of the result.
@@ -83,6 +85,11 @@ namespace Morula
       [&](const auto            &grid_cell,
           const LocalField<dim> &field,
           const GridIndex<dim>  &index) {
+        if (!wanted.empty() &&
+            std::find(wanted.begin() + grid_cell.begin,
+                      wanted.begin() + grid_cell.end,
+                      true) == wanted.begin() + grid_cell.end)
+          return;
         xi.clear();
         for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
           xi.push_back(

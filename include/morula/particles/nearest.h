@@ -4,6 +4,7 @@
 #ifndef morula_particles_nearest_h
 #define morula_particles_nearest_h
 
+#include <morula/base/send_records.h>
 #include <morula/grid/background_grid.h>
 #include <morula/particles/boundary_state.h>
 #include <morula/particles/point_store.h>
@@ -11,6 +12,7 @@
 
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <unordered_map>
@@ -155,14 +157,19 @@ namespace Morula
     auto
     values(const Value &value) const;
 
+    /** For each cell of this rank, whether values() asks for it. */
+    std::vector<bool>
+    counts() const;
+
   private:
-    /** A cell, by its place in what near_points() returns, and its weight. */
+    /** A cell, by its place among all that count here, and its weight. */
     using Share = std::pair<std::size_t, double>;
 
-    const std::vector<Point<dim>>   places;
     const Cells<dim>               &cells;
-    const BackgroundGrid<dim>      &grid;
+    const MPI_Comm                  comm;
     std::vector<std::vector<Share>> shares; // of each place
+    /** The cells of this rank that count, by the rank where they do. */
+    std::map<unsigned int, std::vector<unsigned int>> asked;
   };
 
   template <int dim>
@@ -170,18 +177,20 @@ namespace Morula
   auto
   Surroundings<dim>::values(const Value &value) const
   {
-    using T           = std::invoke_result_t<Value, unsigned int>;
-    const auto append = [&](const unsigned int p, std::vector<double> &list) {
-      append_flat(list, value(p));
-    };
-    const PointList<dim> near = near_points(
-      places, cells, {Flat<T>::n, append, Ties::lowest_id}, grid, 1);
+    using T = std::invoke_result_t<Value, unsigned int>;
+    std::map<unsigned int, std::vector<double>> answers;
+    for (const auto &[rank, list] : asked)
+      for (const unsigned int p : list)
+        append_flat(answers[rank], value(p));
+    std::vector<double> numbers;
+    for (const auto &[rank, list] : send_records(answers, comm))
+      numbers.insert(numbers.end(), list.begin(), list.end());
     std::vector<T> result;
     for (const auto &of_place : shares)
       {
         T sum{};
         for (const auto &[i, weight] : of_place)
-          sum += weight * near.template value<T>(i);
+          sum += weight * Flat<T>::read(&numbers[i * Flat<T>::n]);
         result.push_back(sum);
       }
     return result;

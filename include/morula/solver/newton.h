@@ -63,6 +63,9 @@ namespace Morula
     std::vector<NewtonIteration> trace;
   };
 
+  /** Renews what an equilibrium holds fixed, as TurnParticipant::renew(). */
+  using Renewal = std::function<bool(const Equilibrium::Vector &u)>;
+
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
    * NOX; doc/theory.md, section 5):
@@ -84,6 +87,8 @@ namespace Morula
    * @param u      in: where to start from; out: the increment, or where the
    *               method has failed
    * @param report in/out: this solve's work is added, also when it fails
+   * @param renew  called on the way where the first iteration has gone well:
+   *               turns of their own, which begin with the last tangent
    * @return energy and extremes at u
    * @throws StepFailed on all ranks together
    */
@@ -94,7 +99,12 @@ namespace Morula
         const SolverParameters &parameters,
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
-        NewtonReport           &report);
+        NewtonReport           &report,
+        const Renewal          &renew = {});
+
+  /** Solves with what is held fixed; may renew it early. */
+  using SolveTurn =
+    std::function<Equilibrium::Evaluation(const Renewal &early)>;
 
   /**
    * The equilibrium of a step in turns: solves, asks every participant to renew
@@ -105,11 +115,11 @@ namespace Morula
    * @throws StepFailed after twenty turns
    */
   Equilibrium::Evaluation
-  balance_in_turns(Equilibrium                                    &problem,
-                   const std::vector<TurnParticipant *>           &participants,
-                   const std::function<Equilibrium::Evaluation()> &solve,
-                   const Equilibrium::Vector                      &u,
-                   NewtonReport                                   &report);
+  balance_in_turns(Equilibrium                          &problem,
+                   const std::vector<TurnParticipant *> &participants,
+                   const SolveTurn                      &solve,
+                   const Equilibrium::Vector            &u,
+                   NewtonReport                         &report);
 } // namespace Morula
 
 #endif

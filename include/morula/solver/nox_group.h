@@ -59,6 +59,14 @@ namespace Morula
       return *last;
     }
 
+    /** Residuals have grown by this factor, for a reason that tangents do not
+     *  feel. */
+    void
+    rescale(const double factor)
+    {
+      last_norm *= factor;
+    }
+
     /** Whether at() has returned the same matrix once more. */
     bool
     kept() const
@@ -420,6 +428,16 @@ namespace Morula
       remove_parts(R.values, linear_problem.null_space);
       has_residual = true;
       return rounding_error * magnitude;
+    }
+
+    /** Finds the residual anew, which is another one at the same u. */
+    void
+    renew()
+    {
+      const double before = getNormF();
+      invalidate();
+      computeF();
+      tangents.rescale(getNormF() / before);
     }
 
     /** Whether the direction is that of a kept tangent. */

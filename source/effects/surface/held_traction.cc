@@ -246,6 +246,12 @@ namespace Morula
         return true;
       }
 
+      bool
+      renews_early() const override
+      {
+        return !attempt.jumps;
+      }
+
       std::string
       unfinished() const override
       {
@@ -283,7 +289,8 @@ namespace Morula
           point_motions(tissue.cells(),
                         displacement,
                         motion_kernel<dim>(attempt.material.material(),
-                                           attempt.kernel));
+                                           attempt.kernel),
+                        surroundings.counts());
         // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t +
         // dt.
         const auto P = surroundings.values([&](const unsigned int p) {

@@ -18,13 +18,6 @@ struct Event
   {
     return a.time < b.time || (a.time == b.time && a.id < b.id);
   }
-
-  template <typename Archive>
-  void
-  serialize(Archive &archive, const unsigned int)
-  {
-    archive & time & id;
-  }
 };
 
 /** Compares with the order of all keys, gathered and sorted. */
@@ -33,7 +26,7 @@ void
 expect_as_gathered(const std::vector<Key> &keys)
 {
   std::vector<Key> all;
-  for (const auto &part : Utilities::MPI::all_gather(comm, keys))
+  for (const auto &part : gather_everywhere(keys, comm))
     all.insert(all.end(), part.begin(), part.end());
   std::stable_sort(all.begin(), all.end());
 
@@ -111,32 +104,4 @@ TEST(GlobalOrder, SeparateKeys)
   for (unsigned int i = 0; i < 400; ++i)
     keys.push_back(std::sqrt(400. - i) - 1000. * this_rank());
   expect_as_gathered(keys);
-}
-
-
-// Whichever ranks have most, the parts that are ordered are about equal.
-TEST(GlobalOrder, EvenParts)
-{
-  const unsigned int                     n_ranks = 4;
-  std::vector<std::vector<unsigned int>> samples;
-  std::vector<std::uint64_t>             n_keys;
-  std::vector<unsigned int>              all;
-  for (unsigned int r = 0; r < n_ranks; ++r)
-    {
-      std::vector<unsigned int> keys;
-      for (unsigned int i = 0; i < 1000 * (1 + r * r); ++i)
-        keys.push_back(r % 2 == 0 ? i : i * i % 50021);
-      std::sort(keys.begin(), keys.end());
-      samples.push_back(Implementation::samples_of(keys));
-      n_keys.push_back(keys.size());
-      all.insert(all.end(), keys.begin(), keys.end());
-    }
-  const auto limits = Implementation::splitters(samples, n_keys);
-  ASSERT_EQ(limits.size(), n_ranks - 1);
-  std::vector<double> sizes(n_ranks, 0.);
-  for (const unsigned int key : all)
-    ++sizes[std::upper_bound(limits.begin(), limits.end(), key) -
-            limits.begin()];
-  for (const double size : sizes)
-    EXPECT_NEAR(size / all.size(), 0.25, 0.03);
 }

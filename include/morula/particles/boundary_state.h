@@ -145,96 +145,71 @@ namespace Morula
   };
 
   /**
-   * One boundary point: reads its row of numbers by the columns' names. Does
-   * not own the row. Number is `double` (also writes) or `const double`.
+   * One boundary point: see RowView.
    */
   template <int dim, typename Number = const double>
-  class BoundaryView
+  class BoundaryView : public RowView<BoundaryColumns<dim>, Number>
   {
+    using Base = RowView<BoundaryColumns<dim>, Number>;
+    using Base::columns_;
+
   public:
-    /** @param columns must outlive this */
-    BoundaryView(const ArrayView<Number>    &row,
-                 const BoundaryColumns<dim> &columns)
-      : row_(row)
-      , columns(columns)
-    {}
+    using Base::Base;
+    using Base::get;
+    using Base::set;
 
     /** A view for reading from one for writing. */
     BoundaryView(const BoundaryView<dim, double> &other)
-      : row_(other.row_)
-      , columns(other.columns)
+      : Base(other.row(), other.columns())
     {}
-
-    /** The value in a column that exists. */
-    template <typename T>
-    T
-    get(const Column<T> &column) const
-    {
-      return column.get(row_);
-    }
-
-    /** Writes the value in a column that exists. */
-    template <typename T>
-    void
-    set(const Column<T> &column, const typename Column<T>::Type &value) const
-    {
-      column.set(row_, value);
-    }
 
     /** The two-sided obstacles that hold it. */
     unsigned int
     touched() const
     {
-      return columns.touched.exists() ? get(columns.touched) : 0;
-    }
-
-    /** The whole row. */
-    const ArrayView<Number> &
-    row() const
-    {
-      return row_;
+      return columns_.touched.exists() ? get(columns_.touched) : 0;
     }
 
     /** X, µm. */
     Point<dim>
     initial_position() const
     {
-      return get(columns.initial_position);
+      return get(columns_.initial_position);
     }
 
     /** N. */
     Tensor<1, dim>
     initial_normal() const
     {
-      return get(columns.initial_normal);
+      return get(columns_.initial_normal);
     }
 
     /** a⁰, µm^(dim-1). */
     double
     initial_area() const
     {
-      return get(columns.initial_area);
+      return get(columns_.initial_area);
     }
 
     /** What holds or loads it. */
     SurfaceCondition
     condition() const
     {
-      return get(columns.condition);
+      return get(columns_.condition);
     }
 
     /** F. */
     Tensor<2, dim>
     F() const
     {
-      return get(columns.deformation);
+      return get(columns_.deformation);
     }
 
     /** F -> f F: doc/theory.md (1.1), equation (10) of the paper. */
     void
     deform(const Tensor<2, dim> &f) const
     {
-      set(columns.deformation, f * F());
+      set(columns_.deformation, f * F());
     }
 
     /** The present area vector a n = det F F⁻ᵀ a⁰ N: doc/theory.md (1.2),
@@ -251,7 +226,7 @@ namespace Morula
     bool
     has_patch() const
     {
-      return columns.seed_position.exists();
+      return columns_.seed_position.exists();
     }
 
     /** Initial position of the point at t = 0 of which this one is a part, µm.
@@ -259,7 +234,7 @@ namespace Morula
     Point<dim>
     seed_position() const
     {
-      return has_patch() ? get(columns.seed_position) : initial_position();
+      return has_patch() ? get(columns_.seed_position) : initial_position();
     }
 
     /** Edge @p k of the patch in the initial configuration, µm. Only with
@@ -267,7 +242,7 @@ namespace Morula
     Tensor<1, dim>
     initial_edge(const unsigned int k) const
     {
-      return get(columns.edges[k]);
+      return get(columns_.edges[k]);
     }
 
     /** The area that the patch shall have if edges longer than @p longest_edge
@@ -276,7 +251,7 @@ namespace Morula
     double
     wanted_area(const double longest_edge) const
     {
-      return std::min(get(columns.reference_area),
+      return std::min(get(columns_.reference_area),
                       std::pow(longest_edge, dim - 1));
     }
 
@@ -286,11 +261,11 @@ namespace Morula
     halve(const unsigned int k, const double sign) const
     {
       const Tensor<1, dim> E = initial_edge(k);
-      set(columns.initial_position, initial_position() + 0.25 * sign * E);
-      set(columns.edges[k], 0.5 * E);
-      set(columns.initial_area, 0.5 * initial_area());
-      if (columns.force.exists())
-        set(columns.force, 0.5 * get(columns.force));
+      set(columns_.initial_position, initial_position() + 0.25 * sign * E);
+      set(columns_.edges[k], 0.5 * E);
+      set(columns_.initial_area, 0.5 * initial_area());
+      if (columns_.force.exists())
+        set(columns_.force, 0.5 * get(columns_.force));
     }
 
     /**
@@ -311,13 +286,6 @@ namespace Morula
       return std::max((first + second).norm(), (first - second).norm()) /
              std::sqrt(2.);
     }
-
-  private:
-    template <int, typename>
-    friend class BoundaryView;
-
-    ArrayView<Number>           row_;
-    const BoundaryColumns<dim> &columns;
   };
 } // namespace Morula
 

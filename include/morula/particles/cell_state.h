@@ -180,40 +180,23 @@ namespace Morula
   };
 
   /**
-   * One cell: reads its row of numbers by the columns' names. Does not own
-   * the row. Number is `double` (also writes) or `const double`.
+   * One cell: see RowView.
    */
   template <int dim, typename Number>
-  class CellView
+  class CellView : public RowView<CellColumns<dim>, Number>
   {
+    using Base = RowView<CellColumns<dim>, Number>;
+    using Base::columns_;
+
   public:
-    /** @param columns must outlive this */
-    CellView(const ArrayView<Number> &row, const CellColumns<dim> &columns)
-      : row_(row)
-      , columns_(columns)
-    {}
+    using Base::Base;
+    using Base::get;
+    using Base::set;
 
     /** A view for reading from one for writing. */
     CellView(const CellView<dim, double> &other)
-      : row_(other.row_)
-      , columns_(other.columns_)
+      : Base(other.row(), other.columns())
     {}
-
-    /** The value in a column that exists. */
-    template <typename T>
-    T
-    get(const Column<T> &column) const
-    {
-      return column.get(row_);
-    }
-
-    /** Writes the value in a column that exists. */
-    template <typename T>
-    void
-    set(const Column<T> &column, const typename Column<T>::Type &value) const
-    {
-      column.set(row_, value);
-    }
 
     /** Initial position of the founder, µm. */
     Point<dim>
@@ -312,27 +295,6 @@ namespace Morula
     {
       return determinant(F()) / determinant(growth()) * smoothing();
     }
-
-    /** The whole row. */
-    const ArrayView<Number> &
-    row() const
-    {
-      return row_;
-    }
-
-    /** The columns of all cells. */
-    const CellColumns<dim> &
-    columns() const
-    {
-      return columns_;
-    }
-
-  private:
-    template <int, typename>
-    friend class CellView;
-
-    ArrayView<Number>       row_;
-    const CellColumns<dim> &columns_;
   };
 } // namespace Morula
 

@@ -331,6 +331,55 @@ namespace Morula
     std::vector<Entry>  list;
     std::vector<double> initial;
   };
+
+  /**
+   * One cell or boundary point: reads its row of numbers by the columns' names.
+   * Does not own the row. Number is `double` (also writes) or `const double`.
+   */
+  template <typename OfColumns, typename Number>
+  class RowView
+  {
+  public:
+    /** @param columns must outlive this */
+    RowView(const ArrayView<Number> &row, const OfColumns &columns)
+      : row_(row)
+      , columns_(columns)
+    {}
+
+    /** The value in a column that exists. */
+    template <typename T>
+    T
+    get(const Column<T> &column) const
+    {
+      return column.get(row_);
+    }
+
+    /** Writes the value in a column that exists. */
+    template <typename T>
+    void
+    set(const Column<T> &column, const typename Column<T>::Type &value) const
+    {
+      column.set(row_, value);
+    }
+
+    /** The whole row. */
+    const ArrayView<Number> &
+    row() const
+    {
+      return row_;
+    }
+
+    /** The columns of all rows. */
+    const OfColumns &
+    columns() const
+    {
+      return columns_;
+    }
+
+  protected:
+    ArrayView<Number> row_;
+    const OfColumns  &columns_;
+  };
 } // namespace Morula
 
 #endif

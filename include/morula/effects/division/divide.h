@@ -24,14 +24,6 @@ namespace Morula
     {
       return std::tie(a.time, a.mother) < std::tie(b.time, b.mother);
     }
-
-    /** For messages: deal.II demands it of every type, and copies the bytes. */
-    template <typename Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive & time & mother;
-    }
   };
 
   /**

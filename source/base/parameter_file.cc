@@ -312,17 +312,8 @@ namespace Morula
         return "It is a directory: name the .prm file in it. ";
       if (std::filesystem::exists(file, error))
         {
-          std::ifstream input(file, std::ios::binary);
-          if (!input)
+          if (!std::ifstream(file))
             return "It exists, but must not be read: check its permissions. ";
-          // What comes through a pipe can be read once only.
-          if (!std::filesystem::is_regular_file(file, error))
-            return "";
-          const int first = input.get(), second = input.get();
-          if ((first == 0xFF && second == 0xFE) ||
-              (first == 0xFE && second == 0xFF) || (first == 0 && second > 0) ||
-              (first > 0 && second == 0))
-            return "It is text in UTF-16: save it as UTF-8. ";
           return "";
         }
       if (std::filesystem::exists(file + ".prm", error))

@@ -116,73 +116,6 @@ namespace Morula
                   ". Repair it with a mesh editor.");
     }
 
-    /** Whether @p turned goes round the other way than @p given; both have the
-     *  same corners. */
-    template <typename Corners>
-    bool
-    goes_back(const Corners &given, const Corners &turned)
-    {
-      const std::size_t n = given.size();
-      for (std::size_t i = 0; i < n; ++i)
-        if (given[i] == turned[0])
-          return given[(i + 1) % n] != turned[1];
-      return false;
-    }
-
-    /** The corners of all polygons or faces. */
-    using CornerLists = std::vector<std::vector<Kernel::Point_3>>;
-
-    CornerLists
-    corners_of(const MeshSoup &soup)
-    {
-      CornerLists lists(soup.polygons.size());
-      for (std::size_t i = 0; i < lists.size(); ++i)
-        for (const std::size_t vertex : soup.polygons[i])
-          lists[i].push_back(soup.points[vertex]);
-      return lists;
-    }
-
-    CornerLists
-    corners_of(const Mesh &mesh, const std::size_t n)
-    {
-      CornerLists lists(n);
-      for (std::size_t i = 0; i < n; ++i)
-        for (const Mesh::Vertex_index v :
-             CGAL::vertices_around_face(mesh.halfedge(Mesh::Face_index(i)),
-                                        mesh))
-          lists[i].push_back(mesh.point(v));
-      return lists;
-    }
-
-    /** How many polygons of the soup have to be turned round so that all
-     *  normals point out of the inside. */
-    std::size_t
-    count_turned(MeshSoup soup)
-    {
-      // First polygons are turned like their neighbours, then closed parts as
-      // a whole. CGAL keeps the numbers: face i is polygon i, or a part of it.
-      const CornerLists given = corners_of(soup);
-      Processing::orient_polygon_soup(soup.points, soup.polygons);
-      const CornerLists alike = corners_of(soup);
-      if (!Processing::is_polygon_soup_a_polygon_mesh(soup.polygons))
-        return 0;
-      Mesh mesh;
-      Processing::polygon_soup_to_polygon_mesh(soup.points,
-                                               soup.polygons,
-                                               mesh);
-      if (!CGAL::is_closed(mesh) || !Processing::triangulate_faces(mesh))
-        return 0;
-      const std::size_t n      = given.size();
-      const CornerLists before = corners_of(mesh, n);
-      Processing::orient_to_bound_a_volume(mesh);
-      const CornerLists after    = corners_of(mesh, n);
-      std::size_t       n_turned = 0;
-      for (std::size_t i = 0; i < n; ++i)
-        n_turned +=
-          goes_back(given[i], alike[i]) != goes_back(before[i], after[i]);
-      return n_turned;
-    }
-
     Mesh
     read_mesh(const std::string &key, const std::string &file)
     {
@@ -372,15 +305,5 @@ namespace Morula
                     " of its vertices differ from others by rounding only, and "
                     "were merged with them: without that the surface is open.",
                   "Merge them in a mesh editor if they were meant to differ.");
-    const std::size_t n_turned = count_turned(soup);
-    if (n_turned > 0)
-      review.warn(key,
-                  name,
-                  std::to_string(n_turned) + " of its " +
-                    std::to_string(soup.polygons.size()) +
-                    " faces were turned round, so that all normals point out "
-                    "of what the surface encloses.",
-                  "If a closed surface within another one was meant as tissue "
-                  "and not as a cavity, put it into a file of its own.");
   }
 } // namespace Morula

@@ -85,15 +85,18 @@ namespace Morula
         }
     }
 
-    /** Σ_p w_p N_a from sums of powers. */
-    template <int dim, std::size_t n_powers>
-    std::array<double, BSpline<dim>::n>
-    sums_of_splines(const double *const powers)
+    /** Sums of products of polynomials of all directions from sums of powers.
+     */
+    template <int dim, std::size_t n_powers, std::size_t n_polynomials>
+    Sums<dim>
+    sums_of_products(const std::array<std::array<double, n_polynomials>,
+                                      n_powers> &polynomials,
+                     const double *const         powers)
     {
-      constexpr auto polynomials = single<n_powers>();
-      // The powers of one direction after the other give way to splines; what
-      // is left of the others does not change. Each step costs a small product
-      // for all powers of the other directions: doc/theory.md, section 11.6.
+      // The powers of one direction after the other give way to polynomials;
+      // what is left of the others does not change. Each step costs a small
+      // product for all powers of the other directions: doc/theory.md, section
+      // 11.6.
       Sums<dim> sums{};
       std::copy_n(powers, Utilities::pow<int>(n_powers, dim), sums.begin());
       for (unsigned int d = 0; d < dim; ++d)
@@ -102,10 +105,20 @@ namespace Morula
           add_direction(polynomials,
                         sums.data(),
                         Utilities::pow<int>(n_powers, dim - 1 - d) *
-                          Utilities::pow(3, d),
+                          Utilities::pow<int>(n_polynomials, d),
                         next.data());
           sums = next;
         }
+      return sums;
+    }
+
+    /** Σ_p w_p N_a from sums of powers. */
+    template <int dim, std::size_t n_powers>
+    std::array<double, BSpline<dim>::n>
+    sums_of_splines(const double *const powers)
+    {
+      constexpr auto  polynomials = single<n_powers>();
+      const Sums<dim> sums        = sums_of_products<dim>(polynomials, powers);
       // The last direction runs fastest there, whereas the first one does in
       // the numbering of splines.
       std::array<double, BSpline<dim>::n> result;
@@ -160,27 +173,6 @@ namespace Morula
       return after;
     }
 
-    /** Σ_p w_p N_a N_b by pairs in each direction. */
-    template <int dim>
-    Sums<dim>
-    sums_of_pairs(const MassMoments<dim> &moments)
-    {
-      constexpr auto values = products<5>(0);
-      Sums<dim>      sums{};
-      std::copy(moments.sums[0].begin(), moments.sums[0].end(), sums.begin());
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          Sums<dim> next{};
-          add_direction(values,
-                        sums.data(),
-                        Utilities::pow(5, dim - 1 - d) *
-                          Utilities::pow(n_pairs, d),
-                        next.data());
-          sums = next;
-        }
-      return sums;
-    }
-
     /** Places in sums_of_pairs() of the entries of a matrix. */
     template <int dim>
     std::array<unsigned int, BSpline<dim>::n * BSpline<dim>::n>
@@ -228,8 +220,10 @@ namespace Morula
   std::vector<double>
   mass_matrix(const MassMoments<dim> &moments)
   {
-    static const auto   places = places_of_pairs<dim>();
-    const Sums<dim>     sums   = sums_of_pairs(moments);
+    static const auto places = places_of_pairs<dim>();
+    constexpr auto    values = products<5>(0);
+    const Sums<dim>   sums =
+      sums_of_products<dim>(values, moments.sums[0].data());
     std::vector<double> matrix;
     matrix.reserve(places.size());
     for (const unsigned int place : places)

@@ -130,7 +130,6 @@ def test_faces_turned_round(runs, faces):
         "Tissue/Shape": "mesh", "Tissue/Cell spacing": 10, "Grid/Spacing": 40,
         "Tissue/Surface mesh": runs.write("cube.off", "\n".join(lines) + "\n"),
         "Time/End time": 0.1, "Time/Step": 0.1, "Output/Formats": "none"})
-    assert (f"{len(faces)} of its 12 faces were turned round" in run.said) == bool(faces)
     assert abs(run.statistics["total_volume"][0] - 80**3) <= 5e-8
 
 

@@ -99,8 +99,8 @@ namespace Morula
   std::vector<std::array<Point<3>, 3>>
   read_triangles(const std::string &key, const std::string &file);
 
-  /** Warns of vertices of a good mesh that were merged though they differ, of
-   *  faces that were dropped, and of those turned round. Reads the file.
+  /** Warns of vertices of a good mesh that were merged though they differ.
+   * Reads the file.
    *  @param key path of the key that names the file */
   void
   review_mesh(const std::string &key, const std::string &name, Review &review);

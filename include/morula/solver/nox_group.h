@@ -13,9 +13,7 @@
 #include <Teuchos_ParameterList.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <random>
 
 namespace Morula
 {
@@ -119,38 +117,32 @@ namespace Morula
       return *this;
     }
 
+    // Newton's method with a line search of its own asks for none of these.
     NOX::Abstract::Vector &
     random(const bool, const int) override
     {
-      std::minstd_rand                       generator;
-      std::uniform_real_distribution<double> uniform(-1., 1.);
-      for (double &value : values)
-        value = uniform(generator);
-      return *this;
+      throw ExcNotImplemented();
     }
-
     NOX::Abstract::Vector &
-    abs(const NOX::Abstract::Vector &y) override
+    abs(const NOX::Abstract::Vector &) override
     {
-      values = values_of(y);
-      for (double &value : values)
-        value = std::abs(value);
-      return *this;
+      throw ExcNotImplemented();
+    }
+    NOX::Abstract::Vector &
+    reciprocal(const NOX::Abstract::Vector &) override
+    {
+      throw ExcNotImplemented();
+    }
+    double
+    norm(const NOX::Abstract::Vector &) const override
+    {
+      throw ExcNotImplemented();
     }
 
     NOX::Abstract::Vector &
     operator=(const NOX::Abstract::Vector &y) override
     {
       values = values_of(y);
-      return *this;
-    }
-
-    NOX::Abstract::Vector &
-    reciprocal(const NOX::Abstract::Vector &y) override
-    {
-      values = values_of(y);
-      for (double &value : values)
-        value = 1. / value;
       return *this;
     }
 
@@ -202,23 +194,8 @@ namespace Morula
     double
     norm(const NOX::Abstract::Vector::NormType type) const override
     {
-      switch (type)
-        {
-          case NOX::Abstract::Vector::OneNorm:
-            return values.l1_norm();
-          case NOX::Abstract::Vector::MaxNorm:
-            return values.linfty_norm();
-          default:
-            return values.l2_norm();
-        }
-    }
-
-    double
-    norm(const NOX::Abstract::Vector &weights) const override
-    {
-      Equilibrium::Vector weighted(values);
-      weighted.scale(values);
-      return std::sqrt(weighted * values_of(weights));
+      return type == NOX::Abstract::Vector::MaxNorm ? values.linfty_norm() :
+                                                      values.l2_norm();
     }
 
     double

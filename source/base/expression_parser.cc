@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression_parser.h>
-#include <morula/base/suggestion.h>
+#include <morula/base/name_list.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 #include <regex>
 #include <stdexcept>
 #include <vector>
@@ -328,17 +327,6 @@ namespace Morula
       if (parser.GetFunDef().count(word) > 0)
         return " Write what it is a function of in parentheses, as in " + word +
                "(X).";
-      static const std::map<std::string, std::string> others = {
-        {"mod", "X - 2*floor(X/2) for mod(X, 2)"},
-        {"fmod", "X - 2*floor(X/2) for fmod(X, 2)"},
-        {"heaviside", "(X > 0), which is 1 or 0"},
-        {"step", "(X > 0), which is 1 or 0"},
-        {"H", "(X > 0), which is 1 or 0"},
-        {"e", "exp(X) for e^X"},
-        {"inf", "a large number"},
-        {"nan", "a number"}};
-      if (const auto other = others.find(word); other != others.end())
-        return " Write " + other->second + '.';
       // Of equally similar ones the shortest: sin, not sign, for sinn.
       std::stable_sort(names.begin(),
                        names.end(),

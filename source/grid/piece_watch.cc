@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
+#include <morula/base/near_tree.h>
 #include <morula/base/send_records.h>
 #include <morula/grid/piece_watch.h>
 
@@ -61,59 +62,25 @@ namespace Morula
     Point<dim>
     middle(const std::vector<Kept<dim>> &kept, const GridBox<dim> &lines)
     {
-      // Kept grid cells are put into a table over the box around them, so that
-      // each looks at its neighbours by radius: pieces that join are near each
-      // other, so the first radii find the pair.
-      GridIndex<dim> first = kept[0].grid_cell, last = first, n;
+      // Pieces that join are near each other, so the first reaches find the
+      // pair. What is within a reach holds the nearest one. The order of the
+      // grid cells must not depend on the ranks.
+      std::vector<Point<dim>> centers;
       for (const Kept<dim> &one : kept)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            first[d] = std::min(first[d], one.grid_cell[d]);
-            last[d]  = std::max(last[d], one.grid_cell[d]);
-          }
-      for (unsigned int d = 0; d < dim; ++d)
-        n[d] = last[d] - first[d] + 1;
-      const GridBox<dim>        box(first,
-                             n,
-                             lines.spacing(),
-                             lines.corner(GridIndex<dim>{}));
-      std::vector<unsigned int> former(box.size(), no_former),
-        piece(box.size(), no_former);
-      for (const Kept<dim> &one : kept)
-        {
-          former[box.number(one.grid_cell)] = one.former;
-          piece[box.number(one.grid_cell)]  = one.piece;
-        }
-
-      double     shortest = std::numeric_limits<double>::max();
-      Point<dim> place;
-      // A pair found at one radius can be farther apart, by the diagonal, than
-      // a pair of the next radius. So the search goes one radius further than
-      // the first that finds a pair.
-      int last_radius = std::numeric_limits<int>::max();
-      for (int radius = 1; radius <= last_radius; ++radius)
-        for (unsigned int number = 0; number < former.size(); ++number)
-          if (former[number] != no_former)
-            {
-              const Point<dim> here = box.center(box.index(number));
-              box.for_neighbors(box.index(number),
-                                radius,
-                                [&](const unsigned int    other,
-                                    const GridIndex<dim> &index) {
-                                  if (former[other] == no_former ||
-                                      former[other] == former[number] ||
-                                      piece[other] != piece[number])
-                                    return;
-                                  const Point<dim> there = box.center(index);
-                                  if (here.distance(there) < shortest)
-                                    {
-                                      shortest = here.distance(there);
-                                      place    = here + 0.5 * (there - here);
-                                      last_radius =
-                                        std::min(last_radius, radius + 1);
-                                    }
-                                });
-            }
+        centers.push_back(lines.center(one.grid_cell));
+      const NearTree<dim> tree(centers);
+      double              shortest = std::numeric_limits<double>::max();
+      Point<dim>          place;
+      for (double reach = 2. * lines.spacing(); shortest > reach; reach *= 2.)
+        for (std::size_t i = 0; i < kept.size(); ++i)
+          for (const unsigned int k : tree.within(centers[i], reach))
+            if (const double distance = centers[i].distance(centers[k]);
+                kept[k].former != kept[i].former &&
+                kept[k].piece == kept[i].piece && distance < shortest)
+              {
+                shortest = distance;
+                place    = centers[i] + 0.5 * (centers[k] - centers[i]);
+              }
       return place;
     }
   } // namespace
@@ -160,6 +127,9 @@ namespace Morula
             std::vector<Kept<dim>> all;
             for (const auto &list : gather_everywhere(kept, comm))
               all.insert(all.end(), list.begin(), list.end());
+            std::sort(all.begin(), all.end(), [](const auto &x, const auto &y) {
+              return x.grid_cell < y.grid_cell;
+            });
             place = middle(all, box);
           }
       }

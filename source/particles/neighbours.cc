@@ -9,14 +9,12 @@
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/tissue.h>
-#include <morula/particles/voronoi_facets.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -24,27 +22,31 @@ namespace Morula
 {
   namespace
   {
+    /** Boundary points of the tissue, on any rank, within @p reach (µm) of this
+     *  rank's grid cells. Collective. */
+    template <int dim>
+    std::vector<Point<dim>>
+    surface_around(const Tissue<dim> &tissue, const double reach)
+    {
+      const BoundaryPoints<dim> &store = tissue.boundary_points();
+      PointList<dim>             list;
+      for (unsigned int k = 0; k < store.size(); ++k)
+        list.add(store.id(k), store.position(k), {});
+      list.append(halo(list, tissue.grid(), reach));
+      return list.positions;
+    }
+
     /** Where the surface of the tissue is, to be asked near this rank's cells.
      */
     template <int dim>
     class SurfaceAround
     {
     public:
-      /** Looks at the boundary points of the tissue, on any rank, within @p
-       * reach (µm) of this rank's grid cells. Collective. */
+      /** See surface_around(). */
       SurfaceAround(const Tissue<dim> &tissue, const double reach)
-      {
-        const BoundaryPoints<dim> &store = tissue.boundary_points();
-        PointList<dim>             list;
-        for (unsigned int k = 0; k < store.size(); ++k)
-          list.add(store.id(k), store.position(k), {});
-        list.append(halo(list, tissue.grid(), reach));
-        points = list.positions;
-        if (points.empty())
-          return;
-        box  = std::make_unique<const GridBox<dim>>(box_around(points, reach));
-        bins = std::make_unique<const PointBins<dim>>(*box, points);
-      }
+        : points(surface_around(tissue, reach))
+        , tree(points)
+      {}
 
       /** Midway, the same bits for both orders. */
       static Point<dim>
@@ -61,12 +63,7 @@ namespace Morula
       bool
       is_within(const Point<dim> &x, const double radius) const
       {
-        bool found = false;
-        if (bins)
-          bins->visit_within(x, radius, [&](const unsigned int) {
-            found = true;
-          });
-        return found;
+        return !tree.within(x, radius).empty();
       }
 
       /** Whether the surface passes between two places, one of which is in a
@@ -81,10 +78,8 @@ namespace Morula
       }
 
     private:
-      std::vector<Point<dim>> points;
-      /** They refer to the points; none without points. */
-      std::unique_ptr<const GridBox<dim>>   box;
-      std::unique_ptr<const PointBins<dim>> bins;
+      const std::vector<Point<dim>> points;
+      const NearTree<dim>           tree;
     };
 
     /** Cells farther away than this, in spacings, change no facet of a cell

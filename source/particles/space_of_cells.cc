@@ -3,8 +3,8 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/grid/grid_box.h>
+#include <morula/particles/places.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/particles/space_of_cells.h>
 
 #include <algorithm>
 #include <array>

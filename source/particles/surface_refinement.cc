@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
+#include <morula/base/send_records.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_refinement.h>
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/particles/voronoi_facets.h>
+#include <morula/particles/neighbours.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/tensor.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/json.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/particles/cell_state.h>
 #include <morula/program/program.h>
 #include <morula/scene/checks.h>

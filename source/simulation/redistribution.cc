@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/rounded_sums.h>
 #include <morula/particles/places.h>
-#include <morula/particles/space_of_cells.h>
 #include <morula/simulation/redistribution.h>
 
 #include <deal.II/base/mpi.h>

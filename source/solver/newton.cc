@@ -28,8 +28,7 @@ namespace Morula
   namespace
   {
     /** Iterations without progress after which the method is at its end. Where
-     *  a soft motion follows a stiff curved path, the residual rises and falls
-     *  for some iterations, and its lowest value still falls within ten. */
+     *  a soft motion follows a stiff path, the residual falls within ten. */
     constexpr int patience = 20;
 
     /** Where the residual is below so many times its bound, and this part of
@@ -197,7 +196,7 @@ namespace Morula
         if (!report.wants_trace)
           return;
         NewtonIteration state{report.place,
-                              static_cast<unsigned int>(iteration),
+                              unsigned(iteration),
                               group.evaluation(),
                               norm};
         if (iteration > 0)

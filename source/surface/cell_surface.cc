@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/rounded_sums.h>
+#include <morula/base/send_records.h>
 #include <morula/surface/cell_lattice.h>
 #include <morula/surface/cell_surface.h>
 

@@ -8,12 +8,11 @@
 #include <morula/base/available_memory.h>
 #include <morula/base/expression.h>
 #include <morula/base/expression_parser.h>
-#include <morula/base/global_order.h>
 #include <morula/base/input_error.h>
-#include <morula/base/json.h>
+#include <morula/base/name_list.h>
 #include <morula/base/parameter_keys.h>
+#include <morula/base/send_records.h>
 #include <morula/base/step_failed.h>
-#include <morula/base/suggestion.h>
 #include <morula/scene/scene.h>
 
 #include <boost/property_tree/json_parser.hpp>

@@ -6,7 +6,7 @@
 #ifndef own_effects_along_rule_h
 #define own_effects_along_rule_h
 
-#include <morula/base/unit_vector.h>
+#include <morula/base/expression_key.h>
 #include <morula/effects/division/division_rule.h>
 
 namespace Own

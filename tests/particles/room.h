@@ -10,10 +10,8 @@
 #include <morula/particles/places.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/point_store.h>
-#include <morula/particles/space_of_cells.h>
 #include <morula/particles/surface_refinement.h>
 #include <morula/particles/tissue.h>
-#include <morula/particles/voronoi_facets.h>
 
 #include "common/body_on_grid.h"
 #include "common/tests.h"

@@ -10,6 +10,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Morula
@@ -116,6 +117,32 @@ namespace Morula
     const KeyList            keys;
     std::vector<std::string> sections;
   };
+
+
+  /** Values as JSON, each a piece of text. (Boost's property trees write every
+   *  number as text.) */
+  namespace Json
+  {
+    /** A text in quotes. */
+    std::string
+    text(const std::string &value);
+
+    /** A number with its shortest digits; null if it is not finite. */
+    std::string
+    number(const double value);
+
+    /** A list of texts. */
+    std::string
+    texts(const std::vector<std::string> &values);
+
+    /** A list of values. */
+    std::string
+    list(const std::vector<std::string> &values);
+
+    /** An object: names, and values as JSON. */
+    std::string
+    object(const std::vector<std::pair<std::string, std::string>> &members);
+  } // namespace Json
 } // namespace Morula
 
 #endif

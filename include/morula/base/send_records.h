@@ -7,6 +7,8 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <type_traits>
@@ -139,6 +141,41 @@ namespace Morula
       all.emplace_back(list.begin() + offsets[rank],
                        list.begin() + offsets[rank + 1]);
     return all;
+  }
+
+
+  /** Where a rank's keys stand among those of all ranks. */
+  struct GlobalOrder
+  {
+    /** For each of this rank's keys, in their order: how many keys of all ranks
+     *  are smaller. */
+    std::vector<std::uint64_t> places;
+    std::uint64_t              n_keys = 0; // of all ranks
+  };
+
+  /**
+   * Where each of this rank's @p keys stands in the order of all ranks' keys.
+   * The place does not depend on the number of ranks or on which rank has which
+   * key. Equal keys have the same place. Each rank sorts all keys, which are
+   * few beside the points of a rank: those of cells that divide in a step, or
+   * of patches. Collective.
+   * @tparam Key trivially copyable, with operator<
+   */
+  template <typename Key>
+  GlobalOrder
+  global_order(const std::vector<Key> &keys, const MPI_Comm comm)
+  {
+    std::vector<Key> all;
+    for (const auto &of_rank : gather_everywhere(keys, comm))
+      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::sort(all.begin(), all.end());
+    GlobalOrder order;
+    order.n_keys = all.size();
+    order.places.reserve(keys.size());
+    for (const Key &key : keys)
+      order.places.push_back(std::lower_bound(all.begin(), all.end(), key) -
+                             all.begin());
+    return order;
   }
 } // namespace Morula
 

@@ -6,6 +6,8 @@
 
 #include <morula/particles/tissue.h>
 
+#include <vector>
+
 namespace Morula
 {
   /**
@@ -19,6 +21,24 @@ namespace Morula
   template <int dim>
   double
   keep_apart(Tissue<dim> &tissue);
+
+
+  /** How full the space around the cells of this rank is, in their order. */
+  struct SpaceOfCells
+  {
+    /** φ: the volume of the cells around in parts of the space there. */
+    std::vector<double> fill;
+    /** t, from 0 to 1: the part of the space around that is inside the body. */
+    std::vector<double> inside;
+  };
+
+  /**
+   * φ and t of doc/theory.md (6.11b), for each body by itself. The same on any
+   * number of ranks. Collective.
+   */
+  template <int dim>
+  SpaceOfCells
+  space_of_cells(const Tissue<dim> &tissue);
 } // namespace Morula
 
 #endif

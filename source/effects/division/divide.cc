@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/global_order.h>
 #include <morula/base/instantiate.h>
+#include <morula/base/send_records.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/division/wall_distance.h>
 #include <morula/particles/point_exchange.h>

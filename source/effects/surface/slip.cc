@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/unit_vector.h>
+#include <morula/base/expression_key.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/placed_condition.h>

@@ -6,7 +6,6 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/name_list.h>
-#include <morula/base/unit_vector.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

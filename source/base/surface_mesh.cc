@@ -36,32 +36,17 @@ namespace Morula
     void
     check_edges(const MeshSoup &soup)
     {
-      // All edges are looked at, so that the message can tell how many are
-      // wrong; the first of each kind says where.
-      std::size_t n_many = 0, n_open = 0;
-      std::string first_many, first_open;
-      for (const auto &[edge, n_polygons] : soup.edges())
-        if (n_polygons != 2)
-          {
-            ++(n_polygons > 2 ? n_many : n_open);
-            std::string &first = n_polygons > 2 ? first_many : first_open;
-            if (first.empty())
-              first = place(soup.points[edge.first]) + " to " +
-                      place(soup.points[edge.second]) + " um";
-          }
-      if (n_many > 0)
-        soup.refuse(
-          "The surface is non-manifold: " + std::to_string(n_many) +
-          " edges belong to more than two polygons, such as that from " +
-          first_many +
-          ". Remove inner walls and fins, and separate bodies that "
-          "touch.");
-      if (n_open > 0)
-        soup.refuse("The surface is open: " + std::to_string(n_open) +
-                    " edges belong to one polygon only, such as that from " +
-                    first_open +
-                    ". Close the holes, or merge the vertices that should "
-                    "coincide.");
+      const auto edges = soup.edges();
+      for (const bool many : {true, false})
+        for (const auto &[edge, n_polygons] : edges)
+          if (many ? n_polygons > 2 : n_polygons < 2)
+            soup.refuse(
+              "The surface is " + std::string(many ? "non-manifold" : "open") +
+              ": the edge from " + place(soup.points[edge.first]) + " to " +
+              place(soup.points[edge.second]) + " um belongs to " +
+              std::to_string(n_polygons) +
+              " polygons. Close holes, merge vertices that should coincide, remove "
+              "inner walls and fins, and separate bodies that touch.");
     }
 
     std::string

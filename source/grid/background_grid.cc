@@ -186,10 +186,7 @@ namespace Morula
     std::map<unsigned int, GridCellCounts> by_owner;
     for (const GridCellCount &count : counts)
       by_owner[owner(count.number)].push_back(count);
-    GridCellCounts own;
-    for (const auto &[sender, list] : send_records(by_owner, comm))
-      own.insert(own.end(), list.begin(), list.end());
-    return merged(std::move(own));
+    return merged(in_one(send_records(by_owner, comm)));
   }
 
   /** Weight of a grid cell that this rank owned before the partition. */

@@ -124,9 +124,7 @@ namespace Morula
                        kept.end());
             // This is rare, so all ranks may look at all grid cells of the
             // joined pieces.
-            std::vector<Kept<dim>> all;
-            for (const auto &list : gather_everywhere(kept, comm))
-              all.insert(all.end(), list.begin(), list.end());
+            std::vector<Kept<dim>> all = in_one(gather_everywhere(kept, comm));
             std::sort(all.begin(), all.end(), [](const auto &x, const auto &y) {
               return x.grid_cell < y.grid_cell;
             });

@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/mechanics/material_points.h>
-#include <morula/mechanics/pools.h>
 
 #include <algorithm>
 #include <cmath>

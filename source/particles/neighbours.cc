@@ -227,10 +227,8 @@ namespace Morula
     for (unsigned int k = 0; k < store.size(); ++k)
       patches_of[std::get<0>(nearest[k])].push_back(
         {std::get<1>(nearest[k]), store.area_vector(k).norm()});
-    std::vector<Patch> patches;
-    for (const auto &[sender, list] :
-         send_records(patches_of, tissue.communicator()))
-      patches.insert(patches.end(), list.begin(), list.end());
+    std::vector<Patch> patches =
+      in_one(send_records(patches_of, tissue.communicator()));
     std::sort(patches.begin(), patches.end(), [](const auto &a, const auto &b) {
       return std::make_pair(a.p, a.area) < std::make_pair(b.p, b.area);
     });

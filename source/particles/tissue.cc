@@ -334,9 +334,7 @@ namespace Morula
     std::vector<Record>
     of_all_by_id(const std::vector<Record> &own, const MPI_Comm comm)
     {
-      std::vector<Record> all;
-      for (const auto &list : gather_everywhere(own, comm))
-        all.insert(all.end(), list.begin(), list.end());
+      std::vector<Record> all = in_one(gather_everywhere(own, comm));
       std::sort(all.begin(), all.end(), [](const Record &a, const Record &b) {
         return a.id < b.id;
       });

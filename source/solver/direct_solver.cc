@@ -168,10 +168,8 @@ namespace Morula
       // The rows of all ranks travel to the first one, which alone has factors.
       // Whether there are any is told to all. Those of a matrix that is not
       // positive take longer.
-      std::vector<MatrixEntry> entries;
-      for (const auto &[rank, part] :
-           send_records<MatrixEntry>({{0, entries_of(K, shift)}}, comm))
-        entries.insert(entries.end(), part.begin(), part.end());
+      const std::vector<MatrixEntry> entries =
+        in_one(send_records<MatrixEntry>({{0, entries_of(K, shift)}}, comm));
       bool failed = false;
       if (Utilities::MPI::this_mpi_process(comm) == 0)
         {

@@ -51,9 +51,8 @@ namespace Morula
      *  brought the residual down to this part without moving anything by more
      *  than a grid spacing: then what is left of it counts little in comparison
      *  with what the renewal changes. */
-    constexpr double early = 0.1;
-    /** What needs more turns than these is not renewed early any more. */
-    constexpr unsigned int last_early_turn = 10;
+    constexpr double       early           = 0.1;
+    constexpr unsigned int last_early_turn = 10; // then it is no help
 
     /** The largest change of a coefficient by the last iteration, µm. */
     double

@@ -144,6 +144,29 @@ namespace Morula
   }
 
 
+  /** All records that the above give, one list after the other. */
+  template <typename Record>
+  std::vector<Record>
+  in_one(const std::vector<std::vector<Record>> &lists)
+  {
+    std::vector<Record> all;
+    for (const std::vector<Record> &list : lists)
+      all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+
+  /** Likewise. */
+  template <typename Record>
+  std::vector<Record>
+  in_one(const std::map<unsigned int, std::vector<Record>> &lists)
+  {
+    std::vector<Record> all;
+    for (const auto &[rank, list] : lists)
+      all.insert(all.end(), list.begin(), list.end());
+    return all;
+  }
+
+
   /** Where a rank's keys stand among those of all ranks. */
   struct GlobalOrder
   {
@@ -165,9 +188,7 @@ namespace Morula
   GlobalOrder
   global_order(const std::vector<Key> &keys, const MPI_Comm comm)
   {
-    std::vector<Key> all;
-    for (const auto &of_rank : gather_everywhere(keys, comm))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<Key> all = in_one(gather_everywhere(keys, comm));
     std::sort(all.begin(), all.end());
     GlobalOrder order;
     order.n_keys = all.size();

@@ -240,10 +240,7 @@ namespace Morula
       std::map<unsigned int, std::vector<Record>> by_owner;
       for (const Record &record : records)
         by_owner[grid.owner(record.number)].push_back(record);
-      std::vector<Record> own;
-      for (const auto &[sender, list] : send_records(by_owner, comm))
-        own.insert(own.end(), list.begin(), list.end());
-      return own;
+      return in_one(send_records(by_owner, comm));
     }
 
     /**
@@ -256,9 +253,8 @@ namespace Morula
     std::vector<Record>
     to_windows(const std::vector<Record> &own) const
     {
-      std::vector<Record> received;
       if (alone)
-        return received;
+        return {};
       std::map<unsigned int, std::vector<Record>> others;
       for (const Record &record : own)
         {
@@ -267,9 +263,7 @@ namespace Morula
             if (is_in(ranges, index))
               others[other].push_back(record);
         }
-      for (const auto &[sender, list] : send_records(others, comm))
-        received.insert(received.end(), list.begin(), list.end());
-      return received;
+      return in_one(send_records(others, comm));
     }
 
     MPI_Comm

@@ -276,9 +276,7 @@ namespace Morula
       for (const unsigned int number : this->own())
         if (this->n_boundary_points(number) > Utilities::pow(4u, dim))
           found.push_back(window().whole().number(nodes().index(number)));
-      crowded_.clear();
-      for (const auto &list : gather_everywhere(found, window().communicator()))
-        crowded_.insert(crowded_.end(), list.begin(), list.end());
+      crowded_ = in_one(gather_everywhere(found, window().communicator()));
       std::sort(crowded_.begin(), crowded_.end());
     }
 

@@ -48,11 +48,7 @@ namespace Morula
       for (const Former &one : remembered)
         if (grid.box().contains(one.grid_cell))
           by_owner[grid.owner(one.grid_cell)].push_back(one);
-      std::vector<Former> list;
-      for (const auto &[sender, theirs] :
-           send_records(by_owner, grid.communicator()))
-        list.insert(list.end(), theirs.begin(), theirs.end());
-      return list;
+      return in_one(send_records(by_owner, grid.communicator()));
     }
 
     std::vector<Former> remembered;   // of grid cells that were this rank's

@@ -182,10 +182,8 @@ namespace Morula
     for (const auto &[rank, list] : asked)
       for (const unsigned int p : list)
         append_flat(answers[rank], value(p));
-    std::vector<double> numbers;
-    for (const auto &[rank, list] : send_records(answers, comm))
-      numbers.insert(numbers.end(), list.begin(), list.end());
-    std::vector<T> result;
+    const std::vector<double> numbers = in_one(send_records(answers, comm));
+    std::vector<T>            result;
     for (const auto &of_place : shares)
       {
         T sum{};

@@ -4,7 +4,7 @@
 #ifndef morula_solver_preconditioner_h
 #define morula_solver_preconditioner_h
 
-#include <morula/base/halo.h>
+#include <morula/base/block_matrix.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/solver/block_cholesky.h>
 

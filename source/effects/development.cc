@@ -384,10 +384,12 @@ namespace Morula
                                     const double                       t0,
                                     const double                       t1) const
   {
-    // Shares lie cell by cell, with one number for each flow. The sum is this
-    // cell's contribution to doc/theory.md (5.10).
-    const std::size_t n      = effects.flows.size();
-    double            missed = 0.;
+    // Shares lie cell by cell, with one number for each flow; there are none
+    // where nothing flows in the step. The sum is this cell's contribution to
+    // doc/theory.md (5.10).
+    const std::size_t n =
+      of_step.flow_shares.empty() ? 0 : effects.flows.size();
+    double missed = 0.;
     for (std::size_t k = 0; k < n; ++k)
       missed +=
         of_step.flow_shares[p * n + k] *

@@ -3,7 +3,6 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
-#include <morula/effects/fate/types_around.h>
 #include <morula/scene/checks.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/pieces_at_start.h>
@@ -14,137 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
-#include <optional>
-#include <sstream>
 
 namespace Morula
 {
   namespace
   {
-    /** A rate times a step above this has an error that is seen: the change of
-     *  other cells is felt a step late. */
-    constexpr double largest_part = 0.3;
-    /** From here on a rate is a switch: cells change in the next step. */
-    constexpr double switch_part = 10.;
-
-    /** Whether a value can change in a step by what other cells do, besides
-     *  those of its variables that cells see in the step itself. */
-    bool
-    feels_others(const Expression                          &expression,
-                 const std::function<bool(const Variable)> &seen)
-    {
-      return std::any_of(expression.used().begin(),
-                         expression.used().end(),
-                         [&](const Variable variable) {
-                           return !seen(variable) && follows_state(variable);
-                         });
-    }
-
-    /** A rate that depends on what other cells do. */
-    struct CoupledRate
-    {
-      Expression rate;
-      /** The type of the cells that it is for; none: all cells. */
-      std::optional<unsigned int> type;
-      /** The largest value over all founders of this rank, 1/day. */
-      double largest = 0.;
-    };
-
-    template <int dim>
-    std::vector<CoupledRate>
-    coupled_rates(const TissueModel<dim> &model)
-    {
-      // Types have rates of their own, so they are asked type by type; other
-      // fates have one list for all cells. The waits of fates that divide
-      // cells are not looked at.
-      const auto seen = [&](const Variable variable) {
-        return model.sees_neighbours &&
-               is_type_around(variable, model.development.state());
-      };
-      std::vector<CoupledRate> list;
-      const auto               add = [&](const Expression                 &rate,
-                           const std::optional<unsigned int> type) {
-        if (feels_others(rate, seen))
-          list.push_back({rate, type});
-      };
-      for (unsigned int type = 0; type < model.scene.cell_types.types.size();
-           ++type)
-        for (const CellHazard<dim> &way : model.types->hazards(type))
-          add(way.rate, type);
-      for (const auto &fate : model.development.fates().list)
-        if (fate.get() != model.types &&
-            dynamic_cast<const Divides<dim> *>(fate.get()) == nullptr)
-          for (const CellHazard<dim> &hazard : fate->hazards(0))
-            add(hazard.rate, {});
-      return list;
-    }
-
-    void
-    warn_of(const Expression &rate,
-            const double      largest,
-            const double      step,
-            Review           &review)
-    {
-      std::ostringstream why, remedy;
-      why << "at t = 0 it is up to " << largest << " /day, " << largest * step
-          << " in a step of " << step
-          << " day. What other cells become in a step is felt in the next one "
-             "only, an error of first order in rate times step.";
-      remedy << "Let Time/Step be at most " << largest_part / largest
-             << " day, or compare with a run of half the step.";
-      review.warn(rate.key(), rate.text(), why.str(), remedy.str());
-    }
-
-    /**
-     * Warns of rates of death and of leaving a type that are fast for the step.
-     * Such a rate is taken for the cell's state at the beginning of a step, so
-     * what other cells become in the step is not felt: an error of first order
-     * in rate times step. Rates that no other cell can change are taken in the
-     * middle of the step, of second order, and not looked at. Collective.
-     * @throws InputError on all ranks where a rate has no value
-     */
-    template <int dim>
-    void
-    review_rates(const TissueModel<dim>    &model,
-                 const Founders<dim>       &founders,
-                 const SurfacePatches<dim> &surface,
-                 const MPI_Comm             comm,
-                 Review                    &review)
-    {
-      // The rates are evaluated at all founders of this rank in their state at
-      // t = 0; then the largest over all ranks is compared with the step. A
-      // rate far above it is a switch, whose delay of a step is meant.
-      const double             step  = model.scene.time.step;
-      std::vector<CoupledRate> rates = coupled_rates(model);
-      if (rates.empty())
-        return;
-      for_first_cells<dim>(model,
-                           founders,
-                           surface,
-                           0.,
-                           comm,
-                           [&](const std::size_t,
-                               std::vector<double> &,
-                               const PresentCell<dim> &founder) {
-                             for (CoupledRate &coupled : rates)
-                               if (!coupled.type ||
-                                   *coupled.type == founder.type())
-                                 coupled.largest =
-                                   std::max(coupled.largest,
-                                            founder.value(coupled.rate, 0.));
-                           });
-      for (const CoupledRate &coupled : rates)
-        {
-          const double largest = Utilities::MPI::max(coupled.largest, comm);
-          const double part    = largest * step;
-          if (part > largest_part && part < switch_part)
-            warn_of(coupled.rate, largest, step, review);
-        }
-    }
-
     /** A value may leave the range of the two ends of its step by this part of
      *  its range in time. A wave does so from 3.4 steps a period on. */
     constexpr double most_outside = 0.2;
@@ -313,21 +188,6 @@ namespace Morula
             "for a period.");
         }
     }
-
-    /** Whether some surface is pulled or pressed. */
-    template <int dim>
-    bool
-    has_loads(const BoundaryConditions<dim> &conditions,
-              const ConditionCounts         &counts)
-    {
-      return std::any_of(conditions.list().begin(),
-                         conditions.list().end(),
-                         [&counts](const auto &named) {
-                           return named.condition->kind() ==
-                                    SurfaceCondition::loaded &&
-                                  counts.acting.at(named.name) > 0;
-                         });
-    }
   } // namespace
 
 
@@ -358,9 +218,8 @@ namespace Morula
 
     Preview<dim> at = preview<dim>(
       model, founders.positions, surface.positions, surface.normals, comm);
-    at.is_loaded = has_loads(conditions, counts) || !model.forces.empty();
-    at.volumes   = founders.volumes;
-    at.types     = types_of<dim>(model, founders.positions, founders.types);
+    at.volumes = founders.volumes;
+    at.types   = types_of<dim>(model, founders.positions, founders.types);
     const double V =
       std::accumulate(founders.volumes.begin(), founders.volumes.end(), 0.);
     at.mean_volume = Utilities::MPI::sum(V, comm) / founders.n_global;
@@ -372,7 +231,6 @@ namespace Morula
                           comm);
     for (const Effect<dim> *const effect : model.all_effects)
       effect->review(at, review);
-    review_rates(model, founders, surface, comm, review);
     for (const EffectKeys *const keys : scene.keys_in_use())
       keys->check(scene, review);
     for (const auto &[name, equation] : model.equations)

@@ -369,23 +369,21 @@ namespace Morula
   RunFiles<dim>::finish(const std::string   &outcome,
                         const StatisticsRow &row,
                         const unsigned int   rejected_steps,
-                        const double         error_in_time,
                         const TimerOutput   &timer)
   {
     // The lock goes last: until then no other run may touch the files.
     finish_points();
-    progress->finish(
-      {outcome,
-       dim,
-       row.time,
-       row.cells,
-       row.tissue.total_volume,
-       row.step,
-       rejected_steps,
-       wall_seconds(),
-       section_times(timer, sections_before),
-       scene.output_directory,
-       row.step_error ? std::optional<double>(error_in_time) : std::nullopt});
+    progress->finish({outcome,
+                      dim,
+                      row.time,
+                      row.cells,
+                      row.tissue.total_volume,
+                      row.step,
+                      rejected_steps,
+                      wall_seconds(),
+                      section_times(timer, sections_before),
+                      scene.output_directory,
+                      row.step_error});
     note_finished(scene.output_directory, setup(), wall_seconds(), comm);
     lock.reset();
   }

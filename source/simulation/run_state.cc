@@ -225,9 +225,9 @@ namespace Morula
       }
     if (state.error.total() > 0. || state.error.flow > 0.)
       {
-        data.numbers["missed_flow"]      = state.error.flow;
-        data.numbers["step_error"]       = state.error.last;
-        data.numbers["changes_of_error"] = state.error.changes;
+        data.numbers["missed_flow"]   = state.error.flow;
+        data.numbers["step_error"]    = state.error.last;
+        data.numbers["sum_of_errors"] = state.error.sum;
       }
     if (has_boundary_ids)
       data.numbers["next_boundary_id"] = state.next_boundary_id;
@@ -340,7 +340,7 @@ namespace Morula
     if (data.numbers.count("step_error") > 0)
       state.error = {data.number("missed_flow"),
                      data.number("step_error"),
-                     data.number("changes_of_error")};
+                     data.number("sum_of_errors")};
     return state;
   }
 

@@ -4,6 +4,7 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/particles/detached_points.h>
 #include <morula/simulation/simulation.h>
@@ -109,6 +110,66 @@ namespace Morula
 
 
   template <int dim>
+  bool
+  Simulation<dim>::balance_at_start()
+  {
+    // This is a step of no length, in which nothing grows or flows. Without it
+    // a load that is there at t = 0 would first be felt at the end of the first
+    // step, and what cells do in a step follows their state at its beginning.
+    // Where the balance is not found, as with friction, which lets nothing move
+    // in no time, the first step finds it. Nothing moves where nothing acts.
+    if (model.scene.method == "paper" || !model.development.follows_strain() ||
+        (model.boundary_conditions.list().empty() && model.forces.empty() &&
+         !model.interaction))
+      return false;
+    SplineSpace<dim>                 space      = splines();
+    const auto                       encounters = this->encounters(space);
+    const double                     t          = time_steps.time();
+    NewtonReport                     report;
+    std::optional<ConditionEstimate> none = ConditionEstimate();
+    std::optional<typename StepEquilibrium<dim>::Solution> solution;
+    if (model.material.depends_on_state())
+      {
+        const CellReader<dim> reader = model.development.reader(t);
+        everywhere(comm, [&]() {
+          for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+            growth_of_step.lame.push_back(
+              present_cell(tissue, p, reader).lame());
+        });
+        typical_stiffness =
+          model.typical_stiffness(tissue, growth_of_step, comm);
+      }
+    try
+      {
+        const auto supports =
+          Morula::supports(model.boundary_conditions, tissue, space);
+        solution =
+          StepEquilibrium<dim>(
+            model, tissue, space, supports, timer, comm, encounters.get())
+            .solve({t, t, growth_of_step, typical_stiffness, run_state.kept},
+                   report,
+                   none);
+      }
+    catch (const StepFailed &)
+      {}
+    const bool moves = solution && solution->u.linfty_norm() > 0.;
+    if (moves)
+      {
+        commit(space, space, *solution, false);
+        forces.clear(); // their first row is that of a step
+        if (surface.is_tracked())
+          pull_back_detached_points(tissue);
+        surface.follow(tissue, space, surface.before_losses(tissue), t, 0.);
+        renew_carriers(tissue);
+        for_moments(&Moments<dim>::surfaced, t, 0.);
+      }
+    growth_of_step = {};
+    first_splines.emplace(splines());
+    return moves;
+  }
+
+
+  template <int dim>
   void
   Simulation<dim>::begin_step()
   {
@@ -134,15 +195,11 @@ namespace Morula
   {
     const DisplacementField<dim> displacement(space, solution.u, comm);
     warn_of_turn(displacement);
-    // commit() empties growth_of_step and sets the missed flow of this step, so
-    // the error of the step before is read here.
-    const double mu = error_of_step(growth_of_step.missed_growth);
+    // commit() empties growth_of_step, so what the step before missed of growth
+    // is read here.
+    const double missed_growth = mean_missed(growth_of_step.missed_growth);
     commit(space, space_of_equations, solution);
-    if (model.development.states_error())
-      {
-        row.step_error = mu;
-        run_state.error.add(mu);
-      }
+    run_state.error.template add<dim>(missed_growth);
     // The displacement is extrapolated beyond the outermost cells and carries
     // boundary points away there, doc/theory.md (4.13). A surface that is made
     // from the cells is never far from them.
@@ -164,33 +221,16 @@ namespace Morula
       return;
     const TimerOutput::Scope section(timer, "growth");
     // Each rank evaluates its own cells and may meet an expression without a
-    // value; everywhere() lets all ranks throw then. error_of_step() makes one
+    // value; everywhere() lets all ranks throw then. mean_missed() makes one
     // number of all ranks' cells, so that all of them choose the same length.
+    // What was missed of flow is known since the end of the last step.
     std::vector<double> missed;
     everywhere(comm, [&]() {
       missed = model.development.missed_growth(tissue,
                                                time_steps.time(),
                                                time_steps.past());
     });
-    time_steps.adapt(error_of_step(missed));
-  }
-
-  template <int dim>
-  double
-  Simulation<dim>::error_of_step(const std::vector<double> &missed) const
-  {
-    // This is the μ of doc/theory.md (5.10). What was missed of flow is known
-    // at the end of a step and waits in run_state, what was missed of growth is
-    // known only here.
-    if (!model.development.states_error())
-      return 0.;
-    return run_state.error.flow +
-           mean_over_tissue<dim>(
-             tissue,
-             [&](const unsigned int p) {
-               return missed.empty() ? 0. : missed[p];
-             },
-             std::pow(double(model.scene.tissue.cell_spacing), dim));
+    time_steps.adapt(run_state.error.flow + mean_missed(missed));
   }
 
   template <int dim>

@@ -123,7 +123,8 @@ namespace Morula
   Simulation<dim>::commit(
     const SplineSpace<dim>                        &space,
     const SplineSpace<dim>                        &space_of_equations,
-    const typename StepEquilibrium<dim>::Solution &solution)
+    const typename StepEquilibrium<dim>::Solution &solution,
+    const bool                                     takes_time)
   {
     // The first part only computes: the motions of cells and boundary points
     // and the check that they still fit on a grid, so that a run that gives up
@@ -170,29 +171,27 @@ namespace Morula
     // they can fail when the cells have changed already. The rows of the cells
     // are kept to go back.
     const Rows before = may_fail ? rows_of(tissue) : Rows();
-    model.development.commit(tissue, growth_of_step, t, t_next);
+    if (takes_time)
+      model.development.commit(tissue, growth_of_step, t, t_next);
     const std::vector<double> missed_flow =
       deform_cells(cells.motions, volumes);
     // The concentrations are diluted before the equation is solved: a value
     // that is held at the surface would otherwise be too low by what grows in a
     // step (doc/theory.md, section 11.4).
-    solve_equations([&](EquationInRun<dim> &equation) {
-      try
-        {
-          equation.advance(tissue, space_of_equations, t, t_next);
-        }
-      catch (...)
-        {
-          // give_up() saves the cells, which have to be those at t.
-          set_rows(tissue, before);
-          throw;
-        }
-    });
-    if (model.development.states_error())
-      run_state.error.flow = mean_over_tissue<dim>(
-        tissue,
-        [&](const unsigned int p) { return missed_flow[p]; },
-        std::pow(double(model.scene.tissue.cell_spacing), dim));
+    if (takes_time)
+      solve_equations([&](EquationInRun<dim> &equation) {
+        try
+          {
+            equation.advance(tissue, space_of_equations, t, t_next);
+          }
+        catch (...)
+          {
+            // give_up() saves the cells, which have to be those at t.
+            set_rows(tissue, before);
+            throw;
+          }
+      });
+    run_state.error.flow = mean_missed(missed_flow);
     // A boundary point keeps its F where the extrapolated f is too large or
     // turns it inside out; its position has moved all the same.
     for (unsigned int p = 0; p < surface.positions.size(); ++p)

@@ -237,9 +237,8 @@ namespace Morula
       }
     if (surface.exists())
       row.surface = surface_fit(tissue, row.tissue.total_volume);
-    if (model.development.states_error() && !row.step_error)
-      // No step has led to the first row, but the column exists from it on.
-      row.step_error = 0.;
+    if (model.development.states_error())
+      row.step_error = run_state.error.total();
   }
 
   template <int dim>

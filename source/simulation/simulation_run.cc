@@ -309,9 +309,9 @@ namespace Morula
     // A new run still has to make its first row: steady fields are found on the
     // first splines, as carving, the axes of founders and the columns of the
     // row may depend on them. Carving changes the tissue, and the fields with
-    // it, so they are found again on new splines. The splines are kept for the
-    // first step, which begins in the same configuration. A resumed run has its
-    // rows already.
+    // it, so they are found again on new splines, as where the tissue gives way
+    // to what acts on it. The splines are kept for the first step, which begins
+    // in the same configuration. A resumed run has its rows already.
     files.emplace(model, resumed_from, clock, comm);
     if (!resumed_from)
       {
@@ -337,6 +337,8 @@ namespace Morula
         // The fields decide what is carved, and what is left decides the
         // fields.
         if (carve())
+          find_steady(false);
+        if (balance_at_start())
           find_steady(false);
         begin_moments();
         for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
@@ -440,8 +442,9 @@ namespace Morula
   void
   Simulation<dim>::give_up(const std::string &reason)
   {
-    // The step was counted when it began, but it is not done.
-    --run_state.n_steps;
+    // The step was counted when it began, but it is not done. None had begun
+    // where the tissue is torn at t = 0.
+    run_state.n_steps -= run_state.n_steps > 0;
     files->write_snapshot(snapshot(), timer);
     // These rows follow the snapshot, which must not count them: a resumed run
     // repeats the step and writes its own.

@@ -101,59 +101,6 @@ TEST(SceneWarnings, OfCellsInAnotherUnit)
 }
 
 
-// A rate that other cells change is asked for small steps; one that grows with
-// age, one that is constant and one that is a switch are not.
-TEST(SceneWarnings, OfRatesThatAreFastForTheStep)
-{
-  const TemporaryFile empty(".prm", "");
-  const auto          rates_of = [&](const std::string &leaving,
-                            const std::string &dying,
-                            const std::string &law = "none") {
-    const Scene scene =
-      Scene::read(empty.path,
-                           {"Tissue/Shape=box",
-                   "Tissue/Size=100, 100, 100",
-                   "Time/Step=0.1",
-                   "Death/Shrinking time=0",
-                   "Proliferation/Law=" + law,
-                   "Cell types/Names=stem, leaf",
-                   "Cell types/leaf/Where=X > 0",
-                   "Cell types/stem/Transitions/To leaf=" + leaving,
-                   "Death/Rate=" + dying});
-    std::string all;
-    for (const std::string &text : warnings_of<3>(scene))
-      if (text.find("rate times step") != std::string::npos)
-        all += text + '\n';
-    return all;
-  };
-  EXPECT_EQ(rates_of("50", "50*age + noise"), "");
-  EXPECT_EQ(rates_of("1000*(pressure >= 0)", "2.9*J_e"), "");
-  // 40 - X/2 at stem cells, whose X < 0: 40 + 45/2 at most
-  const std::string leaving = rates_of("(40 - X/2)/J_e", "0");
-  expect_parts(leaving, {"Cell types/stem/Transitions/To leaf = "});
-  expect_parts(leaving, {"up to 62.5 /day, 6.25 in a step of 0.1 day"});
-  expect_parts(rates_of("0", "3.1*J_e"), {"at most 0.0967742 day"});
-
-  // Founders have all that they will begin with: how deep they are, and the
-  // noise of their lineage.
-  expect_parts(rates_of("0", "depth*J_e"), {"up to 45 /day"});
-  const std::uint64_t seed    = Scene().random_seed;
-  double              largest = 0.;
-  for (types::particle_index id = 0; id < 1000; ++id)
-    largest =
-      std::max(largest, Random::noise(seed, Random::founder_key(seed, id)));
-  std::ostringstream noise;
-  noise << "up to " << 5. * largest << " /day";
-  for (const char *const law : {"none", "cell cycle"})
-    expect_parts(rates_of("0", "5*noise*J_e", law), {noise.str()});
-  // None has a value: the same message on all ranks.
-  EXPECT_NE(complaint_of([&]() {
-              rates_of("0", "log(J_e - 2)");
-            }).find("Death/Rate = 'log(J_e - 2)'"),
-            std::string::npos);
-}
-
-
 TEST(SceneWarnings, OfThinTissue)
 {
   Scene scene                         = good_scene();
@@ -273,19 +220,6 @@ TEST(SceneWarnings, OfFormerNames)
   Scene scene   = good_scene();
   scene.renamed = {"scene.prm:3: the key 'A' is called 'B' today"};
   expect_warning(scene, "Warning: scene.prm:3");
-}
-
-
-TEST(SceneWarnings, OfStepsThatAreLongForCreep)
-{
-  Scene scene                             = good_scene();
-  scene.keys<RelaxationParameters>().time = "1 + X/100"; // from 0.55 on
-  EXPECT_TRUE(warnings_of<3>(scene).empty());            // nothing pulls
-  set_condition(scene, "Traction where", "Z > 49");
-  set_condition(scene, "Traction", "0; 0; 0.1");
-  expect_warning(scene, "1.81818 of the shortest");
-  scene.keys<RelaxationParameters>().time = "1";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
 }
 
 

@@ -52,10 +52,16 @@ TEST(StepError, IsAMeanOverTheTissue)
 
 TEST(StepError, OfARunAddsChangesAndTheLast)
 {
+  // 5/6 of each change of what is missed of growth, and of what is missed of
+  // flow along an axis; at last what the last step missed of growth.
   ErrorInTime error;
   EXPECT_EQ(error.total(), 0.);
-  error.add(0.03);
-  EXPECT_DOUBLE_EQ(error.total(), 0.03 / 6. + 0.03);
-  error.add(0.01);
-  EXPECT_DOUBLE_EQ(error.total(), 0.05 / 6. + 0.01);
+  error.add<2>(0.03);
+  EXPECT_DOUBLE_EQ(error.total(), 0.025 + 0.03);
+  error.flow = 0.012 * std::sqrt(2.);
+  error.add<2>(0.03);
+  EXPECT_DOUBLE_EQ(error.total(), 0.025 + 0.01 + 0.03);
+  error.flow = 0.;
+  error.add<2>(0.006);
+  EXPECT_DOUBLE_EQ(error.total(), 0.025 + 0.01 + 0.02 + 0.006);
 }

@@ -10,6 +10,5 @@ def error_in_time(statistics, last=None):
     names = (statistics.dtype.names if isinstance(statistics, np.ndarray) else statistics.columns)
     if "step_error" not in names:
         return None
-    mu = np.atleast_1d(np.asarray(statistics["step_error"], dtype=float))
-    mu = mu[:None if last is None else last + 1]
-    return float(np.abs(np.diff(mu, prepend=0.0)).sum() / 6 + mu[-1])
+    errors = np.atleast_1d(np.asarray(statistics["step_error"], dtype=float))
+    return float(errors[-1 if last is None else last])

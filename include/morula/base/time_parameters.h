@@ -45,7 +45,7 @@ namespace Morula
       {this, "Time/Tolerance"},
       0.,
       "What a step may miss of growth and flow, as a share of the "
-      "tissue's volume (step_error in statistics.csv): steps are "
+      "tissue's volume: steps are "
       "Step/2^k, as long as this allows, and short at the start and "
       "after a cut. Not negative; 0: all steps are Step long.",
       {},

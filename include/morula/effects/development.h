@@ -279,6 +279,16 @@ namespace Morula
       return effects.states_error();
     }
 
+    /** Whether cells flow, or do what depends on their strain or stress. */
+    bool
+    follows_strain() const
+    {
+      return has_checkpoint() || state_.feels_strain() ||
+             std::any_of(effects.flows.begin(),
+                         effects.flows.end(),
+                         [](const auto &flow) { return flow->has_forecast(); });
+    }
+
     /** Sets all columns but F to their values at the end of the step. F must
      *  still be that at @p t0. */
     void

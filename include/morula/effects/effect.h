@@ -209,8 +209,6 @@ namespace Morula
     /** Whether some boundary points are fixed. */
     bool     is_clamped;
     MPI_Comm comm;
-    /** Whether forces act on cells or on the surface. */
-    bool is_loaded = false;
     /** Initial volumes of the founders of all ranks, µm^dim. */
     double mean_volume = 0., largest_volume = 0.;
     /** Initial volumes of this rank's founders, µm^dim. */

@@ -275,8 +275,8 @@ namespace Morula
     std::vector<std::pair<std::string, double>> of_effects = {};
     /** How the surface fits the cells; empty without boundary points. */
     std::optional<SurfaceFit> surface = {};
-    /** What the step before missed of growth and flow, relative to the volume;
-     *  only where they follow the state. */
+    /** The error in time so far, E of doc/theory.md (5.10); only where growth
+     *  or flow follows the state. */
     std::optional<double> step_error = {};
 
     /** Whether so many cells are too long that this changes the energy by more

@@ -159,7 +159,6 @@ namespace Morula
     finish(const std::string   &outcome,
            const StatisticsRow &row,
            const unsigned int   rejected_steps,
-           const double         error_in_time,
            const TimerOutput   &timer);
 
     /** Wall seconds since the start of the run, over all resumptions. */

@@ -23,18 +23,22 @@ namespace Morula
      * at the step's end, while what is missed of growth is known only when the
      *  next step begins. */
     double flow = 0.;
-    /** μ of the step before the last. */
+    /** What the step before the last missed of growth. */
     double last = 0.;
-    /** The sum of |μ_{n+1} - μ_n| / 6. */
-    double changes = 0.;
+    /** The sum of (5.10). */
+    double sum = 0.;
 
-    /** Adds μ of a step. */
+    /** Adds what steps have missed: of growth, relative to the volume, and what
+     *  is known of flow, along an axis. */
+    template <int dim>
     void
-    add(const double mu)
+    add(const double growth)
     {
-      // This is the sum in doc/theory.md (5.10).
-      changes += std::abs(mu - last) / 6.;
-      last = mu;
+      // This is the sum in doc/theory.md (5.10). A deviator's norm is larger
+      // than its value along its axis.
+      sum += 5. / 6. *
+             (std::abs(growth - last) + std::sqrt((dim - 1.) / dim) * flow);
+      last = growth;
     }
 
     /** The error of the whole run, E of (5.10): relative, as a volume or a
@@ -42,7 +46,7 @@ namespace Morula
     double
     total() const
     {
-      return changes + last;
+      return sum + last;
     }
   };
 

@@ -124,6 +124,11 @@ namespace Morula
      *  closes the surface. @return whether that was anything. Collective. */
     bool
     carve();
+    /** Brings tissue that follows its strain into balance with what acts on it
+     *  at t = 0, where that takes no time: doc/theory.md, section 5.6.
+     *  @return whether it has moved. Collective. */
+    bool
+    balance_at_start();
     void
     begin_moments()
     {
@@ -144,7 +149,6 @@ namespace Morula
                                             "Finished: Stop at cells reached",
                     row,
                     run_state.n_rejected,
-                    run_state.error.total(),
                     timer);
     }
     bool
@@ -187,10 +191,20 @@ namespace Morula
      *  allows. Collective. */
     void
     adapt_step();
-    /** μ of doc/theory.md (5.10) of the last step. @param missed of its growth,
-     *  by cell. Collective. */
+    /** The mean over the tissue of what each cell has missed in a step; 0 where
+     *  no step's error is known. Collective. */
     double
-    error_of_step(const std::vector<double> &missed) const;
+    mean_missed(const std::vector<double> &missed) const
+    {
+      return model.development.states_error() ?
+               mean_over_tissue<dim>(
+                 tissue,
+                 [&](const unsigned int p) {
+                   return missed.empty() ? 0. : missed[p];
+                 },
+                 std::pow(double(model.scene.tissue.cell_spacing), dim)) :
+               0.;
+    }
     using MomentOfStep = void (Moments<dim>::*)(Tissue<dim> &,
                                                 const MomentOfRun<dim> &) const;
     /** Calls this moment of all effects that have moments. Collective. */
@@ -242,7 +256,8 @@ namespace Morula
     void
     commit(const SplineSpace<dim>                        &space,
            const SplineSpace<dim>                        &space_of_equations,
-           const typename StepEquilibrium<dim>::Solution &solution);
+           const typename StepEquilibrium<dim>::Solution &solution,
+           const bool                                     takes_time = true);
     /** Deforms the cells at the end of the step by their motions.
      *  @param volumes  det F_e of each cell where its grid cell has one, else
      *                  empty

@@ -186,14 +186,17 @@ namespace Morula
         // κ and ζ/Δt of doc/theory.md (4.8k) follow from the stiffest cell and
         // the length of the attempt.
         const TimerOutput::Scope section(attempt.timer, "contact");
-        const double             h = attempt.space.box().spacing();
+        const double             h  = attempt.space.box().spacing();
+        const double             dt = attempt.t_next - attempt.t;
+        if (keys.friction > 0. && !(dt > 0.))
+          throw StepFailed("friction takes time");
         return contact_in_step(
           attempt,
           points,
           ContactLaw{keys.stiffness * attempt.typical_stiffness / h,
                      attempt.typical_stiffness,
                      h,
-                     keys.friction / (attempt.t_next - attempt.t)});
+                     keys.friction > 0. ? keys.friction / dt : 0.});
       }
 
       void

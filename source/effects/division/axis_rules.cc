@@ -144,7 +144,9 @@ namespace Morula
           // for them.
           if (along == Along::surface_normal || along == Along::tangential)
             setting.state.need_surface_normal();
-          else if (along == Along::cell_shape)
+          else
+            setting.state.need(Variable::tension); // it follows the strain
+          if (along == Along::cell_shape)
             setting.columns.need_shape();
         }
 

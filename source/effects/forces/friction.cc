@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression_key.h>
+#include <morula/base/step_failed.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/fields/fields.h>
 #include <morula/effects/forces/force.h>
@@ -80,7 +81,10 @@ namespace Morula
       {
         // The velocity of backward Euler's method is u/Δt, so that friction
         // acts as a spring of stiffness V ζ/Δt from where the cell is at the
-        // beginning of the step: doc/theory.md (4.7a).
+        // beginning of the step: doc/theory.md (4.7a). In no time nothing moves
+        // against it.
+        if (!(t1 > t0))
+          throw StepFailed("friction takes time");
         std::vector<double> stiffnesses = friction(tissue, reader, t0);
         for (unsigned int p = 0; p < tissue.cells().size(); ++p)
           stiffnesses[p] *=

@@ -142,9 +142,10 @@ namespace Morula
     const double withheld = cell.cell->get(memory->withheld);
     const double grown    = std::log(determinant(cell.growth));
     const double J_e      = cell.cell->elastic_volume_ratio();
+    const double place    = cell.cell->get(memory->place);
     if (withheld != 0.)
-      return after_first_step(grown, withheld, -std::log(J_e), dt);
-    return {0., (std::log(J_e) + grown - cell.cell->get(memory->place)) / dt};
+      return after_first_step(grown, withheld, place - std::log(J_e), dt);
+    return {0., (std::log(J_e) + grown - place) / dt};
   }
 
 
@@ -243,6 +244,7 @@ namespace Morula
         const GrowthFeedback all = now.all();
         after.set(memory->withheld,
                   (t1 - t0) * (all.rate - predicted_rate(all, all, 0.)));
+        after.set(memory->place, std::log(cell.cell->elastic_volume_ratio()));
       }
     else if (cell.cell->get(memory->withheld) != 0.)
       // The second step has made it good. Place and time stay those of t = 0,

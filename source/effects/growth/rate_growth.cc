@@ -112,7 +112,10 @@ namespace Morula
     if (homeostasis->is_always(0.))
       homeostasis.reset();
     else
-      homeostatic_stress = setting.state.use(parameters.homeostatic_stress);
+      {
+        homeostatic_stress = setting.state.use(parameters.homeostatic_stress);
+        setting.state.need(Variable::tension);
+      }
     follows_stress = follows_elastic_state(rate);
     if (predictor && (follows_stress || homeostasis))
       memory =

@@ -2,19 +2,16 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/base/time_parameters.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/relaxation.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Morula
 {
@@ -170,41 +167,6 @@ namespace Morula
       {
         founder.value(time, 0.5 * step);
         founder.value(yield_stress, 0.5 * step);
-      }
-
-      /** Warns of passes that do nothing, and of steps that are too long for
-       * creep under a load. */
-      void
-      review(const Preview<dim> &scene, Review &review) const override
-      {
-        // The shortest relaxation time of all founders and types is compared
-        // with the step; the minimum over the ranks is collective, and the
-        // return before it depends on what all ranks share.
-        if (!scene.is_loaded)
-          return;
-        // A time that depends on the state is known only in the run.
-        constexpr double none     = std::numeric_limits<double>::max();
-        double           shortest = none;
-        const auto       consider = [&](const double tau) {
-          if (tau > 0.)
-            shortest = std::min(shortest, tau);
-        };
-        if (!time.depends_on_state())
-          for (const Point<dim> &X : scene.founders)
-            consider(time.value(X, 0.5 * scene.keys.time.step));
-        for (const auto &[type, own] : time.types())
-          consider(own.number().value_or(0.));
-        shortest = Utilities::MPI::min(shortest, scene.comm);
-        if (shortest < none && scene.keys.time.step > shortest * (1. + 1e-9))
-          review.warn(
-            TimeParameters::step_path,
-            as_text(scene.keys.time.step) + " day",
-            "that is " + as_text(scene.keys.time.step / shortest) +
-              " of the shortest " + time.key() + ", " + as_text(shortest) +
-              " day: what a step knows of the tissue's motion is that of "
-              "the step before, and under a load that changes it creeps "
-              "too late (doc/theory.md, 8.2).",
-            "Shorten the step to the relaxation time, or less.");
       }
 
     private:

@@ -71,8 +71,8 @@ def effort(run):
                 only_steps=True, log=True)
     yield Curve("Length of a step", "day", {"dt": "step"}, only_steps=True, zero=True)
     if "step_error" in run.statistics:
-        yield Curve("What the step before missed of growth and flow, relative", "",
-                    {"step_error": "missed"}, only_steps=True, zero=True)
+        yield Curve("Error in time of growth and strain so far, its own estimate", "",
+                    {"step_error": "error"}, only_steps=True, zero=True)
 
 
 def figures(run, curves):

@@ -167,6 +167,15 @@ namespace Morula
       return std::binary_search(used.begin(), used.end(), variable);
     }
 
+    /** Whether some expression depends on a cell's strain, stress or size. */
+    bool
+    feels_strain() const
+    {
+      return std::any_of(used.begin(), used.end(), [](const Variable v) {
+        return v >= Variable::volume && v <= Variable::energy;
+      });
+    }
+
     /** Whether some expression depends on more than place and time, or there
      * are types. */
     bool

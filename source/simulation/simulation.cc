@@ -12,6 +12,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 
 // One step.
@@ -118,10 +119,16 @@ namespace Morula
     // step, and what cells do in a step follows their state at its beginning.
     // Where the balance is not found, as with friction, which lets nothing move
     // in no time, the first step finds it. Nothing moves where nothing acts.
+    const auto &conditions = model.boundary_conditions.list();
     if (model.scene.method == "paper" || !model.development.follows_strain() ||
-        (model.boundary_conditions.list().empty() && model.forces.empty() &&
-         !model.interaction))
+        (model.forces.empty() &&
+         std::none_of(
+           conditions.begin(), conditions.end(), [](const auto &named) {
+             return named.condition->moves() && !named.condition->only_pushes();
+           })))
       return false;
+    for (const auto &named : conditions)
+      named.condition->touch(tissue, 0.);
     SplineSpace<dim>                 space      = splines();
     const auto                       encounters = this->encounters(space);
     const double                     t          = time_steps.time();

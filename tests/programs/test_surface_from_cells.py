@@ -14,7 +14,7 @@ SORTED = {**FLOWING, "Time/End time": 0.5, "Time/Step": 0.05, "Output/Interval":
           "Grid/Offset": "3, 7", "Cell types/Names": "A, B", "Cell types/B/Where": "X > 0",
           "Cell types/A/Tension/With surface": 2, "Cell types/B/Tension/With surface": 4,
           "Cell types/B/Tension/With A": 1, "Rearrangement/Diffusion": 100,
-          "Rearrangement/Fluctuation energy": 6}
+          "Rearrangement/Fluctuation energy": 6, "Solver/Newton tolerance": 1e-9}
 BOX = {**FLOWING, "Time/End time": 2, "Time/Step": 0.05, "Output/Interval": 2,
        "Tissue/Shape": "box", "Tissue/Center": "0, 60", "Tissue/Size": "100, 120",
        "Tissue/Cell spacing": 5, "Grid/Spacing": 15,

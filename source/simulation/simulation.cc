@@ -180,12 +180,13 @@ namespace Morula
   void
   Simulation<dim>::begin_step()
   {
-    row                       = StatisticsRow();
-    newton_report             = NewtonReport();
-    newton_report.wants_trace = model.scene.output.newton_trace;
-    of_step                   = {};
-    births                    = {};
-    events                    = {};
+    row                            = StatisticsRow();
+    newton_report                  = NewtonReport();
+    newton_report.wants_trace      = model.scene.output.newton_trace;
+    newton_report.before_iteration = [this]() { stop_if_asked(); };
+    of_step                        = {};
+    births                         = {};
+    events                         = {};
     ++run_state.n_steps;
     for (const auto &equation : equations)
       equation->begin_step();

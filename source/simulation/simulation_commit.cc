@@ -120,6 +120,40 @@ namespace Morula
 
   template <int dim>
   void
+  Simulation<dim>::settle_equations(const SplineSpace<dim> &space)
+  {
+    if (std::any_of(model.equations.begin(),
+                    model.equations.end(),
+                    [](const auto &named) {
+                      return named.effect->is_steady();
+                    }))
+      begun.rows = rows_of(tissue);
+    solve_equations([&](EquationInRun<dim> &equation) {
+      equation.settle(tissue, space, time_steps.time());
+    });
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::stop_if_asked()
+  {
+    // received() is collective and gives all ranks the same number, so that
+    // they write the snapshot together. Up to move() the tissue is that at t,
+    // and a resumed run repeats the step from there.
+    const int signal = signals->received();
+    if (signal == 0)
+      return;
+    if (!begun.rows.empty())
+      set_rows(tissue, begun.rows);
+    files->write_snapshot(
+      snapshot_of(tissue, begun.time_steps, begun.run_state, surface.exists()),
+      timer);
+    files->write_timings(timer);
+    throw StoppedBySignal(signal, time_steps.time());
+  }
+
+  template <int dim>
+  void
   Simulation<dim>::commit(
     const SplineSpace<dim>                        &space,
     const SplineSpace<dim>                        &space_of_equations,

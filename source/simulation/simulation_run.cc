@@ -249,13 +249,14 @@ namespace Morula
         return;
       }
     begin();
-    const StopSignals signals(comm);
+    signals.emplace(comm);
     record_failure([&]() {
       if (observe)
         observe();
       while (!must_stop())
         {
-          stop_if_asked(signals);
+          begun = {time_steps.state(), run_state, {}};
+          stop_if_asked();
           step();
           write_rows();
           output(must_stop());
@@ -264,6 +265,7 @@ namespace Morula
         }
     });
     finish();
+    signals.reset();
   }
 
   template <int dim>

@@ -35,8 +35,8 @@ namespace Morula
       // Streams may be in use when the signal comes, and must not be entered
       // again; write() is safe. One rank tells for all.
       constexpr char text[] =
-        "\nmorula: stopping after this step; the same signal again stops at "
-        "once, without saving\n";
+        "\nmorula: saving the state; the same signal again stops at once, "
+        "without saving\n";
       if (is_root)
         {
           const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
@@ -47,6 +47,10 @@ namespace Morula
 
     /** The reading end of the pipe that MORULA_LIFELINE names, or -1. */
     int lifeline = -1;
+    /** Open MPI's process that has started this rank, or 0. A second SIGTERM,
+     *  such as timeout sends, ends it without a word to its ranks, and they
+     *  end a second later. */
+    pid_t launcher = 0;
 
     int
     open_lifeline()
@@ -77,7 +81,8 @@ namespace Morula
     is_orphan()
     {
       pollfd watched{lifeline, 0, 0};
-      return poll(&watched, 1, 0) > 0 && (watched.revents & POLLHUP) != 0;
+      return (launcher != 0 && getppid() != launcher) ||
+             (poll(&watched, 1, 0) > 0 && (watched.revents & POLLHUP) != 0);
     }
 
     std::string
@@ -107,7 +112,8 @@ namespace Morula
     // for the destructor.
     last_signal = 0;
     lifeline    = open_lifeline();
-    is_root     = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    launcher = std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr ? getppid() : 0;
+    is_root  = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     struct sigaction action{};
     action.sa_handler = record_signal;
     action.sa_flags   = SA_RESETHAND | SA_RESTART;

@@ -104,6 +104,8 @@ namespace Morula
         // iteration can do better. At the start nothing has moved yet, so there
         // is no motion to judge. Then come the signs of failure. The norm is
         // the same on all ranks, and so is the outcome.
+        if (report.before_iteration)
+          report.before_iteration();
         look(solver);
         const double norm      = last_norm;
         const int    iteration = solver.getNumIterations();

@@ -8,6 +8,7 @@ import ctypes
 import os
 import random
 import select
+import shutil
 import signal
 import struct
 import subprocess
@@ -212,7 +213,7 @@ def test_asked_to_end(runs, whole, number, ranks):
         said = process.communicate(timeout=PATIENCE)[1]
     with h5py.File(output / "snapshot.h5") as file:
         assert file.attrs["time"] == last_time(output)
-    assert "stopping after this step" in said
+    assert "saving the state" in said
     assert f"by {number.name}. The state is saved in snapshot.h5." in said
     assert "--resume' goes on from there" in said
     assert "Stopped at t = " in (output / "log.txt").read_text()
@@ -222,6 +223,41 @@ def test_asked_to_end(runs, whole, number, ranks):
     else:
         assert process.returncode != 0
         resume(runs, output, ranks=ranks)
+
+
+def test_in_the_middle_of_a_step(runs):
+    """A step is not waited for: what its steady fields have changed is undone."""
+    keys, chance = {**DYING, "Fields/oxygen/Time": "steady", "Tissue/Cell spacing": 5,
+                    "Time/End time": 6 * STEP}, random.Random(SEED)
+    del keys["Fields/oxygen/Initial"]
+    uninterrupted = runs.run("steady", SCENE, {**FINE, **keys})
+    output = runs.work / "steps"
+    for row in (0, 2, 4):
+        with start(runs, output, keys) as process:
+            wait_for_row(process, output, row)
+            time.sleep(chance.uniform(0, 0.1))
+            process.send_signal(signal.SIGTERM)
+        ended = resume(runs, output, keys)
+        assert_same_run(uninterrupted, ended)
+        shutil.rmtree(output)
+
+
+@pytest.mark.parametrize("times, name", [(1, "SIGTERM"), (2, "SIGHUP")])
+def test_launcher(runs, times, name):
+    """mpiexec kills its ranks a second after it has handed SIGTERM on. A second one, as timeout
+    sends, ends it at once, and its ranks a second later."""
+    output = runs.work / f"launcher-{times}"
+    with start(runs, output, ranks=2) as process:
+        wait_for_row(process, output, 3)
+        for _ in range(times):
+            process.send_signal(signal.SIGTERM)
+            time.sleep(0.05)
+    deadline = time.monotonic() + 10
+    while f"by {name}. The state is saved" not in (output / "log.txt").read_text():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    with h5py.File(output / "snapshot.h5") as file:
+        assert file.attrs["time"] == last_time(output)
 
 
 def test_nohup(runs):

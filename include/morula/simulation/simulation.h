@@ -317,28 +317,14 @@ namespace Morula
                          run_state,
                          surface.exists());
     }
-    /** @throws StoppedBySignal */
+    /** Saves the state that the present step has begun with. @throws
+     *  StoppedBySignal */
     void
-    stop_if_asked(const StopSignals &signals)
-    {
-      // received() is collective and gives all ranks the same number, so that
-      // they write the snapshot together.
-      const int signal = signals.received();
-      if (signal == 0)
-        return;
-      files->write_snapshot(snapshot(), timer);
-      files->write_timings(timer);
-      throw StoppedBySignal(signal, time_steps.time());
-    }
+    stop_if_asked();
 
     /** Gives cells the steady solutions of the configuration. Collective. */
     void
-    settle_equations(const SplineSpace<dim> &space)
-    {
-      solve_equations([&](EquationInRun<dim> &equation) {
-        equation.settle(tissue, space, time_steps.time());
-      });
-    }
+    settle_equations(const SplineSpace<dim> &space);
     /** Calls @p solve for all equations, and ends the run if it cannot. */
     void
     solve_equations(const std::function<void(EquationInRun<dim> &)> &solve);
@@ -359,10 +345,19 @@ namespace Morula
     const Timer            clock;
     TimerOutput            timer;
 
-    Tissue<dim> tissue;
-    TimeSteps   time_steps;
-    RunState    run_state;
-    double      typical_stiffness = 0.; // kPa
+    Tissue<dim>                tissue;
+    TimeSteps                  time_steps;
+    RunState                   run_state;
+    double                     typical_stiffness = 0.; // kPa
+    std::optional<StopSignals> signals;                // in run()
+    /** What the present step has begun with, besides what no step changes
+     * before move(); the cells' rows where equations have changed them. */
+    struct
+    {
+      TimeSteps::State    time_steps;
+      RunState            run_state;
+      std::vector<double> rows;
+    } begun = {};
 
     // What follows belongs to the present step.
     DevelopmentOfStep<dim>           growth_of_step;

@@ -32,7 +32,7 @@ namespace Morula
    * The environment variable MORULA_LIFELINE = DESCRIPTOR:INODE names a pipe
    * that this process or its parent has open for reading. If nobody has it open
    * for writing any more, the process that began the run is gone, however it
-   * ended, and that counts as SIGHUP.
+   * ended, and that counts as SIGHUP. So does the end of Open MPI's launcher.
    */
   class StopSignals
   {

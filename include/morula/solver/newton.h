@@ -58,6 +58,9 @@ namespace Morula
     /** The place of the present solve. */
     NewtonPlace place;
 
+    /** Is called before each iteration, and ends the solve by throwing. */
+    std::function<void()> before_iteration;
+
     /** Whether states are to be noted down, and those of all solves. */
     bool                         wants_trace = false;
     std::vector<NewtonIteration> trace;

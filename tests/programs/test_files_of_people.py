@@ -3,6 +3,8 @@
 """contrib/import with the files that people have: tables without volumes, pixels,
 names of types and files, other formats, time-lapses and damaged files."""
 import json
+import sys
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -13,6 +15,7 @@ import zarr
 from morula.draw import shading  # noqa: F401 (a fork of the tool has these then)
 from morula.images import labels, surface, types  # noqa: F401
 from morula.images import volumes as of_places
+from morula.refusal import Refused
 from PIL import Image
 from scipy import ndimage
 from scipy.spatial import cKDTree
@@ -101,6 +104,51 @@ def test_table_without_volumes(convert):
         (n, *place) for n, place in enumerate(centroids(DISC))]))
     np.testing.assert_allclose(cells["x"], centroids(DISC)[:, 1], 1e-6)
     assert cells["volume"].sum() == pytest.approx((DISC > 0).sum(), 0.05)
+
+
+def write_off(file, *parts):
+    """Closed parts: corners and facets each."""
+    parts = [(np.array(corners), np.array(facets)) for corners, facets in parts]
+    before = np.cumsum([0] + [len(corners) for corners, _ in parts])
+    file.write_text("\n".join([
+        f"OFF {before[-1]} {sum(len(facets) for _, facets in parts)} 0 # of a test", *(
+            " ".join(map(str, corner)) for corners, _ in parts for corner in corners), *(
+            " ".join(map(str, (len(facet), *(facet + first)))) for (_, facets), first
+            in zip(parts, before) for facet in facets)]) + "\n")
+
+
+def box(low, high):
+    corners = np.array(list(np.ndindex(2, 2, 2))) * (np.subtract(high, low)) + low
+    return corners, [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4),
+                     (1, 5, 7, 3)]
+
+
+def test_volumes_within_a_surface(convert, runs):
+    """A given surface bounds the regions, cavities and all, and goes into the scene."""
+    places = lattice(3, 5)
+    places = places[(np.abs(places - 20) > 9).any(1)]  # none in the cavity
+    write_off(runs.work / "box.off", box([-9.0] * 3, [49.0] * 3), box([14.0] * 3, [26.0] * 3))
+    said, cells = convert("places.csv", table("x,y,z", places), "--surface", "box.off")
+    assert cells["volume"].sum() == pytest.approx(58**3 - 12**3, 0.01)
+    assert "within the surface" in said and cells["volume"].min() > 500
+    assert "= surface.off" in (runs.work / "made/scene.prm").read_text()
+    (runs.work / "l.wkt").write_text("POLYGON((-5 -5, 45 -5, 45 45, -5 45, -5 -5), (15 15, 25 15, "
+                                     "25 25, 15 25, 15 15))")
+    places = lattice(2, 5)
+    places = places[(np.abs(places - 20) > 6).any(1)]
+    _, cells = convert("plane.csv", table("x,y", places), "--surface", "l.wkt")
+    assert cells["volume"].sum() == pytest.approx(50**2 - 10**2, 0.01)
+
+
+def test_surfaces_that_are_refused(convert, runs):
+    rows = table("x,y,z", lattice(3, 5))
+    write_off(runs.work / "small.off", box([-9.0] * 3, [35.0] * 3))
+    (runs.work / "text.off").write_text("OFF\nno numbers\n")
+    (runs.work / "empty.stl").touch()
+    for name, said in (("small.off", "61 of 125 places are outside"), ("no.off", "No such file"),
+                       ("text.off", "cannot be read"), ("empty.stl", "cannot be read")):
+        assert said in convert("places.csv", rows, "--surface", name, code=1)[0]
+    assert "nothing for an image" in convert("disc.npy", DISC, "--surface", "a.off", code=1)[0]
 
 
 @pytest.mark.parametrize("names, own, dim, voxel, volume", [
@@ -228,13 +276,28 @@ def test_formats_that_are_refused(convert, runs):
     np.save(runs.work / "evil_seg.npy", {"masks": Evil()})
     assert "it has a builtins.print" in convert("evil_seg.npy", code=1)[0]
     for name, said in (("a.czi", "No CZI"), ("a.jpg", "No JPG"), ("a.xlsx", "No XLSX"),
-                       ("a.nrrd", "No NRRD"), ("a.bin", "cannot be read")):
+                       ("a.nrrd", "pip install pynrrd"), ("a.bin", "cannot be read")):
         (runs.work / name).write_bytes(b"\0\1\2" * 99)
         assert said in convert(name, code=1)[0]
     with h5py.File(runs.work / "two.h5", "w") as stream:
         stream["a"] = stream["b"] = DISC
     assert "one of a, b" in convert("two.h5", code=1)[0]
     convert("two.h5", None, "--dataset", "b", "--voxel", "1,1")
+
+
+@pytest.mark.parametrize("about", [
+    {"space directions": np.diag([0.5, 0.5, 2.0]), "space units": ["um"] * 3},
+    {"spacings": np.array([500.0, 500.0, 2000.0]), "units": ["nm"] * 3}, {}])
+def test_nrrd(convert, runs, monkeypatch, about):
+    """By the library, which gives arrays in the order x, y, z unless it is told not to."""
+    def read(_, index_order):
+        return BALL if index_order == "C" else BALL.T, about
+
+    (runs.work / "a.nrrd").touch()
+    monkeypatch.setitem(sys.modules, "nrrd", SimpleNamespace(read=read))
+    _, cells = convert("a.nrrd", None, *([] if about else ["--voxel", "0.5,0.5,2"]))
+    assert cells["volume"].sum() == pytest.approx((BALL > 0).sum() / 2)
+    assert np.ptp(cells["z"]) == pytest.approx(4 * np.ptp(cells["x"]), 0.4)
 
 
 @pytest.mark.parametrize("kind", [
@@ -278,6 +341,46 @@ def test_units_of_z(convert, runs):
     assert convert("z.tif")[1]["volume"].sum() == (BALL > 0).sum()
     assert "is the unit right" in convert("z.tif", None, "--voxel", "1,1,1000", code=1)[0]
     assert "is the unit right" in convert("z.tif", None, "--voxel", "0.001,0.001,1", code=1)[0]
+
+
+def lineages(keep, gap, seed):
+    """Twelve times of cells that move and divide about three times each; gaps between cells."""
+    rng, numbers = np.random.default_rng(seed), iter(range(1, 9999))
+    grid = np.stack(np.meshgrid(*[np.arange(-30, 31)] * 2), -1)
+    places = [place for place in rng.uniform(-25, 25, (40, 2)) if np.linalg.norm(place) < 25][:15]
+    cells = [[next(numbers), place, rng.uniform(0, 4)] for place in places]
+    for time in range(12):
+        size = 27 * (np.pi / len(cells)) ** 0.5
+        for cell in [cell for cell in cells if cell[2] < time]:
+            half = rng.normal(size=2)
+            half *= 0.25 * size / np.linalg.norm(half)
+            cells.append([next(numbers), cell[1] + half, time + rng.uniform(2.4, 5.6)])
+            cell[:] = [cell[0] if keep else next(numbers), cell[1] - half,
+                       time + rng.uniform(2.4, 5.6)]
+        for cell in cells:
+            cell[1] = cell[1] + 0.05 * size * rng.normal(size=2)
+        far, own = cKDTree([cell[1] for cell in cells]).query(grid)
+        yield np.array([cell[0] for cell in cells])[own] * (
+            (np.linalg.norm(grid, axis=-1) < 27) & (far < gap * size))
+
+
+@pytest.mark.parametrize("keep, gap", [(False, 1), (True, 1), (False, 0.45), (True, 0.45)])
+def test_tracked_divisions(keep, gap):
+    """Daughters have new labels, or one of them has the mother's; cells touch, or not."""
+    frames = np.array(list(lineages(keep, gap, seed=1)))
+    names, stack = np.unique(frames, return_inverse=True)
+    assert len(names) > 90
+    with pytest.raises(Refused, match="tyx or zyx"):
+        labels.refuse_times(stack.reshape(frames.shape))
+    alone = np.where(frames > 0, frames + 1000 * np.arange(12)[:, None, None], 0)
+    with pytest.raises(Refused, match="tyx or zyx"):  # not tracked, but numbered on
+        labels.refuse_times(np.unique(alone, return_inverse=True)[1].reshape(frames.shape))
+
+
+@pytest.mark.parametrize("thick", [1, 2, 4])
+def test_stacks_are_not_asked_about(thick):
+    for stack in (BALL, round_tissue(3, 185, 30, 18)):
+        labels.refuse_times(stack[::thick])
 
 
 def test_time_lapse(convert):

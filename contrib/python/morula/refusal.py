@@ -21,6 +21,5 @@ class Refused(Exception):
     anything is computed."""
 
     def __init__(self, what, value, allowed, remedy=""):
-        super().__init__(f"{shown(what)} = '{shown(value)}': allowed is "
-                         f"{allowed}."
+        super().__init__(f"{shown(what)} = '{shown(value)}': allowed is {allowed}."
                          + (f" {remedy}" if remedy else ""))

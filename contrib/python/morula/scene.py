@@ -43,8 +43,7 @@ class Scene:
         near = difflib.get_close_matches(key, known, 1)
         raise Refused(option, key, "a key that exists",
                       (f"Did you mean '{near[0]}'? " if near else "")
-                      + f"'morula {self.path.name} --parameters' prints them "
-                      "all.")
+                      + f"'morula {self.path.name} --parameters' prints them all.")
 
 
 def read_override(text):

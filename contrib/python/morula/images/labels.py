@@ -47,11 +47,19 @@ def whole(image, file):
 
 
 def refuse_times(labels):
-    """Asks what the first axis is if cells are in nearly all of its planes, as in a time-lapse."""
-    planes = sum(np.bincount(np.unique(plane), minlength=labels.max() + 1) for plane in labels)
-    if len(labels) > 2 and np.median(planes[1:]) >= 0.9 * len(labels):
-        raise Refused("--axes", "", "tyx or zyx", f"Most labels are in all {len(labels)} planes: "
-                      "if these are times, say --axes tyx and --frame; if places, --axes zyx.")
+    """Asks what the first axis is if most labels are in nearly all of its planes, or in one, or
+    begin in a later one with much of their size where others were: in space they have tips."""
+    sizes = np.array([np.bincount(plane.ravel(), minlength=labels.max() + 1) for plane in labels])
+    lives, first = np.median((sizes[:, 1:] > 0).sum(0)), (sizes > 0).argmax(0)
+    later = np.flatnonzero(first)
+    onto = np.array([np.bincount(after[before > 0], minlength=len(first))
+                     for before, after in zip(labels, labels[1:])])
+    daughters = onto[first[later] - 1, later] > 0.4 * sizes[:, later].max(0)
+    if len(labels) > 2 and (lives >= 0.9 * len(labels) or lives == 1
+                            or daughters.sum() > 0.8 * len(later)):
+        raise Refused("--axes", "", "tyx or zyx", f"The {len(labels)} planes may be times: labels "
+                      "follow each other as cells that live and divide do. If so, say --axes tyx "
+                      "and --frame; if they are places, --axes zyx.")
 
 
 def refuse_sizes(shape, voxel, pad, file):

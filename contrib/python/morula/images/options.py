@@ -53,6 +53,8 @@ def parser():
     add("--marker-threshold", type=float, metavar="VALUE", help="default: Otsu's")
     add("--marker-names", default="negative,positive", metavar="BELOW,ABOVE",
         help="names of the two types; default: negative,positive")
+    add("--surface", type=Path, metavar="MESH", help="of a table: the closed surface around the "
+        "cells in um, as STL, OFF, PLY or OBJ, in 2-D WKT; it bounds volumes that are missing")
     add("--again", action="store_true", help="replace files from before")
     add("--morula", default=MORULA, help="the executable; its --explain chooses the grid")
     return result

@@ -12,7 +12,7 @@ import numpy as np
 from morula.refusal import Refused
 
 # What other programs read and save as TIFF, or tables as CSV; JPEG changes labels.
-FOREIGN = ".nrrd .czi .lif .nd2 .ims .oib .oif .jpg .jpeg .nii .mha .mat .xls .xlsx .ods".split()
+FOREIGN = ".czi .lif .nd2 .ims .oib .oif .jpg .jpeg .nii .mha .mat .xls .xlsx .ods".split()
 IN_UM = {"um": 1.0, "µm": 1.0, "\u03bcm": 1.0, "\\u00b5m": 1.0, "micron": 1.0, "microns": 1.0,
          "micrometer": 1.0, "micrometers": 1.0, "micrometre": 1.0, "nm": 1e-3, "nanometer": 1e-3,
          "mm": 1e3, "millimeter": 1e3, "cm": 1e4, "m": 1e6}
@@ -30,7 +30,7 @@ class Image:
 
 def is_image(file):
     """Whether a file is none of text."""
-    if file.is_dir() or file.suffix.lower() in FOREIGN:
+    if file.is_dir() or file.suffix.lower() in (*FOREIGN, ".nrrd", ".nhdr"):
         return True
     with file.open("rb") as stream:
         head = stream.read(4096)
@@ -48,7 +48,8 @@ def read_image(file, options, channel=None, option="The image"):
                       "is read: save it as TIFF (Fiji and 3D Slicer open most), a table as CSV.")
     reader = _read_zarr if file.is_dir() else {
         ".tif": _read_tiff, ".tiff": _read_tiff, ".lsm": _read_tiff, ".npy": _read_numpy,
-        ".npz": _read_numpy, ".h5": _read_hdf5, ".hdf5": _read_hdf5}.get(kind, _read_picture)
+        ".npz": _read_numpy, ".h5": _read_hdf5, ".hdf5": _read_hdf5, ".nrrd": _read_nrrd,
+        ".nhdr": _read_nrrd}.get(kind, _read_picture)
     try:
         array, axes, voxel, words = reader(file, options.dataset)
     except (Refused, ImportError):
@@ -122,6 +123,19 @@ def _read_hdf5(file, dataset):
         tags = json.loads(node.attrs.get("axistags", "{}")).get("axes", [])
         return (node[()], "".join(tag["key"] for tag in tags).upper(),
                 tuple(map(float, node.attrs.get("element_size_um", ()))) or None, [])
+
+
+def _read_nrrd(file, _):
+    try:
+        import nrrd
+    except ImportError:
+        raise Refused("The image", file, "NRRD only where Python has pynrrd", "Install it (pip "
+                      "install pynrrd), or save the labels as TIFF, as Fiji does.") from None
+    array, about = nrrd.read(str(file), index_order="C")
+    edges = np.linalg.norm(about["space directions"], axis=1) if "space directions" in about \
+        else np.asarray(about.get("spacings", []), dtype=float)  # NaN: of channels
+    sizes = [*zip(edges[np.isfinite(edges)], about.get("space units", about.get("units", [])))]
+    return array, None, _edges([(None, None)] * (3 - len(sizes)) + sizes[2::-1]), []
 
 
 def _read_zarr(file, dataset):

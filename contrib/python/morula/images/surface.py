@@ -5,6 +5,7 @@
 The tissue is filled with 1, smoothed by Gaussians, and cut at the level at which the surface
 encloses just the cells' volume. All lengths are in um, all places in the order of the image's
 axes."""
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -209,6 +210,35 @@ def contains(part, places):
     check.SetTolerance(1e-9)
     check.Update()
     return vtk_to_numpy(check.GetOutput().GetPointData().GetArray("SelectedPoints")) > 0
+
+
+def read_parts(file, dim):
+    """Of a closed surface in a file, in the order x, y, z. What lies in an odd number is inside."""
+    from vtkmodules import vtkFiltersCore, vtkIOGeometry, vtkIOPLY
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    kind = file.suffix.lower()
+    try:
+        if dim == 2:
+            return [Part(np.array([point.split() for point in ring.split(",")], dtype=float), None, 0)
+                    for ring in re.findall(r"\(([^()]+)\)", file.read_text())]
+        if kind == ".off":
+            rows = [line.split() for line in re.sub("OFF|#.*", "", file.read_text()).splitlines()]
+            (n, *_), *rows = [row for row in rows if row]
+            facets = [(row[1], *pair) for row in rows[int(n):] for pair
+                      in zip(row[2:int(row[0])], row[3:int(row[0]) + 1])]
+            return [Part(np.array(rows[:int(n)], dtype=float), np.array(facets, dtype=int), 0)]
+        reader = {".stl": vtkIOGeometry.vtkSTLReader, ".obj": vtkIOGeometry.vtkOBJReader}.get(
+            kind, vtkIOPLY.vtkPLYReader)()
+        reader.SetFileName(str(file))
+        triangles = vtkFiltersCore.vtkTriangleFilter()
+        triangles.SetInputConnection(reader.GetOutputPort())
+        triangles.Update()
+        places, lists = triangles.GetOutput().GetPoints(), triangles.GetOutput().GetPolys()
+        return [Part(vtk_to_numpy(places.GetData()), vtk_to_numpy(
+            lists.GetConnectivityArray()).reshape(-1, 3), 0)]
+    except (ValueError, IndexError, TypeError, AttributeError, OSError) as error:
+        raise Refused("--surface", file, "a closed surface as STL, OFF, PLY or OBJ, in 2-D WKT",
+                      f"It cannot be read: {error}.") from None
 
 
 def balls_around(cavity, others):

@@ -10,7 +10,7 @@ from scipy import spatial
 from morula.refusal import Refused
 
 from .read import IN_UM, chosen
-from .volumes import clipped_volumes
+from .volumes import clipped_volumes, volumes_within
 
 # Names that trackers give to a column, in small letters, '_' for blanks; the first that is there
 # counts.
@@ -30,7 +30,7 @@ OVERLAP = 1e-3  # cells nearer to each other than so many lengths are one
 FEW = 8  # cells, of which no hull has regions
 
 
-def read_table(file, frame, voxel, words):
+def read_table(file, frame, voxel, surface, words):
     """A data frame with x, y and perhaps z (um), volume (um^dim), and id, type, generation and
     phase where the table has them. Names may have any case and a unit behind them, entries may be
     separated by semicolons, tabs or blanks, and numbers may be those of Fortran or have decimal
@@ -65,7 +65,7 @@ def read_table(file, frame, voxel, words):
     if voxel is None and not any(units.values()):
         words.append("Its lengths are taken for um, as no column has a unit; --voxel scales those "
                      "in pixels.")
-    return _with_volumes(file, table, axes, words)
+    return _with_volumes(file, table, axes, surface, words)
 
 
 def as_text(file):
@@ -192,7 +192,7 @@ def _of_frame(file, table, frame, words):
     return table[times == time].drop(columns="frame")
 
 
-def _with_volumes(file, table, axes, words):
+def _with_volumes(file, table, axes, surface, words):
     if len(table) < 2:
         raise Refused("The table", file, "at least 2 cells", f"It has {len(table)}.")
     places, dim = table[axes].to_numpy(), len(axes)
@@ -207,6 +207,10 @@ def _with_volumes(file, table, axes, words):
         table["volume"] = np.pi * (4 / 3 if dim == 3 else 1) * radius ** dim
         words.append("Volumes are those of balls with the radii of the table; cells side by side "
                      "fill more.")
+    elif "volume" not in table and surface:
+        table["volume"] = volumes_within(places, surface)
+        words.append("The table has no volumes: cells get those of their Voronoi regions within "
+                     f"the surface, together {table['volume'].sum():.5g} um^{dim}.")
     elif "volume" not in table and len(table) < FEW:
         table["volume"] = length ** dim
         words.append("The table has no volumes: all cells get that of a cube with the median "

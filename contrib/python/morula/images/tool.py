@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """The command contrib/import."""
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,8 @@ def scene_of_image(options, directory):
     from .labels import cells_of, refuse_times, whole
     from .read import read_image
     from .surface import surface_of, tissue_of
+    if options.surface:
+        raise Refused("--surface", options.surface, "nothing for an image, which has its own")
     image = read_image(options.file, options, options.channel)
     words = image.words
     labels, names = whole(image, options.file)
@@ -81,7 +84,7 @@ def scene_of_table(options, directory):
     from .table import read_table
     words = []
     voxel = None if options.voxel is None else voxel_of(options.voxel, None, 3, 2)
-    table = read_table(options.file, options.frame, voxel, words)
+    table = read_table(options.file, options.frame, voxel, options.surface, words)
     types = None
     if options.types:
         from .types import types_of_table
@@ -97,9 +100,14 @@ def scene_of_table(options, directory):
     directory.mkdir(parents=True, exist_ok=True)
     write_cells(directory / "cells.csv", table[axes].to_numpy(), volumes, {"type": types, **{
         name: list(table[name]) for name in ("generation", "phase") if name in table}})
-    words.append("A table has no surface: the program makes one around the cells, in which narrow "
-                 "gaps and cavities are closed.")
-    keys = scene_keys(len(axes), length, "always", types)
+    surface = "always"
+    if options.surface:
+        surface = f"surface{options.surface.suffix.lower()}"
+        shutil.copyfile(options.surface, directory / surface)
+    else:
+        words.append("A table has no surface: the program makes one around the cells, in which "
+                     "narrow gaps and cavities are closed.")
+    keys = scene_keys(len(axes), length, surface, types)
     return _finish(options, directory, keys, length, len(table), volumes, words)
 
 

@@ -4,6 +4,8 @@
 import numpy as np
 from scipy import ndimage, spatial
 
+from morula.refusal import Refused
+
 REACH = 1.75  # spacings: regions and concave parts of the tissue are bounded so far from places
 VOXELS = 5e5
 SHARES = np.linspace(0.2, 0.65, 10)  # of a spacing, by which the hull may lie outside of places
@@ -49,3 +51,19 @@ def clipped_volumes(places):
         if abs(spacing / before - 1) < 0.005:
             break
     return volumes, distance
+
+
+def volumes_within(places, file):
+    """Volumes (n) of the regions of cells at places (n, dim) in a closed surface. Throws Refused."""
+    from .surface import contains, read_parts
+    n, parts = len(places), read_parts(file, places.shape[1])
+    corners = np.concatenate([part.vertices for part in parts])
+    low, size = corners.min(0), np.ptp(corners, axis=0)
+    counts = np.ceil(size * (VOXELS / size.prod()) ** (1 / len(size))).astype(int)
+    grid = np.concatenate([places, low + (np.argwhere(np.ones(counts)) + 0.5) * size / counts])
+    inside = np.logical_xor.reduce([contains(part, grid) for part in parts])
+    if not inside[:n].all():
+        raise Refused("--surface", file, "a closed surface around the cells, in um",
+                      f"{(~inside[:n]).sum()} of {n} places are outside.")
+    owner = spatial.cKDTree(places).query(grid[inside])[1]  # the first are the places themselves
+    return (np.bincount(owner) - 1) * (size / counts).prod()

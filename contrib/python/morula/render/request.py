@@ -38,16 +38,14 @@ def arguments(words):
     which.add_argument("--all", action="store_true",
                        help="a picture of every state, FIELD-NNNN.png")
     which.add_argument("--movie", action="store_true",
-                       help="a film of all states, FIELD.mp4 with Debian's "
-                       "package ffmpeg,\nelse FIELD.gif; --output FILE.ogv, "
-                       ".gif, .mp4, .webm chooses")
+                       help="a film of all states, FIELD.mp4 with Debian's package ffmpeg,\nelse "
+                       "FIELD.gif; --output FILE.ogv, .gif, .mp4, .webm chooses")
     add("--fps", type=float, default=4, help="states in a second of the film")
     add("--panels", type=int, choices=(1, 2), default=1,
         help="2: outside and cut open, side by side")
     add("--cut", action="store_true", help="one panel, cut open")
-    add("--shapes", action="store_true", help="cells as polyhedra, as "
-        "contrib/cell-shapes writes them;\n--field can be one of its fields, "
-        "too")
+    add("--shapes", action="store_true", help="cells as polyhedra, as contrib/cell-shapes writes "
+        "them;\n--field can be one of its fields, too")
     add("--section", action="store_true", help="with --shapes: cut through cells, not round them")
     add("--azimuth", type=float, default=-60, help="degrees from the x axis; the viewer is there")
     add("--elevation", type=float, default=14, help="degrees above the xy plane")

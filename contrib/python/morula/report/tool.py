@@ -32,18 +32,16 @@ def arguments(words):
     parser.add_argument("directory", type=Path, help="output directory of a run")
     parser.add_argument("--output", type=Path, metavar="FILE.html",
                         help="default: report.html in that directory")
-    parser.add_argument("--states", type=int, metavar="N", help="at most so "
-                        "many states in 3-D; 0: no 3-D view; default: all\n"
-                        "that stay below --limit")
+    parser.add_argument("--states", type=int, metavar="N", help="at most so many states in 3-D; 0: "
+                        "no 3-D view; default: all\nthat stay below --limit")
     parser.add_argument("--fields", metavar="A,B,...", help="columns of the "
                         "cells that can give the colour")
     parser.add_argument("--limit", type=float, default=30, metavar="MB",
                         help="of the cells in the page, MB; default: 30")
     parser.add_argument("--no-pictures", dest="pictures",
                         action="store_false", help="no still pictures")
-    parser.add_argument("--morula", type=Path, help="the executable, for the "
-                        "defaults of the keys; default:\nbuild/morula, or "
-                        "the one in the path, if there is one")
+    parser.add_argument("--morula", type=Path, help="the executable, for the defaults of the keys; "
+                        "default:\nbuild/morula, or the one in the path, if there is one")
     return parser.parse_args(words)
 
 

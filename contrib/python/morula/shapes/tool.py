@@ -35,10 +35,9 @@ def arguments(words):
     parser.add_argument("directory", type=Path, help="output directory of a run, finished or not")
     parser.add_argument("--time", metavar="DAY", help="of the state; default: the last one written")
     parser.add_argument("--all", action="store_true", help="all states")
-    parser.add_argument("--where", metavar="EXPRESSION", help="write those "
-                        "cells alone for which it is true,\nof the columns: "
-                        "'z > 40 && phase != 9'. All cells still\nbound each "
-                        "other's regions")
+    parser.add_argument("--where", metavar="EXPRESSION", help="write those cells alone for which "
+                        "it is true,\nof the columns: 'z > 40 && phase != 9'. All cells "
+                        "still\nbound each other's regions")
     parser.add_argument("--output", type=Path, metavar="FILE.vtu",
                         help="of a single state; default: cell-shapes-NNNN.vtu "
                         "in the\nrun's directory, and cell-shapes.pvd")

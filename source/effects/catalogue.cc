@@ -5,7 +5,6 @@
 #include <morula/effects/forces/type_tension.h>
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 namespace Morula

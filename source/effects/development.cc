@@ -4,9 +4,6 @@
 #include <morula/effects/development.h>
 #include <morula/effects/fate/random.h>
 
-#include <algorithm>
-#include <utility>
-
 // What cells are made to be, and the parts of F_g and their product,
 // doc/theory.md (8.7): F_g = F_a F_law F_cycle F_r.
 

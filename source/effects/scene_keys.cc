@@ -3,8 +3,6 @@
 
 #include <morula/effects/scene_keys.h>
 
-#include <algorithm>
-
 // What follows from the keys of a scene.
 
 namespace Morula

@@ -5,12 +5,9 @@
 #include <morula/output/sealed_file.h>
 
 #include <deal.II/base/exceptions.h>
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace Morula

@@ -3,14 +3,8 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/output/point_fields.h>
-#include <morula/output/table.h>
 
-#include <algorithm>
-#include <set>
 #include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace Morula
 {

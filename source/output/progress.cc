@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/output/output_file.h>
 #include <morula/output/progress.h>
 #include <morula/output/table.h>
 
@@ -10,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <vector>
 
 namespace Morula
 {

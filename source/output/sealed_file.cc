@@ -9,11 +9,9 @@
 #include <boost/algorithm/string.hpp>
 
 #include <array>
-#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
-#include <vector>
 
 namespace Morula
 {

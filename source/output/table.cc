@@ -5,14 +5,9 @@
 #include <morula/base/input_error.h>
 #include <morula/output/table.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <fstream>
-#include <stdexcept>
 
 namespace Morula
 {

@@ -13,7 +13,6 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <vector>
 
 namespace Morula
 {

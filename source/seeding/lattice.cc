@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/seeding/lattice.h>
 
@@ -9,11 +8,9 @@
 #include <deal.II/particles/property_pool.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace Morula
 {

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <vector>
 
 namespace Morula
 {

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
 #include <morula/particles/point_exchange.h>

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/seeding/lattice.h>
 #include <morula/seeding/seeding.h>
@@ -12,9 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {

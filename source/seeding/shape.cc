@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/seeding/shape.h>
 

@@ -13,7 +13,6 @@
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/lexical_cast.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>

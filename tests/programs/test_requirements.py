@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """How CMake refuses what Morula cannot use, before it compiles anything: a deal.II whose
-configuration is changed, and libraries that are not found."""
+configuration is changed, and libraries that are not found. And a Trilinos without Epetra."""
+import json
 import re
+import shlex
 import shutil
 from pathlib import Path
 
@@ -34,3 +36,26 @@ def test_refusal(runs, tmp_path, change, message):
     assert ended.code == 1, ended.text
     assert message in " ".join(ended.text.split())
     assert not (tmp_path / "build/Makefile").exists()
+
+
+def test_without_epetra(runs):
+    """All sources compile where Trilinos has no Epetra, nor what stands on it, and deal.II none of
+    its classes: their headers are errors, as releases since Trilinos 17 do without."""
+    hidden, build = runs.work / "hidden", runs.work / "build"
+    ended = call(["cmake", "-S", TESTS.parent, "-B", build, "-DMORULA_TESTS=OFF",
+                  "-DMORULA_PRECOMPILED_HEADERS=OFF", "-DMORULA_UNITY=ON",
+                  "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"])
+    assert ended.code == 0, ended.text
+    commands = [shlex.split(one["command"])
+                for one in json.loads((build / "compile_commands.json").read_text())]
+    (hidden / "deal.II/base").mkdir(parents=True)
+    (hidden / "deal.II/base/config.h").write_text(
+        "#include_next <deal.II/base/config.h>\n#undef DEAL_II_WITH_TRILINOS\n")
+    headers = [file.name for folder in {*commands[0]} for file in Path(folder).glob("*.[hH]*")
+               if re.match("(NOX_)?Epetra|Amesos_|AztecOO|Ifpack_|ml_", file.name)]
+    assert "Epetra_Map.h" in headers
+    for name in headers:
+        (hidden / name).write_text("#error hidden\n")
+    for compiler, *words in commands:
+        ended = call([compiler, "-I", hidden, *words, "-O0", "-fsyntax-only"], cwd=build)
+        assert ended.code == 0, ended.text

@@ -4,7 +4,6 @@
 #ifndef morula_effects_volumes_of_step_h
 #define morula_effects_volumes_of_step_h
 
-#include <morula/effects/step_points.h>
 
 namespace Morula
 {

@@ -5,7 +5,6 @@
 #define morula_seeding_mesh_patches_h
 
 #include <morula/base/surface_mesh.h>
-#include <morula/seeding/shape.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

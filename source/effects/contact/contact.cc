@@ -3,7 +3,6 @@
 
 #include <morula/base/near_tree.h>
 #include <morula/base/step_failed.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/contact/contact_pairs.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/particles/fusion.h>
@@ -11,14 +10,10 @@
 
 #include <deal.II/base/mpi.templates.h>
 
-#include <algorithm>
 #include <limits>
-#include <map>
 #include <memory>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

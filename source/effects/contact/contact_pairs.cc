@@ -4,9 +4,7 @@
 #include <morula/effects/contact/contact_pairs.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Morula

@@ -5,13 +5,10 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/catalogue.h>
 #include <morula/effects/division/directions.h>
-#include <morula/effects/division/division_rule.h>
 #include <morula/effects/state/present_cell.h>
 
-#include <memory>
 #include <optional>
 #include <sstream>
-#include <string>
 
 // The library's own rules for `Proliferation/Cell cycle/Division axis`. If a
 // cell has no state yet, as before the run, or its state singles out no

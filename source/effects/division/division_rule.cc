@@ -3,9 +3,6 @@
 
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/random.h>
-#include <morula/effects/state/present_cell.h>
-
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <utility>
 

@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/division/wall_distance.h>
-#include <morula/grid/grid_box.h>
 
 #include <algorithm>
 #include <cmath>

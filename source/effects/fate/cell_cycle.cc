@@ -2,16 +2,12 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/time_parameters.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <sstream>
 
 namespace Morula

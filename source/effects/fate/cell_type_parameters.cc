@@ -3,14 +3,9 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/name_list.h>
-#include <morula/effects/fate/cell_types.h>
 #include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <map>
-#include <set>
 
 namespace Morula
 {

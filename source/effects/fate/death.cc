@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/end_at_rate.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace Morula
 {

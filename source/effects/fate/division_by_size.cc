@@ -3,15 +3,12 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/input_error.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/divides_at_once.h>
 #include <morula/effects/scene_keys.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <string>
 
 namespace Morula
 {

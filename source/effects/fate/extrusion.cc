@@ -5,8 +5,6 @@
 #include <morula/effects/fate/end_at_rate.h>
 #include <morula/effects/fate/random.h>
 
-#include <string>
-
 namespace Morula
 {
   namespace

@@ -8,8 +8,6 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
-#include <optional>
 #include <string>
 
 namespace Morula

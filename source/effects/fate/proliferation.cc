@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/time_parameters.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/proliferation.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace Morula

@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/fate/types_around.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace Morula

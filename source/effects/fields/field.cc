@@ -13,7 +13,6 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
-#include <sstream>
 #include <vector>
 
 namespace Morula

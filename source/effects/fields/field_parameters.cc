@@ -9,15 +9,12 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <iomanip>
 #include <optional>
 #include <sstream>
-#include <string>
 
 namespace Morula
 {

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/base/input_error.h>
 #include <morula/base/step_failed.h>
 #include <morula/effects/fields/field_equation.h>
 #include <morula/effects/fields/fields.h>

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/catalogue.h>
 #include <morula/effects/forces/body_force.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/mechanics/point_term.h>
 
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

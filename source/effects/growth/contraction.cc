@@ -2,8 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/base/time_parameters.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/contraction.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
@@ -11,7 +9,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Morula

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/time_parameters.h>
 #include <morula/effects/growth/growth_law.h>
 #include <morula/effects/scene_keys.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Morula

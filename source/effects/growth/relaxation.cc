@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/present_cell.h>
@@ -10,7 +9,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Morula

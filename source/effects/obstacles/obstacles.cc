@@ -4,24 +4,19 @@
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
 #include <morula/base/surface_mesh.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/mechanics/equilibrium.h>
 #include <morula/mechanics/point_term.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
-#include <algorithm>
 #include <deque>
 #include <limits>
 #include <memory>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

@@ -4,21 +4,15 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/particles/neighbours.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <sstream>
-#include <vector>
 
 namespace Morula
 {

@@ -3,7 +3,6 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/name_list.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/step_effect.h>
@@ -11,10 +10,7 @@
 #include <boost/algorithm/string.hpp>
 #include <boost/container/small_vector.hpp>
 
-#include <algorithm>
 #include <deque>
-#include <string>
-#include <vector>
 
 namespace Morula
 {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/input_error.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <boost/algorithm/string.hpp>
 
-#include <algorithm>
 #include <sstream>
 
 namespace Morula

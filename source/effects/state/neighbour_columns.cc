@@ -3,12 +3,10 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/fate/types_around.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
-#include <algorithm>
 #include <cctype>
 
 namespace Morula

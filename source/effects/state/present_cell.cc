@@ -3,13 +3,9 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/fate/proliferation.h>
-#include <morula/effects/fate/random.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <deal.II/base/symmetric_tensor.h>
-
-#include <array>
-#include <cmath>
 
 namespace Morula
 {

@@ -10,8 +10,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <type_traits>
-#include <vector>
 
 namespace Morula
 {

@@ -3,17 +3,12 @@
 
 #include <morula/base/rounded_sums.h>
 #include <morula/effects/catalogue.h>
-#include <morula/effects/scene_keys.h>
-#include <morula/effects/step_effect.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <string>
-#include <vector>
 
 namespace Morula
 {

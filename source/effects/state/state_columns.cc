@@ -3,7 +3,6 @@
 
 #include <morula/effects/state/state_columns.h>
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 

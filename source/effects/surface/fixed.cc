@@ -3,7 +3,6 @@
 
 #include <morula/effects/catalogue.h>
 #include <morula/effects/surface/fixed.h>
-#include <morula/effects/surface/placed_condition.h>
 
 namespace Morula
 {

@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/effects/part_of_step.h>
-#include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/surface/carriers.h>
 #include <morula/effects/volumes_of_step.h>

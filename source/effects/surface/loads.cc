@@ -3,12 +3,9 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/surface/loads.h>
-#include <morula/mechanics/point_term.h>
 
 #include <array>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 namespace Morula
 {

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/boundary_condition.h>
 #include <morula/effects/surface/lumen_keys.h>
@@ -12,15 +11,12 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

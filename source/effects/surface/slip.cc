@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/expression_key.h>
-#include <morula/effects/catalogue.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/surface/placed_condition.h>
 

@@ -7,7 +7,6 @@
 #include <morula/effects/division/division_rule.h>
 #include <morula/effects/fate/cell_cycle.h>
 #include <morula/effects/fate/fate.h>
-#include <morula/effects/fate/random.h>
 
 #include <algorithm>
 #include <cstdint>

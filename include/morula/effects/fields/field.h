@@ -6,11 +6,9 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
-#include <morula/effects/fields/field_equation.h>
 #include <morula/effects/state/present_cell.h>
 #include <morula/particles/boundary_state.h>
 
-#include <algorithm>
 #include <deque>
 #include <optional>
 #include <string>

@@ -4,16 +4,13 @@
 #ifndef morula_effects_fields_fields_h
 #define morula_effects_fields_fields_h
 
-#include <morula/effects/equation.h>
 #include <morula/effects/fields/field.h>
 #include <morula/mechanics/assembly.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/particles/tissue.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace Morula

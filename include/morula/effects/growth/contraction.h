@@ -5,7 +5,6 @@
 #define morula_effects_growth_contraction_h
 
 #include <morula/base/expression_key.h>
-#include <morula/effects/growth/growth_law.h>
 #include <morula/effects/state/direction.h>
 
 #include <deal.II/base/tensor.h>

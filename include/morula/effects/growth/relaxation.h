@@ -6,7 +6,6 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/growth/growth_law.h>
-#include <morula/effects/state/present_cell.h>
 #include <morula/mechanics/material.h>
 
 #include <deal.II/base/tensor.h>

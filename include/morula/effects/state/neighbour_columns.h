@@ -6,11 +6,9 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/effects/effect.h>
-#include <morula/effects/step_effect.h>
 #include <morula/particles/neighbours.h>
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 

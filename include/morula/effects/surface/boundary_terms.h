@@ -7,7 +7,6 @@
 #include <morula/effects/development.h>
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/material.h>
-#include <morula/mechanics/material_points.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/mechanics/spline_field.h>
 #include <morula/mechanics/term.h>

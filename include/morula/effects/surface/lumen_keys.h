@@ -6,7 +6,6 @@
 
 #include <morula/base/expression_key.h>
 #include <morula/base/name_list.h>
-#include <morula/effects/scene_keys.h>
 
 #include <deque>
 #include <string>

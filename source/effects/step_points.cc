@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/step_points.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>

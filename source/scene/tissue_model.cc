@@ -7,7 +7,7 @@
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>
-#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/boundary_terms.h>
 #include <morula/scene/tissue_model.h>
 #include <morula/seeding/shape.h>
 

@@ -6,7 +6,6 @@
 #include <morula/scene/checks.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/pieces_at_start.h>
-#include <morula/seeding/reviews.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,10 +3,8 @@
 
 #include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
-#include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/mesh_patches.h>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/mesh_patches.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/bounding_box.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/seeding/mesh_patches.h>
+#include <morula/seeding/closed_surface.h>
 
 #include <algorithm>
 #include <cmath>

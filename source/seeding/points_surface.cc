@@ -8,7 +8,6 @@
 #include <morula/particles/point_store.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/points_surface.h>
 #include <morula/surface/cell_surface.h>
 
 #include <algorithm>

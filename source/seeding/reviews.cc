@@ -4,7 +4,7 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
-#include <morula/seeding/reviews.h>
+#include <morula/seeding/pieces_at_start.h>
 
 #include <deal.II/base/mpi.h>
 

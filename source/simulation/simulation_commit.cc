@@ -3,7 +3,7 @@
 
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
-#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/boundary_terms.h>
 #include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/plain_kernels.h>
 #include <morula/simulation/redistribution.h>

@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/fate/removal.h>
-#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/boundary_terms.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/bodies.h>
 #include <morula/simulation/simulation.h>

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/agreement.h>
-#include <morula/effects/step_points.h>
 #include <morula/effects/surface/boundary_terms.h>
+#include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/internal_force.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/spline_field.h>

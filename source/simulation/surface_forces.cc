@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/simulation/step_equilibrium.h>
 
 #include <deal.II/base/mpi.h>

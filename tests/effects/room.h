@@ -5,7 +5,6 @@
 #define morula_tests_effects_room_h
 
 #include <morula/effects/contact/contact_pairs.h>
-#include <morula/effects/contact/contact_points.h>
 #include <morula/effects/division/directions.h>
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/random.h>
@@ -22,7 +21,6 @@
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/effects/state/state_columns.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/loads.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/effects/volumes_of_step.h>

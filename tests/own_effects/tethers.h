@@ -7,7 +7,7 @@
 #ifndef own_effects_tethers_h
 #define own_effects_tethers_h
 
-#include <morula/effects/contact/contact_points.h>
+#include <morula/effects/contact/contact_pairs.h>
 #include <morula/effects/interaction.h>
 #include <morula/mechanics/spline_field.h>
 

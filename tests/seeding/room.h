@@ -9,8 +9,7 @@
 #include <morula/base/surface_mesh.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/tissue.h>
-#include <morula/seeding/mesh_patches.h>
-#include <morula/seeding/points_surface.h>
+#include <morula/seeding/closed_surface.h>
 #include <morula/seeding/seeding.h>
 #include <morula/seeding/shape.h>
 

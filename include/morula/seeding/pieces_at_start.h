@@ -70,6 +70,34 @@ namespace Morula
                 const SurfacePatches<dim> &surface,
                 const MPI_Comm             comm,
                 Review                    &review);
+
+
+  /**
+   * Warns of a grid that does not suit the cells, the boundary points or the
+   * body. Collective.
+   * @param slips whether growing tissue slips along its surface
+   */
+  template <int dim>
+  void
+  review_grid(const GridParameters      &grid,
+              const TissueParameters    &tissue,
+              const Founders<dim>       &founders,
+              const SurfacePatches<dim> &surface,
+              const bool                 slips,
+              const MPI_Comm             comm,
+              Review                    &review);
+
+  /**
+   * Warns of cells whose length is that of another unit, and of a surface that
+   * does not enclose the volume of its cells. Collective.
+   */
+  template <int dim>
+  void
+  review_units(const TissueParameters    &tissue,
+               const Founders<dim>       &founders,
+               const SurfacePatches<dim> &surface,
+               const MPI_Comm             comm,
+               Review                    &review);
 } // namespace Morula
 
 #endif

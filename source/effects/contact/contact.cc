@@ -11,9 +11,7 @@
 #include <deal.II/base/mpi.templates.h>
 
 #include <limits>
-#include <memory>
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {

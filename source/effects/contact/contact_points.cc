@@ -3,7 +3,7 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
-#include <morula/effects/contact/contact_points.h>
+#include <morula/effects/contact/contact_pairs.h>
 #include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 

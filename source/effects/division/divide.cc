@@ -4,7 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
 #include <morula/effects/division/divide.h>
-#include <morula/effects/division/wall_distance.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>

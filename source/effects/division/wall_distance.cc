@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/division/wall_distance.h>
+#include <morula/effects/division/divide.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/effects/fate/divides_at_once.h>
-#include <morula/effects/fate/hazard.h>
 #include <morula/effects/scene_keys.h>
 
 namespace Morula

@@ -8,8 +8,6 @@
 
 #include <boost/container/small_vector.hpp>
 
-#include <string>
-
 namespace Morula
 {
   namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/effects/fate/hazard.h>
+#include <morula/effects/fate/fate.h>
 #include <morula/effects/state/present_cell.h>
 
 #include <algorithm>

@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <utility>
 
 namespace Morula
 {

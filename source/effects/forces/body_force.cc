@@ -6,8 +6,6 @@
 #include <morula/effects/surface/loads.h>
 #include <morula/mechanics/point_term.h>
 
-#include <utility>
-
 namespace Morula
 {
   namespace

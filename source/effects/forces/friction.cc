@@ -4,11 +4,8 @@
 #include <morula/base/expression_key.h>
 #include <morula/base/step_failed.h>
 #include <morula/effects/fields/fields.h>
-#include <morula/effects/forces/force.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/mechanics/point_term.h>
-
-#include <utility>
 
 namespace Morula
 {

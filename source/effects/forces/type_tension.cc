@@ -13,7 +13,6 @@
 
 #include <sstream>
 #include <tuple>
-#include <utility>
 
 namespace Morula
 {

@@ -14,9 +14,7 @@
 
 #include <deque>
 #include <limits>
-#include <memory>
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {

@@ -5,7 +5,6 @@
 #include <morula/base/name_list.h>
 #include <morula/effects/fate/random.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/step_effect.h>
 
 #include <boost/algorithm/string.hpp>
 #include <boost/container/small_vector.hpp>

@@ -7,8 +7,6 @@
 #include <morula/effects/scene_keys.h>
 #include <morula/effects/state/neighbour_columns.h>
 
-#include <cctype>
-
 namespace Morula
 {
   namespace

@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/effects/surface/nitsche.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/particles/detached_points.h>

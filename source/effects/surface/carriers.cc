@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/surface/carriers.h>
+#include <morula/effects/surface/boundary_terms.h>
 
 #include <deal.II/base/mpi.h>
 

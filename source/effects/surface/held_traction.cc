@@ -5,7 +5,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/effects/part_of_step.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/effects/volumes_of_step.h>
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/plain_kernels.h>

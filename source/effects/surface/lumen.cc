@@ -3,9 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/scene_keys.h>
-#include <morula/effects/surface/boundary_condition.h>
 #include <morula/effects/surface/lumen_keys.h>
-#include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/surface/lumen_spaces.h>
 
 #include <deal.II/base/mpi.h>
@@ -16,7 +14,6 @@
 #include <numeric>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 namespace Morula
 {

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/effects/surface/lumen_pressure.h>
 #include <morula/effects/surface/lumen_spaces.h>
 
 #include <deal.II/base/mpi.h>

@@ -6,8 +6,6 @@
 #include <morula/effects/surface/loads.h>
 #include <morula/particles/nearest.h>
 
-#include <utility>
-
 namespace Morula
 {
   void

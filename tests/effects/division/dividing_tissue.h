@@ -4,7 +4,7 @@
 #ifndef morula_tests_voronoi_dividing_tissue_h
 #define morula_tests_voronoi_dividing_tissue_h
 
-#include <morula/effects/division/wall_distance.h>
+#include <morula/effects/division/divide.h>
 
 #include <deal.II/base/bounding_box.h>
 

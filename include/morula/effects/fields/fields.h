@@ -5,6 +5,7 @@
 #define morula_effects_fields_fields_h
 
 #include <morula/effects/fields/field.h>
+#include <morula/effects/fields/field_equation.h>
 #include <morula/mechanics/assembly.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/particles/tissue.h>

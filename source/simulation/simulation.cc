@@ -99,7 +99,6 @@ namespace Morula
     // row of statistics.csv.
     if (run_state.n_steps > 1)
       settle_equations(space_of_equations);
-    for_moments(&Moments<dim>::before, time_steps.time(), 0.);
     // The length of the step has to be known before growth is computed for it,
     // but after the fields, as growth may depend on them.
     adapt_step();

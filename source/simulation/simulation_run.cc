@@ -315,10 +315,10 @@ namespace Morula
     // to what acts on it. The splines are kept for the first step, which begins
     // in the same configuration. A resumed run has its rows already.
     files.emplace(model, resumed_from, clock, comm);
+    for (const std::string &warning : warnings)
+      files->message(warning);
     if (!resumed_from)
       {
-        for (const std::string &warning : warnings)
-          files->message(warning);
         const auto find_steady = [&](const bool all) {
           first_splines.reset();
           first_splines.emplace(splines());
@@ -342,7 +342,6 @@ namespace Morula
           find_steady(false);
         if (balance_at_start())
           find_steady(false);
-        begin_moments();
         for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
         keep_places(); // nothing has strained: no cell moves
         watches.look_at_pieces(*first_splines,
@@ -352,12 +351,6 @@ namespace Morula
         describe_state();
         write_rows();
         output(must_stop());
-      }
-    else
-      {
-        for (const std::string &warning : warnings)
-          files->message(warning);
-        begin_moments();
       }
     resumed_from.reset();
     if (model.development.is_mortal())

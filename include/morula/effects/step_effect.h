@@ -40,14 +40,8 @@ namespace Morula
   public:
     virtual ~Moments() = default;
 
-    /** The run begins at t = 0, or goes on from a snapshot whose numbers are in
-     *  @p moment already. */
-    virtual void
-    start(const Tissue<dim> &, const MomentOfRun<dim> &) const
-    {}
-
-    /** The run begins at t = 0, after start(): may write the cells' columns,
-     * but for deformation and growth. Not called where a run is resumed. */
+    /** The run begins at t = 0: may write the cells' columns, but for
+     *  deformation and growth. Not called where a run is resumed. */
     virtual void
     settle(Tissue<dim> &, const MomentOfRun<dim> &) const
     {}
@@ -63,12 +57,6 @@ namespace Morula
      *  columns likewise. */
     virtual void
     surfaced(Tissue<dim> &, const MomentOfRun<dim> &) const
-    {}
-
-    /** The step begins, at @p moment.t: may write the cells' columns, but for
-     *  deformation and growth. */
-    virtual void
-    before(Tissue<dim> &, const MomentOfRun<dim> &) const
     {}
 
     /** The step is done, at @p moment.t its end: cells have moved, divided and

@@ -129,14 +129,6 @@ namespace Morula
      *  @return whether it has moved. Collective. */
     bool
     balance_at_start();
-    void
-    begin_moments()
-    {
-      const double          t      = time_steps.time();
-      const CellReader<dim> reader = model.development.reader(t);
-      for (const auto &[name, effect] : model.moments)
-        effect->start(tissue, {t, 0., reader, run_state.kept, of_step});
-    }
     /** Runs @p steps; what makes them fail goes into the run's files, too. */
     void
     record_failure(const std::function<void()> &steps);

@@ -16,7 +16,12 @@
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/vector.h>
+
+#ifdef DEAL_II_WITH_PETSC
+#  include <petscksp.h>
+#endif
 
 #include "common/body_on_grid.h"
 #include "common/coupled_rows.h"

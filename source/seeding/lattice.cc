@@ -81,8 +81,7 @@ namespace Morula
     parameters.cell_spacing.refuse(
       "a spacing in um by which at least one cell's centre lies inside "
       "the tissue",
-      "Choose a smaller spacing, a larger tissue, or another "
-      "Lattice offset.");
+      "Choose a smaller spacing, a larger tissue, or another Lattice offset.");
   }
 
   template class Lattice<2>;

@@ -218,9 +218,8 @@ namespace Morula
                   tissue.points_file,
                   std::to_string(surface.n_outside) + " of " +
                     std::to_string(founders.n_global) +
-                    " cells stand outside of the surface around them: "
-                    "they leave gaps, and it encloses no more than their "
-                    "volume.",
+                    " cells stand outside of the surface around them: they "
+                    "leave gaps, and it encloses no more than their volume.",
                   advice);
     if (tissue.is_points() && surface.filled > 0.)
       review.warn(tissue.points_surface.path(),

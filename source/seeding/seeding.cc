@@ -61,8 +61,7 @@ namespace Morula
              << "; else choose another Cell spacing or Lattice offset.";
       parameters.surface_mesh.refuse(
         too_large ? "a surface in um with fewer than 4e9 cells" :
-                    "a surface in um with at least one cell's "
-                    "centre inside",
+                    "a surface in um with at least one cell's centre inside",
         remedy.str());
     }
 
@@ -196,8 +195,7 @@ namespace Morula
     const bool chosen = parameters.boundary_points > 0;
     if (!chosen && !(n_by_spacing < most_ids))
       parameters.cell_spacing.refuse(
-        "a spacing in um that gives fewer than 4e9 boundary "
-        "points",
+        "a spacing in um that gives fewer than 4e9 boundary points",
         "Choose a larger spacing, or set Boundary points.");
     const SurfaceTiling<dim> tiling =
       shape->tile(chosen ? parameters.boundary_points :

@@ -159,8 +159,7 @@ namespace Morula
       if (tissue.has_no_surface() && tissue.boundary_points > 0)
         tissue.boundary_points.refuse(
           "0, as Tissue/Points surface = none",
-          "Set Boundary points = 0, or Points surface = "
-          "automatic.");
+          "Set Boundary points = 0, or Points surface = automatic.");
       if (tissue.closed_gap != 2.)
         tissue.closed_gap.refuse("2",
                                  "Other cavities are those of a surface from a "
@@ -168,8 +167,7 @@ namespace Morula
       if (tissue.coarsen_surface && !tissue.refine_surface)
         tissue.coarsen_surface.refuse(
           "false, as Tissue/Refine surface = false",
-          "What is merged must be split again: set Refine "
-          "surface = true.");
+          "What is merged must be split again: set Refine surface = true.");
     }
 
     /** Refuses a lattice that misses the shape. */

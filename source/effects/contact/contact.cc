@@ -31,11 +31,10 @@ namespace Morula
       Key<std::string> between{
         {this, "Contact/Between"},
         "none",
-        "What may touch, press on each other, slide without friction and "
-        "part again. none: tissue that comes within a grid spacing or two "
-        "of other tissue sticks to it. bodies: different bodies have "
-        "contact where their surfaces meet. all: so have folds and arms of "
-        "one body.",
+        "What may touch, press on each other, slide without friction and part "
+        "again. none: tissue that comes within a grid spacing or two of other "
+        "tissue sticks to it. bodies: different bodies have contact where "
+        "their surfaces meet. all: so have folds and arms of one body.",
         {"none|bodies|all"}};
 
       Key<std::string> bodies{
@@ -61,9 +60,8 @@ namespace Morula
       Key<double> friction{
         {this, "Contact/Friction"},
         0.,
-        "Viscous friction of surfaces that touch: stress along the "
-        "surface over the velocity at which they slide; >= 0. "
-        "Units: kPa day/um.",
+        "Viscous friction of surfaces that touch: stress along the surface "
+        "over the velocity at which they slide; >= 0. Units: kPa day/um.",
         {},
         {[](const double zeta) { return zeta >= 0.; },
          "a number >= 0, in kPa day/um",

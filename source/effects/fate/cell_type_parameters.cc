@@ -105,9 +105,8 @@ namespace Morula
     , proliferation_law(
         "Proliferation/Law",
         "",
-        "none, or how cells of this type proliferate; empty: "
-        "as all. Cells that are past the onset of S divide, and "
-        "then wait.",
+        "none, or how cells of this type proliferate; empty: as all. Cells "
+        "that are past the onset of S divide, and then wait.",
         {"|none|cell cycle"})
     , division_axis("Proliferation/Cell cycle/Division axis",
                     "",

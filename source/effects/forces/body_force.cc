@@ -194,8 +194,7 @@ namespace Morula
             "a force takes the state of its cell, but its place, from "
             "the beginning of each step: it is late by Time/Step = " +
               as_text(scene.keys.time.step) +
-              " day, and may swing where it changes that state much in "
-              "a step.",
+              " day, and may swing where it changes that state much in a step.",
             "Repeat the run with half the step, and compare.");
       }
 

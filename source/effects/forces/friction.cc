@@ -23,10 +23,9 @@ namespace Morula
       ExpressionKey coefficient{
         {this, "Friction/Coefficient"},
         "0",
-        "Friction of cells, also inside of the tissue, with "
-        "surroundings that stand still: the force on a cell per "
-        "volume (see Per) is minus this times its velocity; >= 0. An "
-        "expression. Units: kPa day/um^2.",
+        "Friction of cells, also inside of the tissue, with surroundings that "
+        "stand still: the force on a cell per volume (see Per) is minus this "
+        "times its velocity; >= 0. An expression. Units: kPa day/um^2.",
         Evaluated::step,
         not_negative("kPa day/um^2", "0 is no friction.")};
 

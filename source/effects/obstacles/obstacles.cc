@@ -26,9 +26,8 @@ namespace Morula
       Key<std::string> names{
         {this, "Obstacles/Names"},
         "",
-        "Rigid bodies that the surface of the tissue cannot enter, "
-        "separated by commas. Each has a section of this name. Empty: "
-        "none."};
+        "Rigid bodies that the surface of the tissue cannot enter, separated "
+        "by commas. Each has a section of this name. Empty: none."};
       std::deque<ObstacleKeys> obstacles;
 
       bool
@@ -374,8 +373,7 @@ namespace Morula
               throw InputError(
                 "Obstacles/" + obstacle.name + "/Two-sided",
                 "true",
-                "false, or an obstacle that is at least a grid "
-                "spacing thick",
+                "false, or an obstacle that is at least a grid spacing thick",
                 "It would hold the surface on both of its sides: "
                 "make it thicker, or Grid/Spacing smaller.");
             // The surface may begin a little inside, and the contact pushes it

@@ -31,29 +31,26 @@ namespace Morula
       ExpressionKey diffusion{
         {this, "Rearrangement/Diffusion"},
         "0",
-        "Diffusion coefficient of a cell among equal ones, which "
-        "exchanges its place with neighbours; of two that differ the "
-        "harmonic mean counts. An expression; 0: the cell keeps its "
-        "place. Units: um^2/day.",
+        "Diffusion coefficient of a cell among equal ones, which exchanges its "
+        "place with neighbours; of two that differ the harmonic mean counts. "
+        "An expression; 0: the cell keeps its place. Units: um^2/day.",
         Evaluated::step,
         not_negative("um^2/day", "0 lets the cell keep its place.")};
 
       Key<double> energy{
         {this, "Rearrangement/Fluctuation energy"},
         0.,
-        "T in the probability 1/(1 + exp(E/T)) that an exchange is made "
-        "which changes the energy of adhesion (Cell types/NAME/Tension) "
-        "by E; 0: never one that raises it. In 3-D times um. Units: kPa "
-        "um^2.",
+        "T in the probability 1/(1 + exp(E/T)) that an exchange is made which "
+        "changes the energy of adhesion (Cell types/NAME/Tension) by E; 0: "
+        "never one that raises it. In 3-D times um. Units: kPa um^2.",
         {0.}};
 
       /** q */
       Key<double> shear_released{
         {this, "Rearrangement/Shear released"},
         1.,
-        "Part of the elastic shear that each exchange takes from "
-        "both places: 1 is a liquid as long as cells exchange "
-        "places.",
+        "Part of the elastic shear that each exchange takes from both places: "
+        "1 is a liquid as long as cells exchange places.",
         {0.},
         {[](const double q) { return q <= 1.; },
          "a number from 0 to 1",

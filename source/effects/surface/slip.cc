@@ -17,17 +17,15 @@ namespace Morula
       SlipParameters()
         : ConditionKeys(
             "Boundary conditions/Slip where",
-            "Expression of X, Y, Z: the displacement along the normal "
-            "is zero where it is > 0; empty: nowhere. Slip wins over "
-            "traction.")
+            "Expression of X, Y, Z: the displacement along the normal is zero "
+            "where it is > 0; empty: nowhere. Slip wins over traction.")
       {}
 
       DirectionKey normal{
         {this, "Boundary conditions/Slip normal"},
         "",
-        "Direction, e.g. 0, 0, 1: only points whose initial "
-        "normal N is along it, |N.normal| > 0.9, slip; empty: "
-        "all, each along its own normal."};
+        "Direction, e.g. 0, 0, 1: only points whose initial normal N is along "
+        "it, |N.normal| > 0.9, slip; empty: all, each along its own normal."};
       EffectFacts
       facts() const override
       {

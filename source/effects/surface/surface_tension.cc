@@ -44,8 +44,7 @@ namespace Morula
         if (scene.catalogue.tensions().any_with_surface() &&
             !tension.is_default())
           tension.refuse(
-            "its default, as types of cells have tensions with the "
-            "surface",
+            "its default, as types of cells have tensions with the surface",
             "Remove this key, or each type's Tension/With surface.");
       }
       std::string

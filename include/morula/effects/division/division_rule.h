@@ -33,30 +33,27 @@ namespace Morula
     Key<std::string> axis{
       {this, "Proliferation/Cell cycle/Division axis"},
       "random",
-      "n_s, chosen at every onset of S, or at a Division by size: 'random': uniform on the sphere "
-      "(2-D: circle); 'fixed': along Fixed axis; in the present "
-      "configuration, 'stretch': along the largest elastic stretch, "
+      "n_s, chosen at every onset of S, or at a Division by size: 'random': "
+      "uniform on the sphere (2-D: circle); 'fixed': along Fixed axis; in the "
+      "present configuration, 'stretch': along the largest elastic stretch, "
       "'stress': along the most tensile stress, 'radial': away from Radial "
       "center, 'surface normal', 'tangential': across or along the surface "
-      "that was nearest to the founder at t = 0, 'cell shape': along which "
-      "the cell is longest; 'gradient of NAME': along "
-      "which a field rises fastest.",
+      "that was nearest to the founder at t = 0, 'cell shape': along which the "
+      "cell is longest; 'gradient of NAME': along which a field rises fastest.",
       {"random"}};
 
     /** κ */
     ExpressionKey axis_spread{
       {this, "Proliferation/Cell cycle/Axis spread"},
       "0",
-      "kappa: concentration of the axes around what Division axis "
-      "says, by the distribution of von Mises and Fisher. The "
-      "larger, the nearer: the root of the mean square angle tends "
-      "to sqrt(2/kappa), in 2-D sqrt(1/kappa). An expression; not "
-      "negative; 0: no spread.",
+      "kappa: concentration of the axes around what Division axis says, by the "
+      "distribution of von Mises and Fisher. The larger, the nearer: the root "
+      "of the mean square angle tends to sqrt(2/kappa), in 2-D sqrt(1/kappa). "
+      "An expression; not negative; 0: no spread.",
       Evaluated::event,
       not_negative("(a concentration)",
-                   "0 means no spread; otherwise, the larger the "
-                   "number, the nearer are axes to what Division axis "
-                   "says.")};
+                   "0 means no spread; otherwise, the larger the number, the "
+                   "nearer are axes to what Division axis says.")};
 
     ExpressionKey least_anisotropy{
       {this, "Proliferation/Cell cycle/Least anisotropy"},
@@ -93,9 +90,8 @@ namespace Morula
       {this, "Proliferation/Cell cycle/Fixed axis"},
       "0, 0, 1",
       "Direction of n_s for Division axis = fixed, in the reference "
-      "configuration, of any length but zero: 3 expressions separated by "
-      "';', or plain numbers separated by ','. 2-D: the first two "
-      "components.",
+      "configuration, of any length but zero: 3 expressions separated by ';', "
+      "or plain numbers separated by ','. 2-D: the first two components.",
       Evaluated::event,
       3};
   };

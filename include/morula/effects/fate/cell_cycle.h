@@ -42,9 +42,8 @@ namespace Morula
     Key<std::string> start{
       {this, "Proliferation/Cell cycle/Start"},
       "waiting",
-      "State at t = 0: 'waiting': all cells in G0, with "
-      "exponentially distributed waits; 'together': all cells "
-      "enter S at t = 0.",
+      "State at t = 0: 'waiting': all cells in G0, with exponentially "
+      "distributed waits; 'together': all cells enter S at t = 0.",
       {"waiting|together"}};
 
     ExpressionKey duration{{this, "Proliferation/Cell cycle/Duration"},
@@ -69,9 +68,8 @@ namespace Morula
     ExpressionKey size_checkpoint{
       {this, "Proliferation/Cell cycle/Size checkpoint"},
       "0",
-      "J_th: a cell enters S only while its elastic volume "
-      "ratio J_e is above this value. Not negative; 0: no "
-      "checkpoint." +
+      "J_th: a cell enters S only while its elastic volume ratio J_e is above "
+      "this value. Not negative; 0: no checkpoint." +
         of_founder,
       Evaluated::event,
       not_negative("(a ratio of volumes)", "0 means no checkpoint.")};

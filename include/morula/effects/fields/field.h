@@ -49,10 +49,9 @@ namespace Morula
     ExpressionKey consumption{
       {this, "Consumption"},
       "0",
-      "Rate k at which a cell uses it up, k times the field, an "
-      "expression of the cell's state, which may read the field "
-      "itself: 4e6/(0.5 + NAME) saturates; not negative. Units: "
-      "1/day.",
+      "Rate k at which a cell uses it up, k times the field, an expression of "
+      "the cell's state, which may read the field itself: 4e6/(0.5 + NAME) "
+      "saturates; not negative. Units: 1/day.",
       Evaluated::step,
       not_negative("1/day", "What a cell makes is Production.")};
 

@@ -35,8 +35,7 @@ namespace Morula
       {this, "Tension/Force"},
       true,
       "Whether the tensions between types pull at the tissue. false: only "
-      "Rearrangement knows them, as where the grid is too coarse for "
-      "them."};
+      "Rearrangement knows them, as where the grid is too coarse for them."};
     /** γ_ab, by (a, b) in the order of the types, without a = b; kPa µm. */
     std::deque<Key<double>>  between;
     std::vector<std::string> types;
@@ -56,8 +55,7 @@ namespace Morula
                 one.value() != other.value())
               other.refuse(
                 "the value of " + one.path() + ", " + one.text() + " kPa um",
-                "An interface has one tension: remove one of the two "
-                "keys.");
+                "An interface has one tension: remove one of the two keys.");
             gamma[a][b] = gamma[b][a] =
               one.is_default() ? other.value() : one.value();
           }

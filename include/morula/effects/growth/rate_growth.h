@@ -105,11 +105,10 @@ namespace Morula
     ExpressionKey share_along{
       {this, "Growth/Rate/Share along"},
       "",
-      "s: which share of the rate is growth along Direction, from 0 "
-      "to 1; the rest is growth across it. An expression of the "
-      "cell's state. 0: growth in a surface, if Direction is its "
-      "normal; 1: along a fibre; 1/3 (in 2-D 1/2), or empty: "
-      "isotropic.",
+      "s: which share of the rate is growth along Direction, from 0 to 1; the "
+      "rest is growth across it. An expression of the cell's state. 0: growth "
+      "in a surface, if Direction is its normal; 1: along a fibre; 1/3 (in 2-D "
+      "1/2), or empty: isotropic.",
       Evaluated::step};
 
     Key<bool> predictor{
@@ -132,9 +131,8 @@ namespace Morula
     ExpressionKey homeostatic_stress{
       {this, "Growth/Rate/Homeostatic stress"},
       "0",
-      "sigma*: true stress at which stress-regulated growth "
-      "comes to rest; < 0: a pressure. An expression of the "
-      "cell's state. Units: kPa.",
+      "sigma*: true stress at which stress-regulated growth comes to rest; < "
+      "0: a pressure. An expression of the cell's state. Units: kPa.",
       Evaluated::step};
 
     CellDirectionKey direction{

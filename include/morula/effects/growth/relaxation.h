@@ -25,16 +25,14 @@ namespace Morula
       {this, "Material/Relaxation time"},
       "0",
       "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
-      "elastic. Volume does not relax. Epithelia have about 0.05. Units: "
-      "day.",
+      "elastic. Volume does not relax. Epithelia have about 0.05. Units: day.",
       Evaluated::step,
       not_negative("day", "0 is elastic tissue.")};
 
     ExpressionKey yield_stress{
       {this, "Material/Yield stress"},
       "0",
-      "The von Mises stress up to which nothing relaxes; >= 0. "
-      "Units: kPa.",
+      "The von Mises stress up to which nothing relaxes; >= 0. Units: kPa.",
       Evaluated::step,
       not_negative("kPa", "With 0 any shear stress relaxes.")};
 

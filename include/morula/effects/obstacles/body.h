@@ -66,8 +66,7 @@ namespace Morula
     Key<std::string> surface_mesh{
       {this, "Surface mesh"},
       "",
-      "Of a mesh: closed surface in um, as an STL, OFF, PLY or "
-      "OBJ file."};
+      "Of a mesh: closed surface in um, as an STL, OFF, PLY or OBJ file."};
 
     Key<double> stiffness{
       {this, "Stiffness"},

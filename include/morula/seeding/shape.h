@@ -67,14 +67,7 @@ namespace Morula
     tile(const std::uint64_t n_wished) const = 0;
   };
 
-  /** The shapes, each made from its keys. In 2-D a sphere is a disc and a box a
-   *  rectangle. */
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
-  make_sphere(const TissueParameters &parameters);
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
-  make_box(const TissueParameters &parameters);
+  /** Shapes that are made from their keys. */
   template <int dim>
   std::unique_ptr<Shape<dim>>
   make_ellipsoid(const TissueParameters &parameters);

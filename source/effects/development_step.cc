@@ -3,7 +3,7 @@
 
 #include <morula/base/agreement.h>
 #include <morula/effects/development.h>
-#include <morula/effects/fate/types_around.h>
+#include <morula/effects/state/neighbour_columns.h>
 #include <morula/particles/cell_event.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>

@@ -3,7 +3,6 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/effects/division/division_rule.h>
-#include <morula/effects/fate/types_around.h>
 #include <morula/effects/growth/relaxation.h>
 #include <morula/effects/state/direction.h>
 #include <morula/effects/state/neighbour_columns.h>

@@ -110,6 +110,7 @@ class KeptRuns:
                               "there: wait for it, or choose another directory.") from None
             self._lock = lock
             yield
+        self._lock = None
 
     @contextlib.contextmanager
     def _servers_for(self, jobs):

@@ -13,6 +13,8 @@ The columns are those of the files (README.md, "What comes out").
 What stands outside of the class reads single files into NumPy arrays: for
 tools and tests that start often, as loading pandas takes half a second.
 """
+import hashlib
+import json
 import xml.etree.ElementTree as ElementTree
 from functools import cached_property
 from pathlib import Path
@@ -25,6 +27,7 @@ from .lineage import Lineage
 from .prm import parse
 from .refusal import Refused
 
+ERRORS = "errors.json"  # of contrib/accuracy
 ESSENTIAL = ("parameters.prm", "statistics.csv")
 
 # Written as numbers, and whole ones.
@@ -169,6 +172,22 @@ class Run:
                           "and a row a step", "Has the run begun?")
         return _frame(table)
 
+    @property
+    def digest(self):
+        """Tells what was computed from what is there after the next run."""
+        return hashlib.sha256((self.directory / "statistics.csv").read_bytes()).hexdigest()
+
+    @property
+    def errors(self):
+        """What contrib/accuracy has found of this run, a row a measure: value, error, unit; the
+        parts grid, cells, step, position, chance; and `text`, all that in words."""
+        import pandas
+        file = self.directory / ERRORS
+        found = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+        rows = found["errors"] if found.get("of") == self.digest else {}
+        return pandas.DataFrame.from_dict({name: {**row, **row["parts"]} for name, row
+                                           in rows.items()}, orient="index")
+
     @cached_property
     def timings(self):
         """timings.csv: calls, wall_seconds, share (of the total) by section;
@@ -248,8 +267,10 @@ class Run:
         """The boundary points of state i, likewise."""
         return self._read("surface", i)
 
-    def at(self, kind, day):
-        """The state of kind "cells" or "surface" on a day."""
+    def at(self, kind, day=None):
+        """The state of kind "cells" or "surface" on a day, or the last one."""
+        if day is None:
+            return self._read(kind, -1)
         times = [time for time, _ in states(self.directory, kind)]
         for i, time in enumerate(times):
             if same_time(time, day):

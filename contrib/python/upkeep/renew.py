@@ -61,9 +61,10 @@ def ladders():
     for name, words in accuracy.LADDERS.items():
         output = OUTPUT / "accuracy" / name
         said("contrib/accuracy", *words, "--again", "--output", output)
-        for picture in output.glob("*.png"):
+        for picture in output.glob("*/*.png"):
             shutil.copy(picture, ROOT / f"doc/images/accuracy/{name}-{picture.name}")
-        parts.append(ladder(name, (output / "table.md").read_text(encoding="utf-8")))
+        file = max(output.glob("*/table.md"), key=os.path.getmtime)
+        parts.append(ladder(name, file.read_text(encoding="utf-8")))
     return "\n\n".join(parts)
 
 

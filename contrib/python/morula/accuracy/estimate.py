@@ -4,9 +4,7 @@
 import math
 from dataclasses import dataclass
 
-from morula.scene import normal
-
-from .limits import ROUNDING, limit_of, mean_and_noise, size_of
+from .limits import KINDS, ROUNDING, limit_of, mean_and_noise, size_of
 
 
 @dataclass
@@ -96,30 +94,13 @@ class Estimate:
         return min(good, key=costs.get, default=None)
 
 
-def center_of(plan, kinds):
-    """The point that all lines go through: the scene itself, in a full grid the finest corner."""
-    if not plan.full_grid:
-        return plan.own
-    values = dict(zip(plan.keys, plan.own))
-    for ladder in plan.ladders:
-        own = [normal(values[key]) for key in ladder.keys]
-        kind = kinds.get(ladder.keys[0], "none")
-
-        def coarseness(rung):
-            """Sizes first; without one the scene's own value."""
-            size = size_of(rung[0], kind, plan.scene.dimension)
-            return (math.inf if size is None else size, list(map(normal, rung)) != own)
-        values.update(zip(ladder.keys, min(ladder.rungs, key=coarseness)))
-    return plan.known(tuple(values.values()))
-
-
-def estimate(plan, center, kinds, measure, time, values, reference=None):
+def estimate(plan, measure, time, values, reference=None):
     """From the values {point: array over the seeds} of the points that have run. Without a
     reference file the right value is the centre's with the changes of all ladders added, each to
     its own limit; of ladders that vary the same key the first one counts."""
-    parts, counted, changes = [], set(), []
+    parts, counted, changes, center = [], set(), [], plan.own
     for ladder in plan.ladders if center in values else []:
-        part, limit = _part(plan, ladder, center, kinds, values)
+        part, limit = _part(plan, ladder, values)
         part.used = part.limit is not None and not counted & set(ladder.keys)
         if part.used:
             counted |= set(ladder.keys)
@@ -142,11 +123,12 @@ def estimate(plan, center, kinds, measure, time, values, reference=None):
         {p: noise for p, (_, noise) in errors.items()})
 
 
-def _part(plan, ladder, center, kinds, values):
+def _part(plan, ladder, values):
     """The Part of a ladder, and its limit, an array over the seeds."""
+    center = plan.own
     points = plan.line(ladder, center)
     there = [values.get(point) for point in points]
-    kind = kinds.get(ladder.keys[0], "none")
+    kind = KINDS.get(ladder.keys[0])
     path = plan.path(ladder, center)
     sizes = [size_of(plan.value(point, ladder.keys[0]), kind, plan.scene.dimension) if point in path
              else None for point in points]

@@ -9,7 +9,7 @@ import numpy
 from morula.error_in_time import error_in_time
 from morula.run import row_at
 
-from .estimate import center_of, estimate
+from .estimate import estimate
 
 
 # What a point takes until a time, means over the samples: s, from the start to the
@@ -45,7 +45,6 @@ class Findings:
 
     def __init__(self, request, records):
         self.request, self.plan, self.records = request, request.plan, records
-        center = center_of(self.plan, request.kinds)
         self.estimates, self.scatters = [], []
         for time in request.times:
             for measure in request.measures:
@@ -53,14 +52,15 @@ class Findings:
                 if request.n_offsets:
                     self.scatters += [s for s in scatters if len(s.values)]
                 values = {s.point: s.values for s in scatters if not s.n_failed}
-                if self.plan.ladders and (center in values or values and request.reference):
-                    self.estimates.append(estimate(self.plan, center, request.kinds, measure, time,
-                                                   values, request.reference))
+                if self.plan.ladders and (
+                        self.plan.own in values or values and request.reference):
+                    self.estimates.append(estimate(self.plan, measure, time, values,
+                                                   request.reference))
 
     def _scatter(self, measure, time, point):
         finished = {sample: self.records[point, sample] for sample in self.request.samples
                     if self.records[point, sample].finished}
-        values = [measure.evaluate(record.run, time, self.request.tissue_center)
+        values = [measure.evaluate(record.run, time)
                   for record in finished.values()]
         reference = self.request.reference
         return Scatter(measure, time, point, list(finished), numpy.array(values),

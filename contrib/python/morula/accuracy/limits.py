@@ -5,18 +5,16 @@ import math
 from dataclasses import dataclass
 
 import numpy
-from morula.refusal import Refused
 from morula.scene import as_number
 from scipy.optimize import brentq, minimize_scalar
 
 # Which way a key becomes finer. 'zero': the error falls with a power of the
 # value. 'large': with a power of the number of points, taken as the spacing
 # they have on the surface. 'tolerance': the smaller the better, by no law.
-# 'none': no value is the right one, as for every key that is not named here.
-KINDS = ("zero", "large", "tolerance", "none")
-DEFAULT_KINDS = {"Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
-                 "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
-                 "Solver/Linear tolerance": "tolerance"}
+# No value of a key that is not named here is the right one.
+KINDS = {"Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "zero",
+         "Tissue/Boundary points": "large", "Solver/Newton tolerance": "tolerance",
+         "Solver/Linear tolerance": "tolerance"}
 
 # Observed orders outside this range are no sign of convergence.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 4.5
@@ -29,23 +27,11 @@ LARGEST_MISMATCH = 0.05
 ROUNDING = 1e-12
 
 
-def read_kinds(options, scene):
-    """--limit KEY=KIND over the defaults."""
-    kinds = dict(DEFAULT_KINDS)
-    for text in options:
-        key, _, kind = (word.strip() for word in text.partition("="))
-        scene.require_key(key, "--limit")
-        if kind not in KINDS:
-            raise Refused("--limit", text, '"Section/Key=kind" with a kind of ' + ", ".join(KINDS))
-        kinds[key] = kind
-    return kinds
-
-
 def size_of(value, kind, dimension):
     """How coarse a value is: a positive number that tends to zero, or None
     where the value has no place in that order (0 often means 'automatic')."""
     number = as_number(value)
-    if kind == "none" or number is None or number <= 0:
+    if kind is None or number is None or number <= 0:
         return None
     return number ** (-1.0 / (dimension - 1)) if kind == "large" else number
 
@@ -69,7 +55,7 @@ def limit_of(sizes, values, kind):
     these sizes; rungs without size or value are left out."""
     rungs = sorted((size, i) for i, size in enumerate(sizes)
                    if size is not None and values[i] is not None)
-    if len(rungs) < 2 or kind == "none" or len(dict(rungs)) < len(rungs):
+    if len(rungs) < 2 or kind is None or len(dict(rungs)) < len(rungs):
         return None
     fine = rungs[:3]
     arrays = [values[i] for _, i in fine]

@@ -10,10 +10,12 @@ def parser():
     result = Parser(
         allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Runs a scene over ladders of its keys and draws error "
-        "against wall time,\nunknowns and memory.",
-        epilog="""contrib/accuracy my.prm --vary "Grid/Spacing=100,75,50" \\
-    --vary "Time/Step=2,1,0.5" --measure zmax,total_volume --wanted 1%
+        description="Tells how far the results of a scene are right: runs it with "
+        "coarser grids,\nlonger steps, other places of the grid and other seeds. With "
+        "--vary, draws error\nagainst wall time, unknowns and memory.",
+        epilog="""contrib/accuracy my.prm --measure zmax
+contrib/accuracy my.prm --measure zmax,total_volume --wanted 1% \\
+    --vary "Grid/Spacing=100,75,50" --vary "Time/Step=2,1,0.5"
 
 doc/accuracy-and-cost.md explains the results.""")
     add = result.add_argument
@@ -30,15 +32,11 @@ doc/accuracy-and-cost.md explains the results.""")
     add("--offsets", metavar="N", help="every run at N positions of the grid, "
         "spread through one grid cell: how far do results depend on where it "
         "lies? Needs no --vary")
-    add("--grid", action="store_true", help="every combination of the "
-        "ladders, instead of each alone round the scene's own values")
     add("--reference", metavar="FILE.csv", help="right values, in columns "
         "named like the measures, MEASURE_error, time")
     add("--reference-column", action="append", default=[],
         metavar="NEW=EXPRESSION", help="names or computes a column of the "
         "reference file, e.g. zmax=apex or time=10*(theta-1)")
-    add("--limit", action="append", default=[], metavar="KEY=KIND",
-        help="how a key becomes finer: zero, large, tolerance, none")
     add("--wanted", metavar="ERROR", help="1%%, 0.5um, zmax=0.5um,...: marks "
         "the cheapest run that is as good")
     add("--repeat", default="1", metavar="N", help="times that each run is "

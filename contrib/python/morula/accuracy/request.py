@@ -4,16 +4,15 @@
 import math
 from fractions import Fraction
 
-import numpy
 from morula.command_line import output_directory, ranks_and_jobs, whole_number
+from morula.kept_runs import job_name
 from morula.ladder import Plan, check_method, check_seeds, read_ladder, read_seeds
+from morula.measures import read_measures
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
 from morula.scene import Scene, as_number
 
-from .limits import read_kinds
-from .measures import read_measures
 from .offsets import read_offsets, samples
 from .reference import Reference
 from .wanted import read_wanted
@@ -44,7 +43,6 @@ class Request:
         check_method(self.plan)
         self.n_offsets = read_offsets(options.offsets, self.plan)
         self.samples = samples(self.seeds, self.n_offsets, self.scene.dimension)
-        self.kinds = read_kinds(options.limit, self.scene)
         self.times = self._times()
         self.wanted = read_wanted(options.wanted, self.measures)
         if options.reference_column and options.reference is None:
@@ -58,30 +56,37 @@ class Request:
         self.output = output_directory(options, OUTPUT / "accuracy" / self.scene.name)
 
     @property
+    def asked(self):
+        """Whether ladders or offsets were: else it is the error bar."""
+        return bool(self.options.vary or self.options.offsets)
+
+    @property
+    def results(self):
+        """Where tables and figure go: each command has a directory of its own."""
+        asked = [("", text) for text in self.options.vary]
+        asked += [("offsets", str(self.n_offsets))] * bool(self.n_offsets)
+        words = [word for word in self.options.words if word != "--again"]
+        return self.output / job_name(asked, tuple(words))
+
+    @property
     def sampled(self):
         """What the runs of a point differ by, in words; empty for one run."""
         return " and ".join(["seeds"] * (len(self.seeds or []) > 1)
                             + ["offsets"] * bool(self.n_offsets))
 
-    @property
-    def tissue_center(self):
-        """um, with three components"""
-        numbers = [float(x) for x in self.scene["Tissue/Center"].split(",")]
-        return numpy.array((numbers[:self.scene.dimension] + [0.0])[:3])
-
     def _plan(self):
         options = self.options
-        if not options.vary and (not options.offsets or options.grid
-                                 or options.wanted or options.limit):
-            raise Refused("--vary", "", "at least one ladder (--offsets alone estimates no error)",
-                          "For instance " '--vary "Grid/Spacing=100,75,50".')
+        for name in ("wanted", "at", "seeds", "reference"):
+            if getattr(options, name) and not (options.vary or self.asked and name != "wanted"):
+                raise Refused(f"--{name}", getattr(options, name), "something with a ladder only",
+                              "For instance " '--vary "Grid/Spacing=100,75,50".')
         ladders = [read_ladder(text, self.scene, NOT_VARIED, "a key that changes how well the same "
                                "state is computed") for text in options.vary]
         names = [ladder.name for ladder in ladders]
         if len(set(names)) < len(names):
             raise Refused("--vary", ", ".join(names), "one ladder for the same keys",
                           'Or give them names: "fine: Grid/Spacing=...".')
-        return Plan(self.scene, ladders, options.grid)
+        return Plan(self.scene, ladders)
 
     def _times(self):
         """When runs are compared; each run ends at the last of these times."""
@@ -122,7 +127,7 @@ class Request:
         result = list(self.scene.overrides)
         if self.options.at:
             result.append(("Time/End time", format(self.times[-1], ".15g")))
-        files = any(m.kind != "statistics" for m in self.measures)
+        files = not self.asked or any(m.kind != "statistics" for m in self.measures)
         return [*result, ("Output/Formats", "csv" if files else "none"),
                 ("Output/Interval", output_interval(self.times)),
                 ("Output/Snapshot interval", "0")]

@@ -4,7 +4,7 @@
 import functools
 import sys
 
-from morula.command_line import run_tool
+from morula.command_line import run_tool, tell
 from morula.kept_runs import Job, KeptRuns, job_name
 
 from .findings import Findings
@@ -27,6 +27,8 @@ def main(words=None):
 def measure(request):
     """Does the runs of a request and writes what they say."""
     options = request.options
+    if not request.asked:
+        return error_bar(request)
     kept = KeptRuns(request.scene, request.output / "runs", request.ranks, request.jobs,
                     request.repeats, options.again, say=say, name="accuracy")
     jobs = {(point, sample): job_of(request, point, sample)
@@ -37,16 +39,32 @@ def measure(request):
             say(job.name)
         return 0
     findings = Findings(request, dict(zip(jobs, kept.run(list(jobs.values())))))
-    write_tables(findings, request.output)
+    request.results.mkdir(exist_ok=True)
+    write_tables(findings, request.results)
     if not findings.estimates and not findings.scatters:
         print("accuracy: nothing to compare, as the run that all ladders share has failed: "
               "table.md says why. Choose other values for it by -s.", file=sys.stderr)
         return 2
     from .figure import draw
-    draw(findings, request.output)
+    draw(findings, request.results)
     for line in findings.summary():
         say(line)
-    say(f"tables and figure in {request.output}")
+    say(f"tables and figure in {request.results}")
+    return 0
+
+
+def error_bar(request):
+    """The error of the scene's own run, a line a measure."""
+    from .further import Further
+    further = Further(request, tell)
+    if request.options.plan:
+        for name in further.names():
+            say(name)
+        return 0
+    for bar in further.bars():
+        say(bar.text())
+    for note in further.notes:
+        tell(f"accuracy: {note}")
     return 0
 
 

@@ -17,6 +17,7 @@ import numpy as np
 from morula import scene as scenes
 from morula.kept_runs import Job, KeptRuns, job_name, with_snapshots
 from morula.ladder import MAX_RUNS
+from morula.measures import read_measure
 from morula.refusal import Refused
 from morula.served import Server
 
@@ -37,7 +38,8 @@ class Function:
     parameters: names and the paths of keys, or paths alone; a tuple of paths
     changes several keys together. Or a function of the parameters, by its
     arguments' names, that returns a dictionary of keys: for units, logarithms,
-    and expressions of several parameters. measure(run) returns a number or an array.
+    and expressions of several parameters. measure(run) returns a number or an array, or is
+    the name of a measure of contrib/accuracy, "zmax" or "cells:p90(volume)", or a list of them.
     Runs are kept in `directory`: the same point is not run twice, by nobody, and
     what was interrupted goes on. A run that fails, or that the program refuses,
     gives nan of the shape of the others; a measure that throws is not caught.
@@ -48,7 +50,7 @@ class Function:
     def __init__(self, scene: Scene,
                  parameters: Mapping[str, Any] | Sequence[str]
                  | Callable[..., Mapping[str, Any]],
-                 measure: Callable[[Run], Any], *,
+                 measure: Callable[[Run], Any] | str | Sequence[str], *,
                  directory: str | Path | None = None, ranks: int = 1):
         self.scene = scene
         self._keys = parameters if callable(parameters) else None
@@ -56,7 +58,7 @@ class Function:
             parameters = list(inspect.signature(self._keys).parameters)
         self.parameters = dict(parameters) if isinstance(
             parameters, Mapping) else {path: path for path in parameters}
-        self.measure = measure
+        self.measure = _measured(measure, scene)
         self.directory = Path(directory or Path("output") / f"{scene.name}-runs")
         self.ranks = ranks
         self._shape: tuple[int, ...] = ()
@@ -137,6 +139,20 @@ class Function:
         return scenes.Scene(file, scene.program, [f"{key}={value}" for key, value in overrides])
 
 
+def _measured(what, scene):
+    """A function of a run, from one or from names of measures."""
+    if callable(what):
+        return what
+    names = [what] if isinstance(what, str) else what
+    keys = scene.program.complete(scene._written(), list(scene._known.values()))
+    measures = [read_measure(name, keys, "The measure") for name in names]
+
+    def values(run):
+        found = [measure.evaluate(run) for measure in measures]
+        return found[0] if isinstance(what, str) else np.array(found)
+    return values
+
+
 def _close(servers: list[Server]) -> None:
     for server in servers:
         server.close()
@@ -149,18 +165,20 @@ def _job(inner, keys):
 
 
 def map(scene: Scene, samples: "pandas.DataFrame | Iterable[Mapping]",
-        measure: Callable[[Run], Mapping[str, Any] | Any], *,
+        measure: Callable[[Run], Mapping[str, Any] | Any] | str | Sequence[str], *,
         directory: str | Path | None = None, jobs: int = 1, ranks: int = 1,
         progress: bool = True) -> "pandas.DataFrame":
     """Runs a scene at samples, a data frame whose columns are paths of keys, and returns it with
     what was measured besides: measure(run) gives a dictionary of columns, or one number, the
-    column `measure`. Rows whose run fails have nan. Runs are kept as those of Function are."""
+    column `measure`; names of measures give columns of these names. Rows whose run fails have nan. Runs are kept as those of Function are."""
     import pandas
     table = pandas.DataFrame(samples).reset_index(drop=True)
+    texts = None if callable(measure) else [measure] if isinstance(measure, str) else measure
+    of_run = _measured(texts or measure, scene)
     names: list[str] = []
 
     def numbers(run):
-        found = measure(run)
+        found = dict(zip(texts, of_run(run))) if texts else of_run(run)
         found = dict(found) if isinstance(found, Mapping) else {"measure": found}
         names[:] = names or list(found)
         return [found[name] for name in names]

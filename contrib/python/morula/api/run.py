@@ -38,7 +38,8 @@ class Run(run.Run):
     columns of the files (doc/glossary.md); lengths in um, times in days, stresses in kPa.
 
     `statistics`: a row a step. `lineage`: every cell that ever lived. `events`: changes of type,
-    deaths, removals. `timings`: what took how long. `keys`: all keys as used. `times`: days on
+    deaths, removals. `timings`: what took how long. `errors`: error bars that
+    contrib/accuracy has found. `keys`: all keys as used. `times`: days on
     which cells were written. `surface(i)`: the boundary points of state i.
 
     Throws morula.Refused if the directory is none of a run."""

@@ -43,7 +43,7 @@ def state_of(scene, directory, keys):
     except Refused:  # nothing was computed yet
         return "begun"
     same = all(normal(there.get(key, "")) == normal(value) for key, value in keys.items()
-               if key != "Output directory")
+               if key not in ("Output directory", "Output/Snapshot interval"))
     if not same:
         return "other"
     if done:
@@ -61,7 +61,7 @@ def run_scene(scene, directory, ranks, progress, again):
         return Run(directory)
     if state == "other" and not again:
         raise Refused("The directory", directory, "one without a run of another scene",
-                      "Choose another one, or replace that run: again=True.")
+                      "Choose another one, or replace that run: --replace, again=True.")
     if again and state == "resumable":
         state = "begun"
     how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])

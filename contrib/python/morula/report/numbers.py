@@ -88,6 +88,11 @@ def accuracy(run):
     return [(name, value) for name, value in found if value]
 
 
+def errors(run):
+    """The error bars that contrib/accuracy has kept."""
+    return [(name, row.text.partition(" = ")[2]) for name, row in run.errors.iterrows()]
+
+
 def condition(run):
     file = run.directory / "condition.csv"
     if not file.is_file():

@@ -22,24 +22,22 @@ class Ensemble:
 
     def __init__(self, point, label, records):
         self.point, self.label, self.records = point, label, records
-        self.tables = [record.run.statistics for record in records if record.finished]
+        self.runs = [record.run for record in records if record.finished]
 
-    def end(self, column):
-        """Summary of the last values of a column; of none where the scene has
-        it not, as that of a surface."""
-        return summary([table[column].iloc[-1] for table in self.tables if column in table])
+    def end(self, measure):
+        """Summary of the last values; of none where the scene has no such column, as that of a
+        surface."""
+        return summary([measure.evaluate(run) for run in self.runs if measure.is_in(run)])
 
-    def course(self, column):
-        """Times (days), mean and standard deviation of a column over the runs, up to the end of
-        the shortest. Times at which only some runs have a row, because a step of theirs was
-        halved, are interpolated linearly in the others. Empty where no run has the column."""
-        tables = [table for table in self.tables if column in table]
-        if not tables:
+    def course(self, measure):
+        """Times (days), mean and standard deviation over the runs, up to the end of the shortest.
+        Times at which only some runs have a row, because a step of theirs was halved, are
+        interpolated linearly in the others. Empty where no run has the column."""
+        runs = [measure.course(run) for run in self.runs if measure.is_in(run)]
+        if not runs:
             return (numpy.array([]),) * 3
-        end = min(table["time"].iloc[-1] for table in tables)
-        times = numpy.unique(numpy.concatenate([table["time"] for table in tables]))
-        times = times[times <= end]
-        values = numpy.array([numpy.interp(times, table["time"], table[column])
-                              for table in tables])
+        times = numpy.unique(numpy.concatenate([days for days, _ in runs]))
+        times = times[times <= min(days[-1] for days, _ in runs)]
+        values = numpy.array([numpy.interp(times, *run) for run in runs])
         deviation = (values.std(axis=0, ddof=1) if len(values) > 1 else numpy.zeros(len(times)))
         return times, values.mean(axis=0), deviation

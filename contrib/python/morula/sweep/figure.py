@@ -6,14 +6,12 @@ from morula.columns import pretty
 from morula.files import replaced
 from morula.style import COLOURS, RC, colour, plt
 
-from .report import unit
-
 MAX_NAMES = 24  # of combinations beside the panels
 
 
 def draw(request, ensembles, file):
     """Ensembles without any finished run are left out."""
-    shown = [ensemble for ensemble in ensembles if ensemble.tables]
+    shown = [ensemble for ensemble in ensembles if ensemble.runs]
     n = len(request.columns)
     rows = -(-n // 2) if n > 3 else 1
     columns = -(-n // rows)
@@ -22,8 +20,8 @@ def draw(request, ensembles, file):
                                       figsize=(4.2 * columns + 2.4, 3.6 * rows))
         for axes in panels.flat[n:]:
             axes.remove()
-        for axes, column in zip(panels.flat, request.columns):
-            _panel(request, axes, shown, column)
+        for axes, measure in zip(panels.flat, request.columns):
+            _panel(axes, shown, measure)
         _legend(panels[0, -1], shown)
         figure.suptitle(f"{request.scene.name}: mean, and standard deviation "
                         "over the seeds", fontsize=10)
@@ -32,17 +30,16 @@ def draw(request, ensembles, file):
         plt.close(figure)
 
 
-def _panel(request, axes, shown, column):
+def _panel(axes, shown, measure):
     for number, ensemble in enumerate(shown):
-        times, mean, deviation = ensemble.course(column)
+        times, mean, deviation = ensemble.course(measure)
         ink = (colour(number) if len(shown) <= len(COLOURS) else
                plt.get_cmap("viridis")(0.95 * number / (len(shown) - 1)))
         axes.plot(times, mean, color=ink, linewidth=1.4, label=ensemble.label)
         axes.fill_between(times, mean - deviation, mean + deviation,
                           color=ink, alpha=0.18, linewidth=0)
-    name = column.replace("_", " ")
-    found = unit(request, column)
-    axes.set(xlabel="time, day", ylabel=f"{name}, {pretty(found)}" if found else name)
+    name, unit = measure.text.replace("_", " "), pretty(measure.unit)
+    axes.set(xlabel="time, day", ylabel=f"{name}, {unit}" if unit else name)
 
 
 def _legend(axes, shown):

@@ -4,7 +4,6 @@
 import math
 import shlex
 
-from morula.columns import unit_in
 from morula.files import write, write_csv
 from morula.tables import markdown as table_of
 
@@ -15,41 +14,32 @@ def write_tables(request, ensembles, directory):
     write_csv(directory / "table.csv", [[*keys, "column", "unit", "runs", "failed", "mean",
                                          "standard_deviation", "standard_error", "smallest",
                                          "largest"], *_rows_of_ends(request, ensembles)])
-    write_csv(directory / "runs.csv", [[*keys, "seed", "directory", "exit", *request.all_columns],
+    write_csv(directory / "runs.csv", [[*keys, "seed", "directory", "exit", *request.told],
                                        *_rows_of_runs(request, ensembles)])
     write(directory / "table.md", markdown(request, ensembles))
 
 
 def _rows_of_ends(request, ensembles):
     for ensemble in ensembles:
-        for column in request.all_columns:
-            n, *numbers = ensemble.end(column)
-            yield [*ensemble.point, column, unit(request, column), n, len(ensemble.records)
-                   - len(ensemble.tables), *(format(number, ".10g") for number in numbers)]
+        for measure in request.told.values():
+            n, *numbers = ensemble.end(measure)
+            yield [*ensemble.point, measure.text, measure.unit, n, len(ensemble.records)
+                   - len(ensemble.runs), *(format(number, ".10g") for number in numbers)]
 
 
 def _rows_of_runs(request, ensembles):
-    """The last row of statistics.csv of every run, nan if it failed."""
+    """The last values of every run, nan if it failed."""
     for ensemble in ensembles:
         for seed, record in zip(seeds(request), ensemble.records):
-            table = record.run.statistics if record.finished else {}
+            run = record.run if record.finished else None
             yield [*ensemble.point, seed, record.output.relative_to(request.output),
-                   record.repeats[-1]["exit"], *(format(table[column].iloc[-1] if column in table
-                                                        else math.nan, ".10g") for column
-                                                 in request.all_columns)]
+                   record.repeats[-1]["exit"],
+                   *(format(measure.evaluate(run) if run and measure.is_in(run) else math.nan,
+                            ".10g") for measure in request.told.values())]
 
 
 def seeds(request):
     return request.seeds or [request.scene["Random seed"]]
-
-
-def unit(request, column):
-    """Empty for numbers, and for scenes of which some are two-dimensional."""
-    known = {"time": "day", "dt": "day", "wall_seconds": "s", **request.results}
-    dimensions = request.plan.values("Dimension")
-    if len(dimensions) > 1:
-        return ""
-    return unit_in(known.get(column, ""), int(*dimensions))
 
 
 def markdown(request, ensembles):
@@ -59,21 +49,21 @@ def markdown(request, ensembles):
                 f"{request.scene.program.version}; {len(ensembles)} "
                 f"combinations, seeds {', '.join(map(str, seeds(request)))}: "
                 f"{n_runs} runs. Values at the end of each run."]
-    for column in request.columns:
-        sections += [f"## {', '.join(filter(None, (column, unit(request, column))))}",
-                     _table(request, ensembles, column)]
+    for measure in request.columns:
+        sections += [f"## {', '.join(filter(None, (measure.text, measure.unit)))}",
+                     _table(request, ensembles, measure)]
     failures = list(failed_runs(request, ensembles))
     if failures:
         sections += ["## Failed", "\n".join(f"- {line}" for line in failures)]
     return "\n\n".join(sections) + "\n"
 
 
-def _table(request, ensembles, column):
+def _table(request, ensembles, measure):
     head = [*(request.plan.keys or ["scene"]), "runs", "mean",
             "standard deviation", "standard error"]
     lines = []
     for ensemble in ensembles:
-        end = ensemble.end(column)
+        end = ensemble.end(measure)
         runs = (f"{end.n}" if end.n == len(ensemble.records)
                 else f"{end.n} of {len(ensemble.records)}")
         lines.append([*(ensemble.point or [request.scene.name]), runs,

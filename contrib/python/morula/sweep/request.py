@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What is asked for, checked before anything is computed."""
-import difflib
-
 from morula import columns
 from morula.command_line import output_directory, ranks_and_jobs
 from morula.kept_runs import Job, job_name, with_snapshots
 from morula.ladder import (Plan, SamplesPlan, check_method, check_seeds,
                            read_ladder, read_samples, read_seeds, refuse_keys)
+from morula.measures import Measure, read_measure
 from morula.places import OUTPUT
 from morula.program import Program
 from morula.refusal import Refused
@@ -30,25 +29,34 @@ class Request:
         self.seeds = read_seeds(options.seeds)
         self.plan = (SamplesPlan(self.scene, *self._samples()) if options.samples
                      else Plan(self.scene, self._ladders(), full_grid=True))
-        self.results = self._results()
-        self.columns = read_columns(options.columns, self.all_columns[1:])
+        self.told = self._told()
+        self.columns = self._columns(options.columns)
         check_method(self.plan)
         check_seeds(self.plan, self.seeds, options.seeds)
         self.output = output_directory(options, OUTPUT / "sweep" / self.scene.name)
 
-    @property
-    def all_columns(self):
-        """Columns of statistics.csv whose values at the end are told."""
-        return ("time", *self.results,
-                *(name for name in columns.EFFORT
-                  if name not in ("time", "step")))
-
-    def _results(self):
-        """Those that are results in all runs, with their units."""
+    def _told(self):
+        """The columns of statistics.csv whose values at the end are told, by name: the results
+        that all runs have, and what they took. Scenes of both dimensions have no units."""
         found = [columns.statistics_of({**self.scene.keys, **dict(zip(self.plan.keys, point))})
                  for point in self.plan.points]
-        return {name: unit for name, unit in found[0].items()
-                if all(name in other for other in found)}
+        units = {"time": "day", **{name: unit for name, unit in found[0].items()
+                                   if all(name in other for other in found)},
+                 **dict.fromkeys(columns.EFFORT[2:], ""), "dt": "day", "wall_seconds": "s"}
+        dimensions = self.plan.values("Dimension")
+        return {name: Measure(name, "statistics", name, "mean", columns.unit_in(
+            unit, int(*dimensions)) if len(dimensions) == 1 else "")
+                for name, unit in units.items()}
+
+    def _columns(self, text):
+        """--columns: measures; those of the cells' and the surface's files are told, too."""
+        names = [name.strip() for name in text.split(",")]
+        if len(set(names)) < len(names):
+            raise Refused("--columns", text, "each column once")
+        for name in names:
+            if name not in self.told or name == "time":
+                self.told[name] = read_measure(name, self.scene.keys, "--columns")
+        return [self.told[name] for name in names]
 
     def _samples(self):
         if self.options.vary:
@@ -77,16 +85,3 @@ class Request:
         overrides = (*self.scene.overrides, *special,
                      *with_snapshots({**self.scene.keys, **dict(special)}))
         return Job(job_name(special, overrides), overrides, ("cells", "surface", "snapshot"))
-
-
-def read_columns(text, known):
-    """--columns."""
-    names = [name.strip() for name in text.split(",")]
-    for name in names:
-        if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            raise Refused("--columns", name, "a column of statistics.csv: " + ", ".join(known),
-                          f"Did you mean '{near[0]}'?" if near else "")
-    if len(set(names)) < len(names):
-        raise Refused("--columns", text, "each column once")
-    return names

@@ -7,7 +7,6 @@ import math
 import os
 import shutil
 import statistics
-from pathlib import Path
 
 import matplotlib.image
 import pytest
@@ -15,6 +14,7 @@ from morula import columns
 from morula.execute import overrides
 from morula.report import numbers
 from morula.run import Run
+from scipy.special import iv
 from tests.common.program import SCENES, TESTS
 
 from tests.verification.radial import GrowingBall, Layer
@@ -86,16 +86,19 @@ def assert_drawn(runs, name, least=0.03):
     newest(runs, name).unlink()
 
 
-def exact_radius():
+GRADED = Layer(0, 250, lambda R: 1 + 0.4 * R**2 / 250**2, lambda R: 0.8 * R / 250**2)
+
+
+def exact_radius(*layers):
     constants = (0.4 / 1.4 / 0.2, 0.5 / 1.4)  # E = 1 kPa, nu = 0.4
-    ball = GrowingBall([Layer(0, 250, lambda R: 1 + 0.4 * R**2 / 250**2,
-                              lambda R: 0.8 * R / 250**2)], constants, 2, False)
+    ball = GrowingBall(layers or [GRADED], constants, 2, False)
     return float(250 * ball.stretches([250.0])[1][0])
 
 
-# A ball whose cells use up oxygen in proportion to what there is, with
-# phi = R sqrt(k/D) = 2: its mean is 3 (phi coth phi - 1)/phi^2 of that outside.
+# A disc whose cells use up oxygen in proportion to what there is, with
+# phi = R sqrt(k/D) = 2: its mean is 2 I1(phi)/(phi I0(phi)) of that outside.
 OXYGEN = """
+set Dimension = 2
 subsection Time
   set End time = 0.1
   set Step = 0.1
@@ -118,22 +121,21 @@ subsection Fields
   end
 end
 """
-KNOWN = {  # scene, keys, measure, exact value
-    "graded disc": (GRADED_DISC, {}, "total_volume", lambda: math.pi * exact_radius()**2),
-    "oxygen in a ball": (OXYGEN, {}, "oxygen_mean", lambda: 120 * (2 / math.tanh(2) - 1)),
-    "core and shell": (SCENES.parents[1] / "prm/verification/core-shell-sphere.prm",
-                       {"Grid/Spacing": 60, "Tissue/Cell spacing": 12},
-                       "surface:mean(radius)", lambda: 263.0402)}
+KNOWN = {  # scene, measure, exact value
+    "graded": (GRADED_DISC, "total_volume", lambda: math.pi * exact_radius()**2),
+    "oxygen": (OXYGEN, "oxygen_mean", lambda: 160 * iv(1, 2) / iv(0, 2)),
+    "core": (GRADED_DISC.replace("(X^2+Y^2)/250^2", "(X^2+Y^2 < 125^2)"), "surface:mean(radius)",
+             lambda: exact_radius(Layer(0, 125, lambda R: 1.4 + 0 * R, lambda R: 0.0),
+                                  Layer(125, 250, lambda R: 1 + 0 * R, lambda R: 0.0)))}
 
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_error_bar_of_a_known_answer(runs, accuracy, name):
     """The true error is below the bar, and above a sixth of it."""
-    text, keys, measure, exact = KNOWN[name]
-    scene = text if isinstance(text, Path) else runs.write("known.prm", text)
-    directory = runs.work / f"known-{name.split()[0]}"
-    said = accuracy(scene, "--measure", measure, *overrides({
-        **keys, "Output directory": directory}))
+    text, measure, exact = KNOWN[name]
+    directory = runs.work / f"own-{name}"
+    said = accuracy(runs.write(f"{name}.prm", text), "--measure", measure, "-s",
+                    f"Output directory={directory}")
     assert f"{measure} = " in said and "half of it would cost" in said
     row = Run(directory).errors.loc[measure]
     assert row.error / 6 < abs(row.value - exact()) < row.error

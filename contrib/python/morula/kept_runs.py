@@ -56,11 +56,11 @@ class KeptRuns:
     from their last snapshot with `resume`, and begin anew without: then their
     wall times are those of one execution."""
 
-    def __init__(self, scene, directory, ranks=1, n_at_a_time=1, repeats=1,
-                 again=False, resume=False, say=print, servers=None, name="morula"):
+    def __init__(self, scene, directory, ranks=1, n_at_a_time=1, again=False,
+                 resume=False, say=print, servers=None, name="morula"):
         self.scene, self.directory = scene, Path(directory)
         self.ranks, self.n_at_a_time = ranks, n_at_a_time
-        self.repeats, self.again, self.resume = repeats, again, resume
+        self.again, self.resume = again, resume
         self.say, self.name = say, name
         self.digest = scene.program.digest
         self._processes, self._lock = Processes(), None
@@ -71,7 +71,7 @@ class KeptRuns:
         """Whether nothing is left to do for a job."""
         record = Record(self.directory / job.name)
         return (not self.again and record.load(self._identity(job))
-                and bool(record.repeats) and not record.killed)
+                and record.cost is not None and not record.killed)
 
     def check(self, jobs, skip=False):
         """Has the program judge the jobs that are not done. Throws Refused with its message, or
@@ -146,18 +146,15 @@ class KeptRuns:
     def _one(self, job, counter):
         record = Record(self.directory / job.name)
         resumed = self._prepare(job, record)
-        done = len(record.repeats)
-        if record.finished and done >= self.repeats or record.failed:
+        if record.finished or record.failed:
             self.say(f"{counter} {job.name}: {record.summary()}, from before")
             return record
-        while not self._processes.stopped and len(record.repeats) < self.repeats:
+        while not self._processes.stopped and record.cost is None:
             self.say(f"{counter} {job.name} "
                      + ("goes on from its snapshot ..." if resumed else "..."))
             self._execute(job, record, resumed)
             if resumed and record.refused:
                 record.begin(record.identity, job.overrides)
-            elif record.failed:
-                break
             resumed = False
         self.say(f"{counter} {job.name}: {record.summary()}")
         return record
@@ -170,7 +167,7 @@ class KeptRuns:
         if known and self.resume and record.resumable:
             record.resume()
             return True
-        if not known or record.killed or not record.repeats:
+        if not known or record.killed or record.cost is None:
             record.begin(identity, job.overrides)
         return False
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The figure of a day: a row for each measure; error against wall time, the
+"""The figure: a row for each measure; error against wall time, the
 change along each ladder alone, the results against where the grid lies."""
 from morula.columns import pretty
 from morula.scene import as_number
@@ -12,20 +12,16 @@ DASHED, DOTTED = (0, (5, 3)), (0, (1, 1.5))
 
 
 def draw(findings, directory):
-    """accuracy.png, or accuracy-day-T.png for each of several days."""
-    times = findings.request.times
+    """Writes accuracy.png."""
     with plt.rc_context(RC):
-        for time in times:
-            name = f"accuracy-day-{time:g}" if len(times) > 1 else "accuracy"
-            figure = figure_of(findings, time)
-            figure.savefig(directory / f"{name}.png")
-            plt.close(figure)
+        figure = figure_of(findings)
+        figure.savefig(directory / "accuracy.png")
+        plt.close(figure)
 
 
-def figure_of(findings, time):
-    request, plan = findings.request, findings.plan
-    estimates = {e.measure: e for e in findings.estimates if e.time == time}
-    scatters = [s for s in findings.scatters if s.time == time]
+def figure_of(findings):
+    request, plan, scatters = findings.request, findings.plan, findings.scatters
+    estimates = {e.measure: e for e in findings.estimates}
     ladders = plan.ladders if any(e.parts for e in estimates.values()) else []
     directions = "xyz"[:request.scene.dimension] if scatters else ""
     widths = [4.2] * bool(estimates) + [1.9] * len(ladders) + [2.2] * len(directions)
@@ -46,17 +42,17 @@ def figure_of(findings, time):
     handles = {label: handle for axes in panels.flat
                for handle, label in zip(*axes.get_legend_handles_labels())}
     figure.legend(handles.values(), handles, loc="lower center", ncols=3)
-    figure.suptitle(f"{request.scene.name} at day {time:g}; dashed: wanted error, "
-                    "limit of a ladder; dotted: reference file", fontsize=9)
+    figure.suptitle(f"{request.scene.name} at day {request.end:g}; dashed: limit of "
+                    "a ladder; dotted: reference file", fontsize=9)
     space = (0.3 + 0.08 * len(handles)) / figure.get_figheight()
     figure.tight_layout(rect=(0, space, 1, 1))
     return figure
 
 
 def cost_panel(axes, findings, found):
-    """Errors against wall time: each ladder, the Pareto front, what is wanted."""
-    plan, walls, wanted = findings.plan, findings.walls(found), findings.wanted(found)
-    shown = [abs(error) for error in found.errors.values()] + [wanted or 0]
+    """Errors against wall time: each ladder, the Pareto front."""
+    plan, walls = findings.plan, findings.walls(found)
+    shown = [abs(error) for error in found.errors.values()]
     largest = max(*shown, found.floor) or 1.0
     low = 0.4 * max(min(filter(None, shown), default=largest), 1e-5 * largest)
     limits = low, 2.2 * largest
@@ -80,13 +76,9 @@ def cost_panel(axes, findings, found):
         for point in (p for p in points if p != found.center):
             axes.annotate(plan.rung_label(ladder, point), (walls[point], heights[point]), (4, 3),
                           fontsize=6, textcoords="offset points", color=colour(number))
-    if wanted:
-        axes.axhline(wanted, color="black", linestyle=DASHED, linewidth=0.9)
-    for point, mark, label in ((found.center, "o", "the run that all ladders share"),
-                               (findings.cheapest(found), "*", "fastest that is surely as good")):
-        if point in walls:
-            axes.plot(walls[point], heights[point], mark, markersize=11, zorder=5,
-                      markerfacecolor="none", color="black", label=label)
+    if found.center in walls:
+        axes.plot(walls[found.center], heights[found.center], "o", markersize=11, zorder=5,
+                  markerfacecolor="none", color="black", label="the run that all ladders share")
 
 
 def style(number):

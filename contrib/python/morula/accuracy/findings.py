@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""All estimates with what the runs cost: verdicts and warnings."""
+"""All estimates with what the runs cost, and warnings."""
 import functools
 from collections import namedtuple
 from dataclasses import dataclass
 
 import numpy
 from morula.error_in_time import error_in_time
-from morula.run import row_at
 
 from .estimate import estimate
 
@@ -20,10 +19,9 @@ Cost = namedtuple("Cost", "wall unknowns memory in_time")
 
 @dataclass(frozen=True)
 class Scatter:
-    """A measure at a time over the samples at which a point has finished."""
+    """A measure over the samples at which a point has finished."""
 
     measure: object
-    time: float
     point: tuple
     samples: list
     values: numpy.ndarray  # one of a sample
@@ -46,29 +44,26 @@ class Findings:
     def __init__(self, request, records):
         self.request, self.plan, self.records = request, request.plan, records
         self.estimates, self.scatters = [], []
-        for time in request.times:
-            for measure in request.measures:
-                scatters = [self._scatter(measure, time, point) for point in self.plan.points]
-                if request.n_offsets:
-                    self.scatters += [s for s in scatters if len(s.values)]
-                values = {s.point: s.values for s in scatters if not s.n_failed}
-                if self.plan.ladders and (
-                        self.plan.own in values or values and request.reference):
-                    self.estimates.append(estimate(self.plan, measure, time, values,
-                                                   request.reference))
+        for measure in request.measures:
+            scatters = [self._scatter(measure, point) for point in self.plan.points]
+            if request.n_offsets:
+                self.scatters += [s for s in scatters if len(s.values)]
+            values = {s.point: s.values for s in scatters if not s.n_failed}
+            if self.plan.ladders and (self.plan.own in values or values and request.reference):
+                self.estimates.append(estimate(self.plan, measure, request.end, values,
+                                               request.reference))
 
-    def _scatter(self, measure, time, point):
+    def _scatter(self, measure, point):
         finished = {sample: self.records[point, sample] for sample in self.request.samples
                     if self.records[point, sample].finished}
-        values = [measure.evaluate(record.run, time)
-                  for record in finished.values()]
+        values = [measure.evaluate(record.run) for record in finished.values()]
         reference = self.request.reference
-        return Scatter(measure, time, point, list(finished), numpy.array(values),
+        return Scatter(measure, point, list(finished), numpy.array(values),
                        len(self.request.samples) - len(finished),
-                       reference.value(measure, time)[0] if reference else None)
+                       reference.value(measure, self.request.end)[0] if reference else None)
 
     @functools.cache
-    def cost(self, point, time):
+    def cost(self, point):
         """The Cost of a point; None if a run of it has failed."""
         records = [self.records[point, sample] for sample in self.request.samples]
         if not all(record.finished for record in records):
@@ -76,43 +71,16 @@ class Findings:
         costs = []
         for record in records:
             statistics = record.run.statistics
-            row = row_at(statistics, time)
-            costs.append([record.row_seconds(row), statistics["unknowns"][:row + 1].max(),
-                          record.peak_bytes / 1e6, error_in_time(statistics, row)])
+            costs.append([record.computing_seconds, statistics["unknowns"].max(),
+                          record.peak_bytes / 1e6, error_in_time(statistics)])
         return Cost(*numpy.mean(numpy.array(costs, dtype=float), axis=0))
 
     def walls(self, found):
         """Wall time of the points of an Estimate, s."""
-        return {point: self.cost(point, found.time).wall for point in found.values}
+        return {point: self.cost(point).wall for point in found.values}
 
     def front(self, found):
         return found.front(self.walls(found))
-
-    def wanted(self, found):
-        """The wanted error in the measure's unit, or None."""
-        wanted = self.request.wanted.get(found.measure)
-        return wanted.absolute(found.right) if wanted else None
-
-    def cheapest(self, found):
-        """The cheapest point that surely has the wanted error, or None."""
-        wanted = self.wanted(found)
-        return None if wanted is None else found.cheapest(self.walls(found), wanted)
-
-    def verdicts(self):
-        """The answers to --wanted, a sentence each."""
-        for found in self.estimates:
-            wanted = self.request.wanted.get(found.measure)
-            if not wanted:
-                continue
-            name, best = f"{found.measure.text} to {wanted.text}", self.cheapest(found)
-            if best is not None:
-                yield (f"{name}: {self.plan.label(best)}, {self.cost(best, found.time).wall:.3g} s")
-            elif found.uncertainty > self.wanted(found):
-                yield (f"{name}: cannot be judged, the right value ({found.source}) is "
-                       f"only known to {found.uncertainty:.2g} {found.measure.unit}")
-            else:
-                nearest = min(found.values, key=found.bound)
-                yield (f"{name}: no run is surely as good; nearest is {self.plan.label(nearest)}")
 
     def warnings(self):
         """What a reader must know before believing the tables."""
@@ -130,10 +98,9 @@ class Findings:
                    "known; --seeds 1..8 tells")
 
     def summary(self):
-        """Scatter, verdicts and warnings, line by line."""
+        """Scatter and warnings, line by line."""
         for s in self.scatters:
-            yield (f"{self.plan.label(s.point)}, day {s.time:g}: {s.measure.text} = "
+            yield (f"{self.plan.label(s.point)}: {s.measure.text} = "
                    f"{s.values.mean():.6g} (from {s.values.min():.6g} to {s.values.max():.6g}, "
                    f"standard deviation {s.deviation:.2g}) {s.measure.unit}".rstrip())
-        yield from self.verdicts()
         yield from (f"warning: {text}" for text in self.warnings())

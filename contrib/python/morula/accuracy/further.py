@@ -47,8 +47,8 @@ class Further:
             self._run(self._seeded(longer, N_SEEDS - 1), values)
         bars = [self._bar(measure, found, own) for measure, found in values.items()]
         keep(own, bars)
-        done = {record.directory: record for record in self.records.values() if record.repeats}
-        seconds = sum(record.repeats[-1]["process_seconds"] for record in done.values())
+        done = {record.directory: record for record in self.records.values() if record.cost}
+        seconds = sum(record.process_seconds for record in done.values())
         self.notes.append(f"{len(done)} further runs of {duration(seconds)} in all; "
                           f"errors are kept in {own.directory / ERRORS}")
         return bars
@@ -142,14 +142,15 @@ class Further:
                    {part: self._power(part, seconds_of(own)) for part in KEYS})
 
     def _power(self, part, seconds):
-        """The power of a size with which the wall time falls; on a busy machine it may seem to
-        rise."""
+        """The power of a size with which the wall time falls: from 1 to the dimension, as times
+        on a busy machine say little."""
         there = {r: record for (name, r), record in self.records.items()
                  if name == part and record.finished}
-        if not there:
+        if part == "step" or not there:
             return 1.0 if part == "step" else float(self.scene.dimension)
         ratio = max(there)
-        return max(1.0, math.log(seconds / seconds_of(there[ratio].run)) / math.log(ratio))
+        power = math.log(seconds / seconds_of(there[ratio].run)) / math.log(ratio)
+        return min(max(1.0, power), self.scene.dimension)
 
 
 def seconds_of(run):

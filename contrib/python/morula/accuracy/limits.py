@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy
 from morula.scene import as_number
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 # Which way a key becomes finer. 'zero': the error falls with a power of the
 # value. 'large': with a power of the number of points, taken as the spacing
@@ -18,10 +18,6 @@ KINDS = {"Grid/Spacing": "zero", "Tissue/Cell spacing": "zero", "Time/Step": "ze
 
 # Observed orders outside this range are no sign of convergence.
 LOWEST_ORDER, HIGHEST_ORDER = 0.5, 4.5
-
-# A power law describes values if its root mean square mismatch is at most this
-# part of their spread.
-LARGEST_MISMATCH = 0.05
 
 # Relative differences below this are rounding.
 ROUNDING = 1e-12
@@ -38,16 +34,13 @@ def size_of(value, kind, dimension):
 
 @dataclass
 class Limit:
-    """The limit as a combination of the values on the rungs, taken seed by seed; by
-    how much it may be wrong, and why, in the words of doc/accuracy-and-cost.md."""
+    """The limit of the means over the seeds; by how much it may be wrong, and why, in
+    the words of doc/accuracy-and-cost.md."""
 
-    weights: dict
+    value: float
     uncertainty: float
     note: str
     order: float = math.nan
-
-    def apply(self, values):
-        return sum(weight * values[i] for i, weight in self.weights.items())
 
 
 def limit_of(sizes, values, kind):
@@ -57,66 +50,28 @@ def limit_of(sizes, values, kind):
                    if size is not None and values[i] is not None)
     if len(rungs) < 2 or kind is None or len(dict(rungs)) < len(rungs):
         return None
-    fine = rungs[:3]
-    arrays = [values[i] for _, i in fine]
+    arrays = [values[i] for _, i in rungs[:3]]
     q = [float(array.mean()) for array in arrays]
     spread = max(q) - min(q)
     # The same seed draws the same numbers on every rung: differences seed by
     # seed are often much surer than the values themselves.
     noises = [mean_and_noise(array - arrays[0])[1] for array in arrays]
     noise = noises[1]
-
-    def finest(uncertainty, note):
-        return Limit({fine[0][1]: 1.0}, uncertainty, note)
-
     if kind == "tolerance":
-        return finest(abs(q[0] - q[1]) + noise, "")
+        return Limit(q[0], abs(q[0] - q[1]) + noise, "")
     if spread <= ROUNDING * max(map(abs, q)):
-        return finest(spread, "no difference")
+        return Limit(q[0], spread, "no difference")
     if spread <= max(noises):
-        return finest(max(spread, noise), "noise")
+        return Limit(q[0], max(spread, noise), "noise")
     if len(q) < 3:
-        return finest(spread + noise, "two values")
-    return (_richardson(fine, q, noise)
-            or _fit(rungs, numpy.array([values[i].mean() for _, i in rungs]), noise)
-            or finest(spread + noise, "not asymptotic"))
-
-
-def _richardson(fine, q, noise):
-    """Through the three finest values, or None if they show no order."""
-    (s1, first), (s2, second), (s3, _) = fine
-    order = observed_order((s1, s2, s3), q)
+        return Limit(q[0], spread + noise, "two values")
+    (fine, _), (next_one, _), (coarse, _) = rungs[:3]
+    order = observed_order((fine, next_one, coarse), q)
     if not LOWEST_ORDER <= order <= HIGHEST_ORDER:
-        return None
-    factor = s1**order / (s2**order - s1**order)
-    return Limit({first: 1 + factor, second: -factor},
-                 factor * (abs(q[0] - q[1]) + noise), f"order {order:.1f}", order)
-
-
-def _fit(rungs, q, noise):
-    """Q* + C s^p through all rungs by least squares, for values that scatter a
-    little; None where it does not describe them, or where rungs are too few."""
-    if len(rungs) < 4:
-        return None
-    sizes = numpy.array([size for size, _ in rungs]) / rungs[-1][0]
-
-    def solve(order):
-        """Rows of the pseudo-inverse, and the mean square mismatch."""
-        law = numpy.stack([numpy.ones_like(sizes), sizes**order], axis=1)
-        inverse = numpy.linalg.pinv(law)
-        return inverse, numpy.mean((law @ inverse @ q - q) ** 2)
-
-    order = minimize_scalar(lambda p: solve(p)[1], method="bounded",
-                            bounds=(LOWEST_ORDER, HIGHEST_ORDER)).x
-    inverse, mismatch = solve(order)
-    mismatch = math.sqrt(mismatch)
-    at_bound = min(order - LOWEST_ORDER, HIGHEST_ORDER - order) < 0.01
-    if at_bound or mismatch > LARGEST_MISMATCH * numpy.ptp(q):
-        return None
-    weights = {i: float(w) for (_, i), w in zip(rungs, inverse[0])}
-    limit = float(inverse[0] @ q)
-    return Limit(weights, abs(limit - q[0]) + 2 * mismatch + noise,
-                 f"fit of order {order:.1f}", float(order))
+        return Limit(q[0], spread + noise, "not asymptotic")
+    factor = fine**order / (next_one**order - fine**order)
+    return Limit(q[0] + factor * (q[0] - q[1]), factor * (abs(q[0] - q[1]) + noise),
+                 f"order {order:.1f}", order)
 
 
 def observed_order(sizes, values):

@@ -14,7 +14,7 @@ def parser():
         "coarser grids,\nlonger steps, other places of the grid and other seeds. With "
         "--vary, draws error\nagainst wall time, unknowns and memory.",
         epilog="""contrib/accuracy my.prm --measure zmax
-contrib/accuracy my.prm --measure zmax,total_volume --wanted 1% \\
+contrib/accuracy my.prm --measure zmax,total_volume \\
     --vary "Grid/Spacing=100,75,50" --vary "Time/Step=2,1,0.5"
 
 doc/accuracy-and-cost.md explains the results.""")
@@ -26,8 +26,6 @@ doc/accuracy-and-cost.md explains the results.""")
         "names it in the figures; may be repeated")
     add("--measure", required=True, metavar="LIST",
         help="columns of statistics.csv, or cells:reduction(column), surface:reduction(column)")
-    add("--at", metavar="DAYS", help="times of the comparison; default: the "
-        "scene's end. Runs end at the last of them")
     add("--seeds", metavar="1..8", help="means over these random seeds")
     add("--offsets", metavar="N", help="every run at N positions of the grid, "
         "spread through one grid cell: how far do results depend on where it "
@@ -37,9 +35,5 @@ doc/accuracy-and-cost.md explains the results.""")
     add("--reference-column", action="append", default=[],
         metavar="NEW=EXPRESSION", help="names or computes a column of the "
         "reference file, e.g. zmax=apex or time=10*(theta-1)")
-    add("--wanted", metavar="ERROR", help="1%%, 0.5um, zmax=0.5um,...: marks "
-        "the cheapest run that is as good")
-    add("--repeat", default="1", metavar="N", help="times that each run is "
-        "done; the shortest counts")
     add_run_options(add, "output/accuracy/SCENE")
     return result

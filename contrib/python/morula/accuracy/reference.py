@@ -36,14 +36,13 @@ class Reference:
         if f"{expression}_error" in self.table:
             self.table[f"{new}_error"] = self.table[f"{expression}_error"]
 
-    def check(self, measures, times):
+    def check(self, measures, time):
         """Refuses a file that does not know what is asked for."""
         for measure in measures:
             if measure.text not in self.table:
                 raise Refused(OPTION, self.file, f"a file with the column '{measure.text}'",
                               f"It has {', '.join(self.table)}; {COLUMN_OPTION} renames.")
-        for time in times:
-            self._row(time)
+        self._row(time)
 
     def value(self, measure, time):
         """The right value and by how much it may be wrong."""
@@ -59,5 +58,5 @@ class Reference:
             raise Refused(OPTION, self.file, f"one row for day {time:g}",
                           f"It has {len(self.table)} rows"
                           + (f", for the days {days}" if days else "")
-                          + "; --at chooses when the runs are compared.")
+                          + "; Time/End time says when the runs are compared.")
         return found.iloc[0]

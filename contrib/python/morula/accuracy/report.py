@@ -28,24 +28,19 @@ def markdown(findings):
     request = findings.request
     sections = [f"# Accuracy of {request.scene.name}",
                 f"    {shlex.join(['contrib/accuracy', *request.options.words])}", how(request)]
-    for time in request.times:
-        there = [s for s in findings.scatters if s.time == time]
-        estimates = [e for e in findings.estimates if e.time == time]
-        if there:
-            sections += [f"## Scatter at day {time:g}", scatter_table(findings, there)]
-        if estimates:
-            sections += [f"## Runs at day {time:g}", run_table(findings, estimates),
-                         f"## Each ladder alone at day {time:g}", ladder_table(findings, estimates)]
-    for title, lines in (("Least time for the wanted error", findings.verdicts()),
-                         ("Mind", findings.warnings())):
-        text = "\n".join(f"- {line}" for line in lines)
-        sections += [f"## {title}", text] if text else []
+    if findings.scatters:
+        sections += [f"## Scatter at day {request.end:g}", scatter_table(findings)]
+    if findings.estimates:
+        sections += [f"## Runs at day {request.end:g}", run_table(findings, findings.estimates),
+                     "## Each ladder alone", ladder_table(findings, findings.estimates)]
+    text = "\n".join(f"- {line}" for line in findings.warnings())
+    sections += ["## Warnings", text] if text else []
     return "\n\n".join(sections) + "\n"
 
 
 def how(request):
     return (f"{request.scene.program.version}; --ranks {request.ranks} --jobs "
-            f"{request.jobs} --repeat {request.repeats}"
+            f"{request.jobs}"
             + (f"; means over {len(request.samples)} runs that differ by "
                f"{request.sampled}" if request.sampled else "") + ".")
 
@@ -60,29 +55,26 @@ def run_table(findings, estimates):
             *(f"{e.measure.text}, error" for e in estimates)]
     rows = []
     for point in findings.plan.points:
-        cost = findings.cost(point, estimates[0].time)
+        cost = findings.cost(point)
         rows.append([findings.plan.label(point)] + (
             [f"{cost.wall:.3g}", f"{cost.unknowns:.0f}", f"{cost.memory:.0f}",
              f"{digits(100 * cost.in_time, False)} %",
              *(error_cell(findings, e, point) for e in estimates)]
             if cost else ["failed"] + ["–"] * (len(head) - 2)))
     rows.append(["**right value**", "", "", "", "",
-                 *(f"{e.source}: {e.right:.6g} ± {e.uncertainty:.1g} "
+                 *(f"{e.right:.6g} ± {e.uncertainty:.1g} "
                    f"{pretty(e.measure.unit)}" for e in estimates)])
     return table(head, rows) + (
-        "\n\n● no run is both faster and better; ★ the fastest for the wanted error; "
+        "\n\n● no run is both faster and better; "
         "in brackets: cannot be told from zero; ± two standard errors.")
 
 
 def error_cell(findings, estimate, point):
     error = estimate.errors[point]
     text = shown(estimate, error, estimate.noise[point])
-    if point == estimate.compared_with:
-        text = "not known"
-    elif abs(error) <= estimate.floor:
+    if abs(error) <= estimate.floor:
         text = f"({text})"
-    return (text + " ●" * (point in findings.front(estimate))
-            + " ★" * (point == findings.cheapest(estimate)))
+    return text + " ●" * (point in findings.front(estimate))
 
 
 def scale_of(found):
@@ -112,14 +104,14 @@ def digits(number, sign):
     return text.replace("e-0", "e-").replace("-", "−").replace("e−", "e-")
 
 
-def scatter_table(findings, there):
+def scatter_table(findings):
     """Mean, extremes and standard deviation of every measure; with a reference
     file also the errors, from the least to the largest."""
     head = ["run", "measure", "runs", "mean", "smallest", "largest", "standard deviation"]
     if findings.request.reference:
         head += ["error of the mean", "errors, from", "to"]
     rows = []
-    for s in there:
+    for s in findings.scatters:
         numbers = (s.values.mean(), s.values.min(), s.values.max())
         rows.append([
             findings.plan.label(s.point), s.measure.text, f"{len(s.values)}"
@@ -163,25 +155,24 @@ def part_cell(estimate, part):
 
 def rows_of_errors(findings):
     """A row for each run and quantity, with all digits."""
-    yield [*findings.plan.keys, "time", "measure", "unit", "value", "seed_scatter", "right_value",
-           "right_value_uncertainty", "error", "error_noise", "on_front", "least_time_for_wanted",
-           "wall_seconds", "unknowns", "memory_mb", "right_value_from"]
+    yield [*findings.plan.keys, "measure", "unit", "value", "seed_scatter", "right_value",
+           "right_value_uncertainty", "error", "error_noise", "on_front",
+           "wall_seconds", "unknowns", "memory_mb"]
     for e in findings.estimates:
-        front, best = findings.front(e), findings.cheapest(e)
+        front = findings.front(e)
         for point in e.values:
-            cost = findings.cost(point, e.time)
-            yield [*point, tens(e.time), e.measure.text, e.measure.unit, *map(tens, (
+            cost = findings.cost(point)
+            yield [*point, e.measure.text, e.measure.unit, *map(tens, (
                 e.values[point], e.scatter[point], e.right, e.uncertainty,
-                e.errors[point], e.noise[point], int(point in front),
-                int(point == best), *cost[:3])), e.source]
+                e.errors[point], e.noise[point], int(point in front), *cost[:3]))]
 
 
 def rows_of_scatter(findings):
     """A row for each point, time and measure, over its runs."""
-    yield [*findings.plan.keys, "time", "measure", "unit", "runs", "failed",
+    yield [*findings.plan.keys, "measure", "unit", "runs", "failed",
            "mean", "smallest", "largest", "standard_deviation", "right_value"]
     for s in findings.scatters:
-        yield [*s.point, tens(s.time), s.measure.text, s.measure.unit, len(s.values), s.n_failed,
+        yield [*s.point, s.measure.text, s.measure.unit, len(s.values), s.n_failed,
                *map(tens, (s.values.mean(), s.values.min(), s.values.max(), s.deviation, s.right))]
 
 
@@ -189,11 +180,11 @@ def rows_of_runs(findings):
     """A row for every run, time and measure."""
     axes = "xyz"[:findings.request.scene.dimension]
     yield [*findings.plan.keys, "seed", *(f"moved_{a}" for a in axes),
-           "time", "measure", "unit", "value", "right_value"]
+           "measure", "unit", "value", "right_value"]
     for s in findings.scatters:
         for sample, value in zip(s.samples, s.values):
             yield [*s.point, "" if sample.seed is None else sample.seed,
-                   *map(tens, (*sample.moved, s.time)), s.measure.text,
+                   *map(tens, sample.moved), s.measure.text,
                    s.measure.unit, *map(tens, (value, s.right))]
 
 

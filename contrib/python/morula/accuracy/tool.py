@@ -30,7 +30,7 @@ def measure(request):
     if not request.asked:
         return error_bar(request)
     kept = KeptRuns(request.scene, request.output / "runs", request.ranks, request.jobs,
-                    request.repeats, options.again, say=say, name="accuracy")
+                    options.again, say=say, name="accuracy")
     jobs = {(point, sample): job_of(request, point, sample)
             for point in request.plan.points for sample in request.samples}
     kept.check([jobs[point, request.samples[0]] for point in request.plan.points])

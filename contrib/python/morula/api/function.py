@@ -143,14 +143,11 @@ def _measured(what, scene):
     """A function of a run, from one or from names of measures."""
     if callable(what):
         return what
-    names = [what] if isinstance(what, str) else what
     keys = scene.program.complete(scene._written(), list(scene._known.values()))
-    measures = [read_measure(name, keys, "The measure") for name in names]
-
-    def values(run):
-        found = [measure.evaluate(run) for measure in measures]
-        return found[0] if isinstance(what, str) else np.array(found)
-    return values
+    if isinstance(what, str):
+        return read_measure(what, keys, "The measure").evaluate
+    measures = [read_measure(name, keys, "The measure") for name in what]
+    return lambda run: np.array([measure.evaluate(run) for measure in measures])
 
 
 def _close(servers: list[Server]) -> None:
@@ -173,7 +170,7 @@ def map(scene: Scene, samples: "pandas.DataFrame | Iterable[Mapping]",
     column `measure`; names of measures give columns of these names. Rows whose run fails have nan. Runs are kept as those of Function are."""
     import pandas
     table = pandas.DataFrame(samples).reset_index(drop=True)
-    texts = None if callable(measure) else [measure] if isinstance(measure, str) else measure
+    texts = [] if callable(measure) else [measure] if isinstance(measure, str) else measure
     of_run = _measured(texts or measure, scene)
     names: list[str] = []
 

@@ -33,7 +33,7 @@ def _rows_of_runs(request, ensembles):
         for seed, record in zip(seeds(request), ensemble.records):
             run = record.run if record.finished else None
             yield [*ensemble.point, seed, record.output.relative_to(request.output),
-                   record.repeats[-1]["exit"],
+                   record.exit,
                    *(format(measure.evaluate(run) if run and measure.is_in(run) else math.nan,
                             ".10g") for measure in request.told.values())]
 

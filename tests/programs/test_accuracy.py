@@ -325,7 +325,6 @@ NONSENSE = [
     ("integer >= 1", [*GOOD, "--jobs", "0"]),
     ("cores", [*GOOD, "--jobs", "4096"]),
     ("can be read", [*GOOD, "--reference", "nowhere.csv"]),
-    ("--reference only", [*GOOD, "--reference-column", "xmax=r"]),
     ("between the key", [*GOOD, "-s", "Grid/Spacing"]),
     ("sphere", [*GOOD, "-s", "Tissue/Shape=cube"]),
     ("executable", [*GOOD, "--morula", "nowhere/morula"]),
@@ -343,10 +342,6 @@ BAD_REFERENCES = [
     ("2 rows", "xmax,total_volume\n1,2\n3,4\n", []),
     ("days 0.5", "time,xmax,total_volume\n0.5,1,2\n", []),
     ("errors >= 0", "xmax,xmax_error,total_volume\n1,-1,2\n", []),
-    *((said, "r,total_volume\n1,2\n", ["--reference-column", f"xmax={text}"])
-      for said, text in (("the columns are r, total_volume", "2*(r+"),
-                         ("Not so", "open('r')"), ("NEW=EXPRESSION", ""),
-                         ("finite", "r/(total_volume-2)"), ("finite", "(-r)^0.5"))),
 ]
 
 
@@ -371,13 +366,10 @@ def test_bad_references(asked, runs, said, text, words):
 
 
 def test_references(asked, runs):
-    """A column that is only renamed keeps its error; one that is computed has none."""
-    file = runs.write("reference.csv", "# days\ntheta,apex,apex_error\n"
-                      "1.05,310,0.5\n1.1,320,0.25\n")
-    reference = asked(DISC, *SPACING, "--measure", "xmax,ymax", "--reference", file,
-                      *(word for text in ("time=10*(theta-1)", "xmax=apex",
-                                          "ymax=2*apex")
-                        for word in ("--reference-column", text))).reference
+    """A column that has no error is exact."""
+    file = runs.write("reference.csv", "# days\ntime,xmax,xmax_error,ymax\n"
+                      "0.5,310,0.5,620\n1,320,0.25,640\n")
+    reference = asked(DISC, *SPACING, "--measure", "xmax,ymax", "--reference", file).reference
     xmax, ymax = (read_measure(word, SPACE) for word in ("xmax", "ymax"))
     assert reference.value(xmax, 1.0) == (320.0, 0.25)
     assert reference.value(ymax, 0.5) == (620.0, 0.0)

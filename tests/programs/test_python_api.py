@@ -161,6 +161,12 @@ def test_function(runs, scene, tmp_path):
                     directory=tmp_path)
     assert list(both(1)) == [125, direct[0]]
     assert all(math.isnan(value) for value in both(-1))
+    named = Function(scene, [RATE], ["cells", "cells:max(generation)"], directory=tmp_path)
+    assert list(named(2)) == [direct[0], f.run(2, 35).cells()["generation"].max()]
+    assert Function(scene, [RATE], "zmax", directory=tmp_path)(2) == (
+        f.run(2, 35).statistics["zmax"].iloc[-1])
+    with pytest.raises(Refused, match="Shape/Numbers = true"):
+        Function(scene, [RATE], "roundness")
 
 
 START = """
@@ -232,6 +238,8 @@ def test_map(runs, tmp_path):
                 directory=tmp_path, progress=False)
     assert list(found) == [*samples, "cells"]
     assert math.isnan(found["cells"][2]) and found["cells"][1] > found["cells"][0]
+    named = map(scene, samples[:2], ["cells", "xmax"], directory=tmp_path, progress=False)
+    assert list(named["cells"]) == list(found["cells"][:2]) and (named["xmax"] > 25).all()
 
 
 @pytest.mark.release

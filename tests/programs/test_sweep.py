@@ -14,6 +14,7 @@ import time
 from pathlib import Path
 
 import matplotlib.image
+import numpy
 import pytest
 from morula.execute import cores, overrides
 from morula.refusal import Refused
@@ -74,7 +75,7 @@ def test_summary():
 def test_combinations(found, sweep):
     """Four of them with two seeds, and nothing is run twice."""
     command = [DISC, *VARY, "--seeds", "1-2", "--jobs", min(2, cores()),
-               "--columns", "cells,xmax"]
+               "--columns", "cells,xmax,surface:std(radius)"]
     assert "from before" not in sweep(*command)
     rows = rows_of(found / "runs.csv")
     assert len({(row[RATE], row["Grid/Spacing"], row["seed"]) for row in rows}) == 8
@@ -85,6 +86,8 @@ def test_combinations(found, sweep):
             assert run.keys[key] == value
         for column in ("time", "cells", "xmax", "unknowns"):
             assert float(row[column]) == run.statistics[column].iloc[-1]
+        radius = numpy.linalg.norm(run.surface(-1)[["x", "y"]], axis=1)
+        assert float(row["surface:std(radius)"]) == pytest.approx(radius.std(), 1e-6)
     table = rows_of(found / "table.csv")
     assert len(table) == 4 * len({row["column"] for row in table})
     for row in table:
@@ -103,7 +106,7 @@ def test_combinations(found, sweep):
              if row["column"] == "cells"}
     assert cells["2"] > cells["1"] + 20
     text = (found / "table.md").read_text(encoding="utf-8")
-    assert "## xmax, um" in text and text.count("\n| 1 | ") == 4
+    assert "## xmax, um" in text and text.count("\n| 1 | ") == 6
     picture = matplotlib.image.imread(found / "sweep.png")
     assert picture.shape[1] > 800 and picture[:, :, :3].std() > 0.03
     assert sweep(*command).count("from before") == 8

@@ -4,11 +4,10 @@
 import numpy as np
 
 
-def error_in_time(statistics, last=None):
-    """The estimate until row number `last`, or the end: relative, as a volume
-    or a strain. None if nothing in the run follows the state."""
+def error_in_time(statistics):
+    """The estimate at the end: relative, as a volume or a strain. None if nothing in the run
+    follows the state."""
     names = (statistics.dtype.names if isinstance(statistics, np.ndarray) else statistics.columns)
     if "step_error" not in names:
         return None
-    errors = np.atleast_1d(np.asarray(statistics["step_error"], dtype=float))
-    return float(errors[-1 if last is None else last])
+    return float(np.atleast_1d(np.asarray(statistics["step_error"], dtype=float))[-1])

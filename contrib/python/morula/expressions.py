@@ -7,9 +7,13 @@ import numpy as np
 from .refusal import Refused
 
 
-def values_of(text, table, option):
-    """The values of an expression of a data frame's columns: pandas'
-    DataFrame.eval. && and || and ^ are those of a scene's expressions, too."""
+def rows_where(text, columns, option):
+    """A mask of the rows for which a condition holds, from their columns by name:
+    pandas' DataFrame.eval. && and || and ^ are those of a scene's expressions, too; a
+    number is true where it is above 0, as with Fixed where."""
+    import pandas
+    table = pandas.DataFrame({name: np.asarray(values) for name, values in columns.items()
+                              if np.ndim(values) == 1})
     plain = text.replace("&&", " and ").replace("||", " or ").replace("^", "**")
     try:
         with np.errstate(all="ignore"):
@@ -20,13 +24,4 @@ def values_of(text, table, option):
     except Exception as error:  # pandas throws what Python does
         raise Refused(option, text, "what pandas' DataFrame.eval takes, and && || ^; the columns "
                       "are " + ", ".join(table), f"Not so: {error}.") from None
-    return np.broadcast_to(found, (len(table),))
-
-
-def rows_where(text, columns, option):
-    """A mask of the rows for which a condition holds, from their columns by
-    name; a number is true where it is above 0, as with Fixed where."""
-    import pandas
-    table = pandas.DataFrame({name: np.asarray(values) for name, values in columns.items()
-                              if np.ndim(values) == 1})
-    return values_of(text, table, option) > 0
+    return np.broadcast_to(found, (len(table),)) > 0

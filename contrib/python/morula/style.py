@@ -32,14 +32,12 @@ def pixels(figure):
     return picture
 
 
-def log_ticks(axis, low, high, short=False):
+def log_ticks(axis, low, high):
     """Ticks at 1, 2, 5 where an axis has few decades, at powers of ten where
-    it has many, or is short; written plainly."""
+    it has many; written plainly."""
     ratio = high / low
-    subs = (1, 2, 5) if ratio < (30 if short else 300) else (1,)
-    if ratio < 5:
-        subs = (1, 1.5, 2, 3, 4, 6, 8)
-    axis.set_major_locator(LogLocator(subs=subs, numticks=4 if short else 12))
+    subs = (1, 1.5, 2, 3, 4, 6, 8) if ratio < 5 else (1, 2, 5) if ratio < 300 else (1,)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=12))
     axis.set_major_formatter(FuncFormatter(lambda x, _: plain(x)))
     axis.set_minor_formatter(FuncFormatter(lambda *_: ""))
 

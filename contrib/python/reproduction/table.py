@@ -35,7 +35,7 @@ def grids(runs):
     rows = [grid_row(runs[scene], fine if scene != "fig-2e" else None, elements) for scene in GRIDS]
     values = outline.finite_element_values(theta)
     if values is not None:
-        rows.append(["FE", *["–"] * 6, *last_values(values, "apex")])
+        rows.append(["FE", *["–"] * 6, *last_values(values, "zmax")])
     return f"""The grids of Fig. 2 at θ = {theta:.3g}, lengths in µm. Distances are those of the free
 boundary points from the outline of (e) and from that of body-fitted finite elements (FE, an
 independent solution). "Near" are the points that began less than {outline.NEAR_CLAMP:g} µm above

@@ -32,8 +32,5 @@ doc/accuracy-and-cost.md explains the results.""")
         "lies? Needs no --vary")
     add("--reference", metavar="FILE.csv", help="right values, in columns "
         "named like the measures, MEASURE_error, time")
-    add("--reference-column", action="append", default=[],
-        metavar="NEW=EXPRESSION", help="names or computes a column of the "
-        "reference file, e.g. zmax=apex or time=10*(theta-1)")
     add_run_options(add, "output/accuracy/SCENE")
     return result

@@ -2,46 +2,34 @@
 # Copyright (C) 2026 by the Morula authors
 """Right values from a file, with what the file says of their uncertainty."""
 import numpy
-from morula.expressions import values_of
 from morula.refusal import Refused
 from morula.run import same_time
 from morula.tables import read_table
 
 OPTION = "--reference"
-COLUMN_OPTION = "--reference-column"
 
 
 class Reference:
     """A CSV file with a column for every measure, named like it, MEASURE_error (by
     how much the value may be wrong; without it zero), and time (day), unless it has
-    a single row. `definitions` NEW=EXPRESSION make further columns."""
+    a single row."""
 
-    def __init__(self, file, definitions=()):
+    def __init__(self, file):
         self.file = file
         try:
             self.table = read_table(OPTION, file).astype(float)
         except ValueError as error:
             raise Refused(OPTION, file, "a number in every column", f"Not so: {error}.") from None
-        for definition in definitions:
-            self._define(definition)
         errors = self.table.filter(regex="_error$")
         if (not numpy.isfinite(self.table).all(axis=None) or (errors < 0).any(axis=None)):
             raise Refused(OPTION, file, "a finite number in every column, and " "errors >= 0")
-
-    def _define(self, definition):
-        new, _, expression = (word.strip() for word in definition.partition("="))
-        if not new or not expression:
-            raise Refused(COLUMN_OPTION, definition, "NEW=EXPRESSION")
-        self.table[new] = values_of(expression, self.table, COLUMN_OPTION)
-        if f"{expression}_error" in self.table:
-            self.table[f"{new}_error"] = self.table[f"{expression}_error"]
 
     def check(self, measures, time):
         """Refuses a file that does not know what is asked for."""
         for measure in measures:
             if measure.text not in self.table:
                 raise Refused(OPTION, self.file, f"a file with the column '{measure.text}'",
-                              f"It has {', '.join(self.table)}; {COLUMN_OPTION} renames.")
+                              f"It has {', '.join(self.table)}.")
         self._row(time)
 
     def value(self, measure, time):

@@ -12,16 +12,12 @@ from .limits import ROUNDING
 
 
 def write_tables(findings, directory):
-    """table.md; with ladders table.csv, with offsets scatter.csv and offsets.csv."""
+    """table.md; with ladders table.csv, with offsets offsets.csv."""
     write(directory / "table.md", markdown(findings))
-    for name, rows, wanted in (
-            ("table.csv", rows_of_errors, findings.plan.ladders),
-            ("scatter.csv", rows_of_scatter, findings.request.n_offsets),
-            ("offsets.csv", rows_of_runs, findings.request.n_offsets)):
-        if wanted:
-            write_csv(directory / name, rows(findings))
-        else:
-            (directory / name).unlink(missing_ok=True)  # of before
+    if findings.plan.ladders:
+        write_csv(directory / "table.csv", rows_of_errors(findings))
+    if findings.scatters:
+        write_csv(directory / "offsets.csv", rows_of_runs(findings))
 
 
 def markdown(findings):
@@ -165,15 +161,6 @@ def rows_of_errors(findings):
             yield [*point, e.measure.text, e.measure.unit, *map(tens, (
                 e.values[point], e.scatter[point], e.right, e.uncertainty,
                 e.errors[point], e.noise[point], int(point in front), *cost[:3]))]
-
-
-def rows_of_scatter(findings):
-    """A row for each point, time and measure, over its runs."""
-    yield [*findings.plan.keys, "measure", "unit", "runs", "failed",
-           "mean", "smallest", "largest", "standard_deviation", "right_value"]
-    for s in findings.scatters:
-        yield [*s.point, s.measure.text, s.measure.unit, len(s.values), s.n_failed,
-               *map(tens, (s.values.mean(), s.values.min(), s.values.max(), s.deviation, s.right))]
 
 
 def rows_of_runs(findings):

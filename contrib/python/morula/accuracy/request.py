@@ -39,11 +39,7 @@ class Request:
         self.n_offsets = read_offsets(options.offsets, self.plan)
         self.samples = samples(self.seeds, self.n_offsets, self.scene.dimension)
         self.end = self._end()
-        if options.reference_column and options.reference is None:
-            raise Refused("--reference-column", options.reference_column[0],
-                          "something with --reference only")
-        self.reference = options.reference and Reference(
-            options.reference, options.reference_column)
+        self.reference = options.reference and Reference(options.reference)
         if self.reference:
             self.reference.check(self.measures, self.end)
         check_seeds(self.plan, self.seeds, options.seeds, len(self.samples))
@@ -57,7 +53,7 @@ class Request:
     @property
     def results(self):
         """Where tables and figure go: each command has a directory of its own."""
-        asked = [("", text) for text in self.options.vary]
+        asked = [("vary", text) for text in self.options.vary]
         asked += [("offsets", str(self.n_offsets))] * bool(self.n_offsets)
         words = [word for word in self.options.words if word != "--again"]
         return self.output / job_name(asked, tuple(words))

@@ -45,8 +45,9 @@ def measure(request):
         print("accuracy: nothing to compare, as the run that all ladders share has failed: "
               "table.md says why. Choose other values for it by -s.", file=sys.stderr)
         return 2
-    from .figure import draw
-    draw(findings, request.results)
+    if findings.estimates:
+        from .figure import draw
+        draw(findings, request.results / "accuracy.png")
     for line in findings.summary():
         say(line)
     say(f"tables and figure in {request.results}")

@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/surface/carriers.h>
 #include <morula/mechanics/point_term.h>
 #include <morula/particles/detached_points.h>
 #include <morula/simulation/simulation.h>
@@ -168,6 +167,7 @@ namespace Morula
         surface.follow(tissue, space, surface.before_losses(tissue), t, 0.);
         renew_carriers(tissue);
         for_moments(&Moments<dim>::surfaced, t, 0.);
+        for_moments(&Moments<dim>::after, t, 0.);
       }
     growth_of_step = {};
     first_splines.emplace(splines());

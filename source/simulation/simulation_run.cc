@@ -340,9 +340,9 @@ namespace Morula
         // fields.
         if (carve())
           find_steady(false);
+        for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
         if (balance_at_start())
           find_steady(false);
-        for_moments(&Moments<dim>::settle, time_steps.time(), 0.);
         keep_places(); // nothing has strained: no cell moves
         watches.look_at_pieces(*first_splines,
                                tissue.grid(),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from morula.error_in_time import error_in_time
 
-from tests.common.program import assert_same_run
+from tests.common.program import TESTS, assert_same_run
 
 TISSUE = {"Dimension": 2, "Output/Formats": "csv", "Output/Interval": 0,
           "Tissue/Surface": "tracked"}
@@ -124,3 +124,12 @@ def test_friction_takes_time(runs):
     """So that nothing moves at t = 0."""
     table = runs.run("friction", PRESSED, {"Friction/Coefficient": 1e-4}).statistics
     assert table["ymax"][0] == 20 and table["xmax"][0] == 50
+
+
+def test_a_lumen_keeps_its_content(runs):
+    """Where the tissue gives way to its surface tension at t = 0."""
+    table = runs.run("lumens", TESTS.parent / "prm/examples/two-lumens.prm", {
+        "Time/End time": 0.05, "Output/Formats": "csv", "Output/Interval": 0}).statistics
+    assert 0.99 < table["total_volume"][0] / 17664 < 0.995
+    assert abs(table["lumen_volume_left"][0] / 1239.457576 - 1) < 1e-6
+    assert 0.06 < table["lumen_pressure_left"][0] < 0.07

@@ -9,6 +9,7 @@ from morula.api.scene import Scene
 from morula.files import write
 from morula.kept_runs import Job, KeptRuns, job_name
 from morula.places import OUTPUT
+from morula.refusal import Refused
 from morula.run import ERRORS
 
 from .bar import Bar, bias, duration, scatter
@@ -34,8 +35,11 @@ class Further:
     def bars(self):
         """A Bar for each measure, kept in errors.json of the scene's own run."""
         own = self._own()
-        values = {m: {(part, 1.0): m.evaluate(own) for part in KEYS}
+        values = {m: dict.fromkeys([(part, 1.0) for part in KEYS], m.evaluate(own))
                   for m in self.request.measures}
+        for measure, found in values.items():
+            if not math.isfinite(found["grid", 1.0]):
+                raise Refused("--measure", measure.text, "one that is a number at the end")
         coarser = self._coarser()
         self.biased = dict.fromkeys(part for part, _ in coarser)
         self._run(coarser, values)
@@ -69,17 +73,16 @@ class Further:
                          ranks=self.request.ranks)
 
     def _times(self, part, ratio):
-        """The key of a part's size, so many times as large; with Time/Tolerance that one, as
-        what a step misses falls with its square."""
-        if part == "step" and self.scene.number(TOLERANCE) > 0:
-            return ((TOLERANCE, format(ratio**2 * self.scene.number(TOLERANCE), ".12g")),)
-        return ((KEYS[part], format(ratio * self.scene.number(KEYS[part]), ".12g")),)
+        """The key of a part's size, so many times as large; with the step also Time/Tolerance,
+        as what a step misses falls with its square."""
+        factors = {KEYS[part]: ratio} | ({TOLERANCE: ratio**2} if part == "step" else {})
+        return tuple((key, format(factor * self.scene.number(key), ".12g"))
+                     for key, factor in factors.items() if self.scene.number(key))
 
     def _coarser(self):
         """The runs that tell the biases. A single step cannot be longer."""
         end = self.scene.number("Time/End time") * (1 + 1e-9)
-        longer = [r for r in LONGER if self.scene.number(TOLERANCE) > 0
-                  or r * self.scene.number("Time/Step") <= end]
+        longer = [r for r in LONGER if r * self.scene.number("Time/Step") <= end]
         found = {"grid": COARSER, "step": longer or [0.5], "cells": COARSER}
         if (self.scene["Tissue/Shape"] == "points" or self.scene["Proliferation/Law"] != "none"):
             self.notes.append("cells: not varied, as another size of cells is another tissue")
@@ -120,7 +123,8 @@ class Further:
             self.records[name] = records[job]
             if records[job].finished:
                 for measure, found in values.items():
-                    found[name] = measure.evaluate(records[job].run)
+                    value = measure.evaluate(records[job].run)
+                    found.update({name: value} if math.isfinite(value) else {})
             else:
                 self.notes.append(f"{name[0]}: left out a run, which {records[job].summary()}: "
                                   f"{job.name}")

@@ -92,12 +92,9 @@ def digits(number, sign):
     """Two digits, with a true minus; zero for what is nothing here."""
     if not math.isfinite(number):
         return "–"
-    text = f"{number:+.2g}" if sign else f"{number:.2g}"
-    if "e+" in text:
-        text = f"{number:+.0f}" if sign else f"{number:.0f}"
-    if abs(number) < 1e-6:
-        text = "0"
-    return text.replace("e-0", "e-").replace("-", "−").replace("e−", "e-")
+    plus = "+" if sign else ""
+    text = f"{number:{plus}.2g}" if abs(number) < 100 else f"{number:{plus}.0f}"
+    return "0" if abs(number) < 1e-6 else text.replace("e-0", "e-").replace("-", "−", text[0] == "-")
 
 
 def scatter_table(findings):

@@ -13,9 +13,13 @@
 #include <boost/algorithm/string.hpp>
 #include <boost/program_options.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
-#include <ostream>
+#include <iomanip>
+#include <iostream>
 
 namespace Morula
 {
@@ -24,7 +28,31 @@ namespace Morula
   namespace
   {
     const std::string usage =
-      "morula SCENE.prm [-s \"Section/Key=value\"]... [--resume | --replace] [--explain]";
+      "morula SCENE.prm [-s \"Section/Key=value\"]... [--resume | --replace]";
+
+    /** A program of contrib that works on scenes or runs. */
+    struct Tool
+    {
+      std::string word, file, summary;
+    };
+
+    const std::vector<Tool> tools = {
+      {"report", "report", "one page about a run, for a browser"},
+      {"render", "render", "pictures and films of a run's cells"},
+      {"shapes",
+       "cell-shapes",
+       "the cells of a run as polyhedra, for ParaView"},
+      {"export", "export", "a run for other programs: tracks, tables, images"},
+      {"import", "import", "a scene of a segmented image or a tracker's table"},
+      {"sweep", "sweep", "many runs of a scene, with their mean and scatter"},
+      {"accuracy", "accuracy", "how accurate a scene is, and at what cost"}};
+
+    bool
+    is_file(const std::string &word)
+    {
+      std::error_code error;
+      return std::filesystem::is_regular_file(word, error);
+    }
 
     options::options_description
     visible_options()
@@ -88,9 +116,7 @@ namespace Morula
       // A word that ends in .prm counts even if there is no such file: then the
       // message says that the scene cannot be read, and not that no key has the
       // word.
-      std::error_code error;
-      return boost::ends_with(word, ".prm") ||
-             std::filesystem::is_regular_file(word, error);
+      return boost::ends_with(word, ".prm") || is_file(word);
     }
 
     /** The words as options; @p all is the line as it was typed. */
@@ -103,7 +129,11 @@ namespace Morula
       positions.add("scene", -1);
 
       // The value of an option stands behind '=': a word beside --parameters is
-      // one to look for.
+      // one to look for. Two commands are options of this program.
+      if (!words.empty() && !is_file(words[0]))
+        words[0] = words[0] == "explain" ? "--explain" :
+                   words[0] == "keys"    ? "--parameters" :
+                                           words[0];
       for (std::string &word : words)
         if (word == "--explain" || word == "--parameters")
           word += "=text";
@@ -184,11 +214,49 @@ namespace Morula
   }
 
 
+  bool
+  run_tool(char *argv[])
+  {
+    // A tool stands in contrib of the tree whose build directory has this
+    // program, beside an installed one, or in the path. It learns from the
+    // environment which program to call.
+    namespace fs = std::filesystem;
+    const auto tool =
+      std::find_if(tools.begin(), tools.end(), [&](const Tool &one) {
+        return argv[1] != nullptr && one.word == argv[1] && !is_file(one.word);
+      });
+    if (tool == tools.end())
+      return false;
+    std::error_code error;
+    const fs::path  program = fs::read_symlink("/proc/self/exe", error),
+                   here     = program.parent_path();
+    setenv("MORULA", program.c_str(), 1);
+    for (const fs::path &place : {here.parent_path() / "contrib" / tool->file,
+                                  here / ("morula-" + tool->file),
+                                  fs::path("morula-" + tool->file)})
+      execvp(place.c_str(), argv + 1);
+    std::cerr << "morula: the command " << tool->word
+              << " needs the Python program morula-" << tool->file
+              << ", which is neither beside " << program
+              << " nor in the PATH.\n";
+    return true;
+  }
+
+
   void
   print_help(std::ostream &out)
   {
-    out << "Morula simulates growing and proliferating tissue.\n\nUsage: "
-        << usage << "\n       mpirun -np N morula SCENE.prm ...\n\n"
+    out
+      << "Morula simulates growing and proliferating tissue.\n\nUsage: "
+      << usage << "\n       mpirun -np N morula SCENE.prm ...\n"
+      << "       morula COMMAND ...\n\n"
+      << "Commands (morula COMMAND --help explains one):\n"
+      << "  explain SCENE.prm      check a scene, and say what it simulates\n"
+      << "  keys [WORD]...         the keys of scenes, or those about a word\n"
+      << std::left;
+    for (const Tool &tool : tools)
+      out << "  " << std::setw(23) << tool.word << tool.summary << '\n';
+    out << '\n'
         << visible_options()
         << "\nExit codes: 0 finished; 1 bad input, nothing was computed or "
            "written;\n2 the run failed; go on with --resume from its last "

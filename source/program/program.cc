@@ -308,6 +308,9 @@ namespace Morula
   int
   Program::run(int argc, char *argv[]) const
   {
+    // A tool is another program, and has nothing to do with MPI.
+    if (run_tool(argv))
+      return 1;
     // MPI is finalized as run_with_mpi() returns. Raised earlier, the signal
     // would end the process before that.
     int       stop_signal = 0;

@@ -187,7 +187,7 @@ namespace Morula
                   column_names[meaning] + "': rename or drop all but one." :
                 "There is no column '" + column_names[meaning] +
                   "'. Commas separate the names, which have small "
-                  "letters and no units; contrib/import writes such a "
+                  "letters and no units; morula import writes such a "
                   "file from other tables.");
         }
       return columns;

@@ -56,6 +56,8 @@ TEST(CommandLine, KnowsItsOptions)
   EXPECT_EQ(keys.words, (std::vector<std::string>{"lumen", "volume"}));
   EXPECT_EQ(CommandLine::parse({"--parameters", "a.prm"}).scene_file, "a.prm");
   EXPECT_TRUE(CommandLine::parse({"--help"}).help);
+  EXPECT_TRUE(CommandLine::parse({"explain", "a.prm"}).explain);
+  EXPECT_EQ(CommandLine::parse({"keys", "lumen"}).words.at(0), "lumen");
 }
 
 

@@ -64,7 +64,10 @@ def test_tools(runs, installed):
     for file in ("output/sweep/small-cube", "cells.png", "run/report.html"):
         assert (runs.work / file).exists()
     assert sorted(installed.rglob("[!_]*.*")) == before
-    assert said(runs, tools / "morula-export", "--help").startswith("usage: morula-export ")
+    for words in (("morula-export",), ("morula", "export")):
+        assert said(runs, tools / words[0], *words[1:], "--help").startswith(
+            "usage: morula export ")
+    said(runs, tools / "morula", "shapes", output)
 
 
 def test_example(runs, installed):

@@ -228,11 +228,11 @@ def test_pictures(runs, cube):
     """Without the view: the run's own PNG or, without any, one that is drawn."""
     page = page_of(runs, cube, "--states", "0")
     assert page.about is None
-    assert "drawn by contrib/render" in page.text
+    assert "drawn by morula render" in page.text
     Image.new("RGB", (3000, 10), "red").save(cube.directory / "mine.png")
     page = page_of(runs, cube, "--states", "0")
     assert "mine.png" in page.text
-    assert "drawn by contrib/render" not in page.text
+    assert "drawn by morula render" not in page.text
 
 
 @pytest.mark.parametrize("words, texts", [

@@ -53,7 +53,9 @@ def main():
     if name not in TOOLS:
         return f"morula: there is no tool '{name}'; there are " + ", ".join(TOOLS)
     sys.argv[0] = name
-    if called == name:  # by the script of Morula's tree
+    if TOOLS[name].startswith("morula."):
+        called = f"morula {name.removeprefix('cell-')}"
+    else:  # of Morula's tree alone
         folder = "contrib/upkeep" if TOOLS[name].startswith(("upkeep", "tests")) else "contrib"
         called = f"{folder}/{name}"
     # By itself argparse names the last part of a path alone.

@@ -2,6 +2,7 @@
 # Copyright (C) 2026 by the Morula authors
 """Where the package stands: in Morula's tree, in contrib/python; below an
 installation's prefix, in share/morula/python; or in a Python of somebody's."""
+import os
 import shutil
 from pathlib import Path
 
@@ -11,6 +12,8 @@ INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
 
 
 def _program():
+    if os.environ.get("MORULA"):  # set by the program that started this tool
+        return Path(os.environ["MORULA"])
     if not INSTALLED:
         return ROOT / "build/morula"
     beside = ROOT.parent / "bin/morula"

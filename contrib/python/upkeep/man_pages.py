@@ -21,7 +21,7 @@ SUMMARIES = {"morula": "grow and deform tissue of continuum-based cell particles
              "morula-render": "pictures and films of a run's cells",
              "morula-report": "one HTML page about a run",
              "morula-sweep": "many runs of a scene, with their mean and scatter"}
-COMMAND = re.compile(r"^  +morula-(?:.*\\\n)*.*\n", re.M)
+COMMAND = re.compile(r"^  +morula (?:.*\\\n)*.*\n", re.M)
 ADDED = """[examples]
 .nf
 {examples}.fi
@@ -45,12 +45,12 @@ def help_of(name, morula):
         rest = re.sub(r"^(  -.*?\w) \[=(\w+)\]", r"\1[=\2]", rest, flags=re.M)
         return f"{usage}\n\n{about}\n\n{rest.replace('KEY=VALUE ', 'KEY=VALUE  ')}"
     text = said(ROOT / "contrib" / name.removeprefix("morula-"), "--help")
-    text = re.sub(r"contrib/(?:python/)?(?=[a-z-]+[\s.,;])", "morula-", text)
+    text = re.sub(r"^ *contrib/(?=[a-z-]+ )", "  morula ", text, flags=re.M)
     usage, _, rest = text.partition("\n\n")
-    operands = re.sub(r"\[-[^]]*\] ?", "", " ".join(usage.split()[2:]))
+    operands = re.sub(r"\[-[^]]*\] ?", "", " ".join(usage.split()[3:]))
     for old, new in (("positional a", "A"), ("options:", "Options:"), ("examples:\n", "")):
         rest = rest.replace(f"\n{old}", f"\n{new}", 1)
-    return f"Usage: {name} [OPTION]... {operands}\n\n{rest}"
+    return f"Usage: {' '.join(usage.split()[1:3])} [OPTION]... {operands}\n\n{rest}"
 
 
 def page_of(name, morula):

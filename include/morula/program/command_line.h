@@ -40,7 +40,14 @@ namespace Morula
     parse(const std::vector<std::string> &words);
   };
 
-  /** Prints usage, options and exit codes. */
+  /** Becomes the tool that a command line's first word names, such as `report`,
+   *  in this process; that word may not be a file. Returns only if it is none.
+   *  @param argv ends with a null pointer
+   *  @return whether it is one that is not there, of which it has been said */
+  bool
+  run_tool(char *argv[]);
+
+  /** Prints usage, commands, options and exit codes. */
   void
   print_help(std::ostream &out);
 

@@ -68,7 +68,7 @@ class Run(run.Run):
              panels: int = 2, width: int = 500) -> Picture:
         """Draws the cells, coloured by a column (None: their type where there are types, else
         their volume), from outside and cut open (panels=1: from outside alone). In a notebook the
-        picture is shown. Throws Refused for what contrib/render refuses."""
+        picture is shown. Throws Refused for what morula render refuses."""
         with tempfile.TemporaryDirectory() as scratch:
             file = Path(scratch) / "cells.png"
             words = [sys.executable, "-P", "-m", "morula", "render", self.directory.resolve(),
@@ -82,7 +82,7 @@ class Run(run.Run):
             ended = execute.call(words, env={"PYTHONPATH": path}, stderr=subprocess.PIPE)
             if ended.code:
                 raise Refused("The picture", f"{field}, {panels} panels",
-                              "what contrib/render draws", ended.stderr.strip())
+                              "what morula render draws", ended.stderr.strip())
             return Picture(file.read_bytes())
 
     def _about(self) -> dict[str, str]:

@@ -99,12 +99,12 @@ def read(file):
     """Tracks that were written by this module. Throws Refused for others."""
     import zarr
     if not _is_geff(Path(file)):
-        raise Refused("The file", file, "tracks as GEFF, in Zarr 2", "contrib/export writes them.")
+        raise Refused("The file", file, "tracks as GEFF, in Zarr 2", "morula export writes them.")
     root = zarr.open_group(str(file), mode="r")
     said = root.attrs["geff"]
     ours = said.get("extra", {}).get("morula")
     if ours is None:
-        raise Refused("The file", file, "tracks of contrib/export", "Those of other programs have "
+        raise Refused("The file", file, "tracks of morula export", "Those of other programs have "
                       "no lineage with exact times.")
     properties = {}
     for name, known in said["node_props_metadata"].items():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The command contrib/export."""
+"""The command morula export."""
 import argparse
 from pathlib import Path
 
@@ -10,13 +10,13 @@ from morula.run import Run
 
 DESCRIPTION = """Writes a run for other programs; the ending of a file says how.
 
-    contrib/export output/bud tracks.geff          all cells over time, as a graph
-    contrib/export output/bud cells.h5ad           the last state, for scanpy
-    contrib/export output/bud cells.h5ad --all     all states in one table
-    contrib/export output/bud cells.vtkhdf         all states, for ParaView
-    contrib/export output/bud portal.csv           all states, as OpenVT's portal has them
-    contrib/export output/bud labels.tif --voxel 2 every voxel has its cell's label
-    contrib/export output/bud labels.tif --voxel 1,1,4 --all
+    morula export output/bud tracks.geff          all cells over time, as a graph
+    morula export output/bud cells.h5ad           the last state, for scanpy
+    morula export output/bud cells.h5ad --all     all states in one table
+    morula export output/bud cells.vtkhdf         all states, for ParaView
+    morula export output/bud portal.csv           all states, as OpenVT's portal has them
+    morula export output/bud labels.tif --voxel 2 every voxel has its cell's label
+    morula export output/bud labels.tif --voxel 1,1,4 --all
 
 doc/python.md explains the files.
 """

@@ -112,7 +112,7 @@ def _graph(run, lineage, states, nodes, is_birth):
         "t": Property(nodes["t"], "day", "time"),
         **_places(run, lineage, states, nodes, is_birth),
         "lineage": Property(lineage.founder[cell], "", "id of its founder"),
-        "seg_id": Property(cell + 1, "", "label in images of contrib/export"),
+        "seg_id": Property(cell + 1, "", "label in images of morula export"),
         **_columns(run, lineage, states, nodes, is_birth)}
     for name, times in (("death_time", lineage.death_time), ("removal_time", lineage.removal_time)):
         if np.isfinite(times).any():

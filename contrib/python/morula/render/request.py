@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""What contrib/render is asked for, checked before anything is drawn."""
+"""What morula render is asked for, checked before anything is drawn."""
 import argparse
 import math
 from pathlib import Path
@@ -14,11 +14,11 @@ from .films import film_writer
 DESCRIPTION = """Draws the tissue of a run: every cell a shaded sphere of its volume, or
 the polyhedron that it fills.
 
-    contrib/render output                          the last state, from outside
-    contrib/render output --panels 2               and beside it cut open
-    contrib/render output --field energy_density --time 2.5 --output e.png
-    contrib/render output --movie --panels 2       all states, as a film
-    contrib/render output --shapes --cut           cells as polyhedra
+    morula render output                          the last state, from outside
+    morula render output --panels 2               and beside it cut open
+    morula render output --field energy_density --time 2.5 --output e.png
+    morula render output --movie --panels 2       all states, as a film
+    morula render output --shapes --cut           cells as polyhedra
 
 It needs neither a display nor a graphics card; 200,000 cells take half a minute.
 """
@@ -44,7 +44,7 @@ def arguments(words):
     add("--panels", type=int, choices=(1, 2), default=1,
         help="2: outside and cut open, side by side")
     add("--cut", action="store_true", help="one panel, cut open")
-    add("--shapes", action="store_true", help="cells as polyhedra, as contrib/cell-shapes writes "
+    add("--shapes", action="store_true", help="cells as polyhedra, as morula shapes writes "
         "them;\n--field can be one of its fields, too")
     add("--section", action="store_true", help="with --shapes: cut through cells, not round them")
     add("--azimuth", type=float, default=-60, help="degrees from the x axis; the viewer is there")

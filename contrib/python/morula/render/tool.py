@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The command contrib/render."""
+"""The command morula render."""
 import sys
 import time
 

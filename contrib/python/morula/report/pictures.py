@@ -46,7 +46,7 @@ def colour_bar(colours):
 
 def pictures(run):
     """(address, words) of the PNG files of the run's directory, or else of one by
-    contrib/render: the last state from outside and cut open."""
+    morula render: the last state from outside and cut open."""
     found = sorted(run.directory.glob("*.png"))[:MOST]
     if found:
         return [(photograph(file), file.name) for file in found]
@@ -60,7 +60,7 @@ def pictures(run):
                                 "--output", str(file)])
         if code:
             return []
-        return [(photograph(file), "The last state, drawn by contrib/render.")]
+        return [(photograph(file), "The last state, drawn by morula render.")]
 
 
 def photograph(file):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The command contrib/report."""
+"""The command morula report."""
 import argparse
 import shutil
 import sys
@@ -18,8 +18,8 @@ from .document import page
 
 DESCRIPTION = """Makes one HTML page about a run.
 
-    contrib/report output/bud                  writes output/bud/report.html
-    contrib/report output/bud --states 5 --fields energy_density,phase
+    morula report output/bud                  writes output/bud/report.html
+    morula report output/bud --states 5 --fields energy_density,phase
 
 The page holds everything, the cells in 3-D too, opens from the disk and needs
 no network. doc/looking-at-results.md shows one.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The command contrib/cell-shapes."""
+"""The command morula shapes."""
 import argparse
 from pathlib import Path
 
@@ -19,9 +19,9 @@ DESCRIPTION = """Writes the cells of a run as polyhedra, for ParaView: the
 Voronoi region of each cell among all cells, cut off at the tissue's surface
 (2-D: polygons).
 
-    contrib/cell-shapes output/bud                     the last state
-    contrib/cell-shapes output/bud --all               all states
-    contrib/cell-shapes output/bud --time 1 --where "y < 0 && generation >= 2"
+    morula shapes output/bud                     the last state
+    morula shapes output/bud --all               all states
+    morula shapes output/bud --time 1 --where "y < 0 && generation >= 2"
 
 It writes cell-shapes-NNNN.vtu for cells-NNNN, with all columns of the cells,
 and region_volume, neighbours and touches_surface besides, and cell-shapes.pvd,

@@ -14,8 +14,8 @@ def parser():
         description="Runs a scene with every combination of values of some "
         "keys and with several\nrandom seeds, and tells mean and scatter.",
         epilog="""examples:
-  contrib/sweep bud.prm --samples latin-hypercube.csv --skip-refused
-  contrib/sweep bud.prm --seeds 1-5 \\
+  morula sweep bud.prm --samples latin-hypercube.csv --skip-refused
+  morula sweep bud.prm --seeds 1-5 \\
       --vary "Proliferation/Cell cycle/Size checkpoint=0,0.9" \\
       --vary "Proliferation/Cell cycle/G0 exit rate=0.5,1,2" --jobs 2
 

@@ -43,7 +43,7 @@ def seeds(request):
 
 
 def markdown(request, ensembles):
-    words = shlex.join(["contrib/sweep", *request.options.words])
+    words = shlex.join(["morula", "sweep", *request.options.words])
     n_runs = sum(len(ensemble.records) for ensemble in ensembles)
     sections = [f"# Sweep of {request.scene.name}", f"    {words}",
                 f"{request.scene.program.version}; {len(ensembles)} "

@@ -19,6 +19,10 @@ namespace Own
                        "1",
                        "Of growing old: an expression of the cell's state.",
                        Evaluated::step};
+    ExpressionKey first{{this, "First"},
+                        "0",
+                        "A number of a founder: an expression of its state.",
+                        Evaluated::step};
 
     bool
     is_on() const override
@@ -43,6 +47,7 @@ namespace Own
 
     Ageing(const Parameters &parameters, const EffectSetting<dim> &setting)
       : pace(setting.state.use(parameters.pace))
+      , first(setting.state.use(parameters.first))
       , age(setting.columns.template add<double>(
           {"age", "day", "time since birth", 0., AtDivision::reset, true}))
       , dose(setting.columns.template find<double>("dose"))
@@ -53,7 +58,16 @@ namespace Own
            0.,
            AtDivision::copied,
            true}))
+      , at_first(setting.columns.template add<double>(
+          {"at_first", "", "of the founder", 0., AtDivision::copied, true}))
     {}
+
+    void
+    begin(const PresentCell<dim>      &founder,
+          const CellView<dim, double> &row) const override
+    {
+      row.set(at_first, founder.value(first, 0.));
+    }
 
     void
     check_cell(const PresentCell<dim> &founder, const double) const override
@@ -74,8 +88,8 @@ namespace Own
     }
 
   private:
-    const Expression     pace;
-    const Column<double> age, dose, earlier_dose;
+    const Expression     pace, first;
+    const Column<double> age, dose, earlier_dose, at_first;
   };
 } // namespace Own
 

@@ -75,6 +75,9 @@ def test_closed_forms_of_cells(scene):
         # An effect sees what others had at the beginning of the step.
         numpy.testing.assert_allclose(cells["earlier_dose"], 0.5 * max(0, time - STEP),
                                       atol=1e-12)
+        # A founder has volume, place, field and depth when the trait begins: 100, 1 and 5, ...
+        numpy.testing.assert_allclose((cells["at_first"] - 1) % 100 % 10, 5, atol=1e-9)
+        assert {*cells["at_first"] // 100} == {2, 3}
         # Growth dilutes both fields alike, and no cell makes any.
         numpy.testing.assert_allclose(cells["made"] / (cells["raw"] + cells["made"]),
                                       -numpy.expm1(-2 * time), rtol=1e-9)

@@ -231,8 +231,9 @@ namespace Morula
     {}
 
     /** Sets the effect's columns of a founder at t = 0, if they differ from the
-     *  declared values. Only called if the effect has columns. `row` is that of
-     *  the founder, of which expressions can be evaluated. */
+     *  declared values. Only called if the effect has columns. `founder`
+     *  evaluates expressions of its state at t = 0: place, volume, type, depth,
+     *  fields; the cell cycle has given it no phase yet. `row` is the same. */
     virtual void
     begin(const PresentCell<dim> & /*founder*/,
           const CellView<dim, double> & /*row*/) const

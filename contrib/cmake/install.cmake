@@ -3,8 +3,8 @@
 
 # What `cmake --install` puts below its prefix: the program, the tools that work
 # on scenes and runs, the library with its headers and the package that
-# find_package(Morula) reads, scenes to start from, a project to start one's own
-# effects from, and the pages. Nothing of it names the build or the source
+# find_package(Morula) reads, scenes to start from, the step programs with their
+# sources, a project to start one's own effects from, and the pages. Nothing of it names the build or the source
 # directory, and the whole may be moved.
 
 if(MORULA_SANITIZE)
@@ -14,7 +14,7 @@ one without.\")")
   return()
 endif()
 
-# Steps and tests are not installed, nor built for it.
+# Step programs and tests are not built for it.
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY TRUE)
 
 include(GNUInstallDirs)
@@ -63,6 +63,12 @@ install(FILES ${PROJECT_SOURCE_DIR}/prm/demo.prm
   DESTINATION ${share_directory}/prm)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm/paper
   DESTINATION ${share_directory}/prm)
+file(GLOB step_scenes ${PROJECT_SOURCE_DIR}/prm/step-*.prm)
+install(FILES ${step_scenes} DESTINATION ${share_directory}/prm)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/source/steps
+  DESTINATION ${share_directory})
+install(FILES ${PROJECT_SOURCE_DIR}/doc/data/half-fixed-sphere.csv
+  DESTINATION ${share_directory}/doc/data)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/contrib/example-project
   DESTINATION ${share_directory}
   PATTERN build EXCLUDE

@@ -96,6 +96,16 @@ def test_example(runs, installed):
     said(runs, "build/my-morula", "spheroid.prm", "-s", "Time/End time=0.5", "--replace", cwd=where)
 
 
+def test_steps(runs, installed):
+    """Their sources compile out of the tree, with the file that step 4 reads beside them."""
+    share, build = installed / "share/morula", runs.work / "steps"
+    said(runs, "cmake", "-S", share / "steps", "-B", build, f"-DCMAKE_PREFIX_PATH={installed}")
+    said(runs, "cmake", "--build", build)
+    for n in range(1, 8):
+        assert "valid" in said(runs, build / f"step-{n}", share / f"prm/step-{n}.prm", "--explain")
+    assert (share / "doc/data/half-fixed-sphere.csv").is_file()
+
+
 PROJECT = "project(none LANGUAGES CXX)\n"
 FIND = "find_package(Morula REQUIRED)\n"
 

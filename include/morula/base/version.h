@@ -8,7 +8,7 @@
 
 namespace Morula
 {
-  /** The number of the release, such as "0.2.0"; snapshots and the first line
+  /** The number of the release, such as "0.3.0"; snapshots and the first line
    *  of parameters.prm have it. */
   std::string
   version_number();

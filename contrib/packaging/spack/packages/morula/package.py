@@ -9,7 +9,7 @@ class Morula(CMakePackage):
 
     license("GPL-3.0-or-later")
 
-    version("0.2.0", preferred=True)
+    version("0.3.0", preferred=True)
     has_code = False  # until releases have an address: spack develop gives the tree
 
     variant("tools", default=True,

@@ -8,7 +8,7 @@
     cells = run.cells(-1)               # the last state written
     cells["energy_density"].mean()      # kPa
 
-The columns are those of the files (README.md, "What comes out").
+The columns are those of the files (doc/README.md, "What a run writes").
 
 What stands outside of the class reads single files into NumPy arrays: for
 tools and tests that start often, as loading pandas takes half a second.

@@ -59,12 +59,10 @@ install(FILES
   ${PROJECT_BINARY_DIR}/MorulaConfigVersion.cmake
   DESTINATION ${package_directory})
 
-install(FILES ${PROJECT_SOURCE_DIR}/prm/demo.prm
-  DESTINATION ${share_directory}/prm)
+file(GLOB scenes ${PROJECT_SOURCE_DIR}/prm/*.prm)
+install(FILES ${scenes} DESTINATION ${share_directory}/prm)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm/paper
   DESTINATION ${share_directory}/prm)
-file(GLOB step_scenes ${PROJECT_SOURCE_DIR}/prm/step-*.prm)
-install(FILES ${step_scenes} DESTINATION ${share_directory}/prm)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/source/steps
   DESTINATION ${share_directory})
 install(FILES ${PROJECT_SOURCE_DIR}/doc/data/half-fixed-sphere.csv

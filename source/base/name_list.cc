@@ -12,6 +12,7 @@
 #include <iterator>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace Morula
 {
@@ -90,6 +91,43 @@ namespace Morula
      *  large. */
     constexpr std::size_t longest_word = 200;
 
+    /** Parts of keys' paths, and what else the field calls it. */
+    const std::vector<std::pair<std::string, std::string>> synonyms = {
+      {"Cell spacing", "cell size,cell diameter,cell length,number of cells"},
+      {"Grid/Spacing", "resolution,mesh size,element size,grid size"},
+      {"Young's modulus",
+       "stiffness,elasticity,rigidity,modulus,elastic modulus"},
+      {"Poisson's ratio", "compressibility,incompressible,bulk modulus"},
+      {"Relaxation time",
+       "viscosity,viscous,viscoelasticity,creep,remodelling"},
+      {"Yield stress", "plasticity,plastic,yielding"},
+      {"Growth/Rate", "growth rate,anisotropic growth"},
+      {"Cell cycle/Duration", "cycle length,cycle time,doubling time"},
+      {"G0 exit rate", "proliferation rate,quiescence,quiescent"},
+      {"Size checkpoint", "contact inhibition,crowding"},
+      {"Division axis", "spindle axis,spindle,division orientation"},
+      {"Transitions", "differentiation,fate decision,cell fate"},
+      {"Contraction", "apical constriction,actomyosin,myosin,active stress"},
+      {"Death", "apoptosis,necrosis,necrotic core"},
+      {"Extrusion", "delamination,shedding"},
+      {"Fields", "morphogen,oxygen,nutrient,signal,concentration"},
+      {"Consumption", "uptake,absorption,decay,degradation"},
+      {"Production", "secretion,source"},
+      {"Diffusion", "diffusivity,diffusion coefficient"},
+      {"Tension/With", "adhesion,cohesion,differential adhesion,cell sorting"},
+      {"Fusion time", "adhesion,fusion of tissues"},
+      {"Rearrangement", "intercalation,migration,motility,mixing"},
+      {"Friction", "drag,viscous drag,substrate"},
+      {"Obstacles", "wall,confinement,mould,substrate"},
+      {"Contact", "collision,self-contact,self-collision"},
+      {"Fixed where", "clamp,clamped,anchored,dirichlet"},
+      {"Slip where", "symmetry,sliding,roller"},
+      {"Traction", "load,neumann,pulling force"},
+      {"Force density", "gravity,weight"},
+      {"Lumen", "cavity,turgor,osmotic pressure"},
+      {"Cell types", "cell type,heterogeneity"},
+      {"Random seed", "seed,random number"}};
+
     std::string
     last_name(const std::string &path)
     {
@@ -145,6 +183,22 @@ namespace Morula
           }
       }
     return best;
+  }
+
+
+  std::vector<std::string>
+  words_of_keys(const std::string &name)
+  {
+    std::vector<std::string> result;
+    for (const auto &[word, others] : synonyms)
+      {
+        std::vector<std::string> list;
+        boost::split(list, others, boost::is_any_of(","));
+        if (std::find(list.begin(), list.end(), boost::to_lower_copy(name)) !=
+            list.end())
+          result.push_back(word);
+      }
+    return result;
   }
 
 

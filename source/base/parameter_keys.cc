@@ -62,25 +62,6 @@ namespace Morula
       const std::string phrase = key.allowed();
       return phrase.empty() ? "any text" : phrase;
     }
-    /** Which keys a section has. */
-    std::string
-    keys_of(const std::string &section, const KeyList &keys)
-    {
-      std::string names;
-      for (const AnyKey *key : keys)
-        {
-          const std::string &path  = key->path();
-          const auto         slash = path.rfind('/');
-          if (section ==
-              (slash == std::string::npos ? "" : path.substr(0, slash)))
-            names += (names.empty() ? "" : ", ") + path.substr(slash + 1);
-        }
-      return names.empty() ?
-               "" :
-             section.empty() ?
-               "The keys outside all sections are " + names + ". " :
-               "The keys of " + section + " are " + names + ". ";
-    }
 
     /** A word on numbers with a decimal comma. */
     std::string
@@ -156,38 +137,31 @@ namespace Morula
   void
   ParameterKeys::refuse_unknown(const Statement &statement) const
   {
-    // Similar names are the best help, unless an 'end' is missing. What is
-    // unknown may be a section, a key in one, or a key in a section that does
-    // not exist either: the message says which.
-    const std::string section =
-      statement.path.substr(0, statement.path.rfind('/'));
-    const bool               is_section = statement.is_section;
+    // Similar names are the best help, unless an 'end' is missing; then what
+    // the field's word for a thing is called here.
     std::vector<std::string> paths;
-    if (is_section)
+    if (statement.is_section)
       paths = sections;
     else
       for (const AnyKey *key : keys)
         paths.push_back(key->path());
-    std::string suggestion = suggest_path(statement.path, paths);
-    if (!suggestion.empty())
-      suggestion += ' ';
-    if (const std::string open = missing_end(statement); !open.empty())
-      suggestion = open;
-    // A name of another section may not be what was meant in this one.
-    const bool is_of_section =
-      suggestion.find('\'' + section + '/') != std::string::npos;
-    if (!is_section && (suggestion.empty() ||
-                        (section != statement.path && has_section(section) &&
-                         !is_of_section && missing_end(statement).empty())))
-      suggestion += keys_of(section == statement.path ? "" : section, keys);
+    std::string suggestion = missing_end(statement);
+    if (suggestion.empty())
+      suggestion = suggest_path(statement.path, paths) + ' ';
+    const std::string name =
+      statement.path.substr(statement.path.rfind('/') + 1);
+    const std::vector<std::string> words = words_of_keys(name);
+    if (suggestion == " ")
+      suggestion = words.empty() ?
+                     "" :
+                     "For " + boost::to_lower_copy(name) + " see '" +
+                       boost::join(words, "' or '") + "'. ";
+    const bool is_section = statement.is_section;
     throw InputError(statement.place +
                        (is_section ? "subsection" : statement.path),
                      is_section ? statement.path : statement.value,
-                     is_section ? "a section that exists" :
-                     has_section(section) || section == statement.path ?
-                                  "a key that exists" :
-                                  "a key in a section that exists",
-                     suggestion + "'morula --parameters' prints them all.");
+                     is_section ? "a section that exists" : "a key that exists",
+                     suggestion + "'morula keys WORD' finds keys by a word.");
   }
 
 

@@ -18,10 +18,16 @@ namespace Morula
   EffectKeys::details() const
   {
     // The list begins with a comma since the name of the effect stands before
-    // it.
+    // it. Defaults are left out, unless there is nothing else.
+    const auto keys = list();
+    const bool all =
+      std::all_of(keys.begin(), keys.end(), [](const AnyKey *key) {
+        return key->is_default();
+      });
     std::string text;
-    for (const AnyKey *key : list())
-      text += ", " + key->short_name() + " = " + key->text();
+    for (const AnyKey *key : keys)
+      if ((all || !key->is_default()) && !key->text().empty())
+        text += ", " + key->short_name() + " = " + key->text();
     return text;
   }
 

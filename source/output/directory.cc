@@ -57,7 +57,7 @@ namespace Morula
     is_run_file(const std::string &name)
     {
       static const std::regex pattern(
-        "(?:parameters\\.prm|log\\.txt|(?:cells|surface)\\.pvd|"
+        "(?:parameters\\.prm|provenance\\.json|log\\.txt|(?:cells|surface)\\.pvd|"
         "(?:condition|events|forces|lineage|newton|statistics|timings)\\.csv|"
         "snapshot\\.h5(?:\\.trial)?)(?:\\.tmp)?");
       return series_number(name) >= 0 || std::regex_match(name, pattern);

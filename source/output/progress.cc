@@ -185,10 +185,11 @@ namespace Morula
     text += summary_line("wall time", duration(summary.wall_seconds));
     if (!dearest.empty())
       text += summary_line("spent mostly in", dearest);
-    if (summary.error_in_time)
-      text += summary_line("error in time",
+    text += summary_line("error in time",
+                         summary.error_in_time ?
                            format("about %.2g %% of growth and strain",
-                                  100. * *summary.error_in_time));
+                                  100. * *summary.error_in_time) :
+                           "none to estimate");
     text += summary_line("files in", summary.directory);
     return text;
   }
@@ -210,10 +211,11 @@ namespace Morula
   }
 
   void
-  Progress::message(const std::string &text)
+  Progress::message(const std::string &text, const bool shown)
   {
     on_root(comm, [&]() {
-      std::cout << text << std::endl;
+      if (shown)
+        std::cout << text << std::endl;
       log->write(text + '\n');
     });
   }

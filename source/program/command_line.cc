@@ -3,6 +3,7 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/parameter_keys.h>
+#include <morula/base/name_list.h>
 #include <morula/base/version.h>
 #include <morula/program/command_line.h>
 #include <morula/scene/scene.h>
@@ -85,27 +86,23 @@ namespace Morula
     }
 
     InputError
-    wrong_command_line(const std::string &words, const std::string &remedy)
+    wrong_command_line(const std::string &why)
     {
-      return InputError("The command line",
-                        words,
-                        usage,
-                        remedy + " 'morula --help' explains the options.");
+      return InputError(why + " Usage: " + usage +
+                        "; 'morula --help' explains it.");
     }
+
     /** Whether an option is to print JSON.
      *  @throws InputError for another value than json */
     bool
-    is_json(const options::variables_map &found,
-            const std::string            &option,
-            const std::string            &all)
+    is_json(const options::variables_map &found, const std::string &option)
     {
       if (found.count(option) == 0)
         return false;
       const std::string value = found[option].as<std::string>();
       if (value != "text" && value != "json")
-        throw wrong_command_line(all,
-                                 "--" + option +
-                                   " takes no value but json and text.");
+        throw wrong_command_line("--" + option +
+                                 " takes no value but json and text.");
       return value == "json";
     }
 
@@ -119,9 +116,8 @@ namespace Morula
       return boost::ends_with(word, ".prm") || is_file(word);
     }
 
-    /** The words as options; @p all is the line as it was typed. */
     options::variables_map
-    options_of(std::vector<std::string> words, const std::string &all)
+    options_of(std::vector<std::string> words)
     {
       options::options_description every = visible_options();
       every.add_options()("scene", options::value<std::vector<std::string>>());
@@ -151,7 +147,7 @@ namespace Morula
         }
       catch (const options::error &error)
         {
-          throw wrong_command_line(all, std::string(error.what()) + ".");
+          throw wrong_command_line(std::string(error.what()) + ".");
         }
       return found;
     }
@@ -164,26 +160,27 @@ namespace Morula
     // Boost splits the words into options and the rest, and refuses unknown
     // options. Then come the checks that it cannot make: which options exclude
     // each other, and that there is one scene unless the option needs none. The
-    // line as it was typed is kept for the messages. Abbreviated options are
-    // not allowed, since a new option could change their meaning.
-    std::string all;
+    // line is kept as a shell reads it. Abbreviated options are not allowed,
+    // since a new option could change their meaning.
+    CommandLine result;
     for (const std::string &word : words)
-      all += (all.empty() ? "" : " ") + word;
+      result.text +=
+        (result.text.empty() ? "" : " ") +
+        (word.find_first_of(" ;()&|<>*?$\"\\#!^'") == std::string::npos ?
+           word :
+           "'" + boost::replace_all_copy(word, "'", "'\\''") + "'");
 
-    const options::variables_map found = options_of(words, all);
-    CommandLine                  result;
-    result.resume     = found.count("resume") > 0;
-    result.replace    = found.count("replace") > 0;
-    result.explain    = found.count("explain") > 0;
-    result.parameters = found.count("parameters") > 0;
-    result.version    = found.count("version") > 0;
-    result.help       = found.count("help") > 0;
-    result.serve      = found.count("serve") > 0;
-    result.json =
-      is_json(found, "explain", all) || is_json(found, "parameters", all);
+    const options::variables_map found = options_of(words);
+    result.resume                      = found.count("resume") > 0;
+    result.replace                     = found.count("replace") > 0;
+    result.explain                     = found.count("explain") > 0;
+    result.parameters                  = found.count("parameters") > 0;
+    result.version                     = found.count("version") > 0;
+    result.help                        = found.count("help") > 0;
+    result.serve                       = found.count("serve") > 0;
+    result.json = is_json(found, "explain") || is_json(found, "parameters");
     if (result.resume && result.replace)
-      throw wrong_command_line(all,
-                               "Either go on with the run, or replace it: "
+      throw wrong_command_line("Either go on with the run, or replace it: "
                                "leave one of the two out.");
     if (found.count("set") > 0)
       result.overrides = found["set"].as<std::vector<std::string>>();
@@ -201,15 +198,14 @@ namespace Morula
         scenes.erase(words, scenes.end());
       }
     if (scenes.size() > 1)
-      throw wrong_command_line(all,
-                               "Name one scene, not '" + scenes[0] + "' and '" +
-                                 scenes[1] +
-                                 "'; quote a -s option that has blanks.");
+      throw wrong_command_line("Name one scene, not '" + scenes[0] + "' and '" +
+                               scenes[1] +
+                               "'; quote a -s option that has blanks.");
     if (!scenes.empty())
       result.scene_file = scenes[0];
     else if (!result.parameters && !result.version && !result.help &&
              !result.serve)
-      throw wrong_command_line(all, "Name the scene.");
+      throw wrong_command_line("Name the scene.");
     return result;
   }
 
@@ -272,6 +268,32 @@ namespace Morula
   }
 
 
+  namespace
+  {
+    /** Whether path or meaning of a key have a word, or the path what keys call
+     *  that. */
+    bool
+    is_about(const AnyKey &key, const std::string &word)
+    {
+      const std::vector<std::string> others = words_of_keys(word);
+      return boost::icontains(key.path() + ' ' + key.documentation(), word) ||
+             std::any_of(others.begin(),
+                         others.end(),
+                         [&key](const std::string &other) {
+                           return boost::icontains(key.path(), other);
+                         });
+    }
+
+    /** Whether a key of a type is that of all cells, or of a second type. */
+    bool
+    repeats_another(const AnyKey &key)
+    {
+      return boost::starts_with(key.documentation(), "For cells of this") ||
+             boost::starts_with(key.path(), "Cell types/OTHER/");
+    }
+  } // namespace
+
+
   void
   print_parameters(std::ostream      &out,
                    const CommandLine &command,
@@ -279,33 +301,40 @@ namespace Morula
   {
     // Sections of types, fields and obstacles exist only where a scene names
     // them. So the scene is read for its names and values, and its sections are
-    // declared in a fresh scene, which has the defaults to print. Each word
-    // then removes the keys that do not have it, so that several words mean all
-    // of them.
+    // declared in a fresh scene, which has the defaults to print; without a
+    // scene words are looked for in those of one name each. Each word then
+    // removes the keys that do not have it, so that several words mean all of
+    // them, unless they are one name of the field, as "cell size" is.
     Scene scene(catalogue);
     if (!command.scene_file.empty())
-      {
-        scene.as_written =
-          Scene::read(command.scene_file, command.overrides, catalogue)
-            .as_written;
-        scene.declare_sections(scene.as_written);
-      }
-    KeyList keys = scene.list();
-    for (const std::string &word : command.words)
+      scene.as_written =
+        Scene::read(command.scene_file, command.overrides, catalogue)
+          .as_written;
+    else if (!command.words.empty())
+      scene.as_written = {{"Cell types/Names", "NAME, OTHER"},
+                          {"Fields/Names", "field"},
+                          {"Cell numbers/Names", "number"},
+                          {"Obstacles/Names", "name"},
+                          {"Lumens/Names", "name"}};
+    scene.declare_sections(scene.as_written);
+    KeyList           keys   = scene.list();
+    const std::string phrase = boost::join(command.words, " ");
+    for (const std::string &word : words_of_keys(phrase).empty() ?
+                                     command.words :
+                                     std::vector<std::string>{phrase})
       {
         keys.erase(std::remove_if(keys.begin(),
                                   keys.end(),
-                                  [&word](const AnyKey *key) {
-                                    return !boost::icontains(
-                                      key->path() + ' ' + key->documentation(),
-                                      word);
+                                  [&](const AnyKey *key) {
+                                    return !is_about(*key, word) ||
+                                           (command.scene_file.empty() &&
+                                            repeats_another(*key));
                                   }),
                    keys.end());
         if (keys.empty())
-          throw wrong_command_line(
-            "--parameters " + boost::join(command.words, " "),
-            "No key has '" + word + "' in its path or meaning" +
-              (command.words.size() > 1 ? ", and the words before it." : "."));
+          throw InputError(
+            "No key has '" + printable(word) + "' in its path or meaning" +
+            (command.words.size() > 1 ? ", and the words before it." : "."));
       }
     if (command.json)
       ParameterKeys(keys).print_json(out, scene.as_written);

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include <iomanip>
 #include <map>
 #include <ostream>
@@ -84,7 +86,10 @@ namespace Morula
       // What has no keys is a part of others.
       const EffectKeys &keys = choice.keys();
       if (!keys.list().empty() && keys.is_on())
-        rows.push_back({topic_of(choice), keys.details() + more});
+        rows.push_back(
+          {topic_of(choice),
+           boost::trim_left_copy_if(keys.details(), boost::is_any_of(",; ")) +
+             more});
     }
 
     /** Rows for all effects of a kind. */
@@ -162,8 +167,8 @@ namespace Morula
       add_effects(out, catalogue.flows);
       if (remakes)
         out.push_back({"surface",
-                       "made from the cells; what is fixed or slips is held at "
-                       "its place of t = 0, whichever cells are there"});
+                       "made from the cells in each step; Fixed where and Slip "
+                       "where hold places, whichever cells are there"});
       else if (scene.tissue.refine_surface)
         out.push_back({"surface refinement",
                        "patches longer than " +
@@ -225,8 +230,8 @@ namespace Morula
       std::ostringstream text;
       text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
            << (interaction.effect->acts_within_bodies() ?
-                 ", whose folds and arms have " + interaction.name + ", too" :
-                 ", each with splines of its own");
+                 "; folds have " + interaction.name + ", too" :
+                 "");
       for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
         text << "; body " << b << ": " << bodies[b].cells << " cells, "
              << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
@@ -236,25 +241,18 @@ namespace Morula
         {interaction.name, interaction.effect->details_of_bodies(bodies, h)});
     }
 
-    /** How many bodies the tissue is, and which surfaces its mesh has. */
+    /** Which bodies interact, and which surfaces a mesh has. */
     template <int dim>
     void
     add_bodies(EffectRows              &rows,
                const TissueModel<dim>  &model,
-               const SeededTissue<dim> &tissue,
-               const MPI_Comm           comm)
+               const SeededTissue<dim> &tissue)
     {
-      const Scene &scene = model.scene;
       if (model.interaction)
         add_interaction(rows,
                         *model.interaction,
-                        scene.grid.spacing,
+                        model.scene.grid.spacing,
                         tissue.measures);
-      else
-        rows.push_back({"bodies",
-                        tissue.bodies.empty() ?
-                          bodies_text(scene, tissue, comm) :
-                          tissue.bodies});
       if (!tissue.mesh.empty())
         rows.push_back({"surface mesh", tissue.mesh});
       if (!tissue.cuts.empty())
@@ -269,12 +267,12 @@ namespace Morula
       constexpr double much = 0.01;
       rows.push_back(
         {"volumetric strain",
-         "like cells of a grid cell have one volume ratio",
+         "cells of one kind within a grid cell share one pressure",
          mixed < much ?
            "" :
            "    " + as_text(std::round(100. * mixed)) +
-             " % of the tissue is in layers or mixtures of unlike cells that are "
-             "thinner than the grid tells: these share one pressure. Choose a "
+             " % of the tissue is layers or mixtures of cells of different "
+             "kinds, too fine for the grid: these share one pressure. Choose a "
              "finer grid, or make them bodies with a section Contact.\n"});
     }
 
@@ -291,10 +289,12 @@ namespace Morula
                           (H * H);
       rows.push_back(
         {"folds",
-         "a layer of " + as_text(H) + " um, two grid spacings, folds in " +
+         "friction lets a layer of " + as_text(H) +
+           " um (two grid spacings) "
+           "fold in " +
            as_text(time) + " day at a wavelength of " + as_text(wavelength) +
-           " um, and in 16 times that at twice the wavelength; where growth "
-           "brings it to its fold in less, friction chooses the wavelength"});
+           " um, in 16 times that at twice the wavelength; faster growth folds "
+           "it at shorter wavelengths"});
     }
 
     template <int dim>
@@ -326,7 +326,7 @@ namespace Morula
                     tissue.founders.n_global,
                     tissue.n_proliferating,
                     has_surface(model) && model.any_surface(true));
-      add_bodies(result.effects, model, tissue, comm);
+      add_bodies(result.effects, model, tissue);
       if (scene.material.volumetric_form() == VolumetricStrain::pooled)
         add_pools(result.effects, simulation.mixed_share());
       add_fold_time(result.effects,
@@ -336,7 +336,7 @@ namespace Morula
       for (const std::string &text : tissue.pieces)
         pieces += "    " + text + '\n';
       result.effects.push_back(
-        {"pieces", std::to_string(tissue.n_pieces), pieces});
+        {"connected parts", std::to_string(tissue.n_pieces), pieces});
       return result;
     }
 
@@ -352,7 +352,7 @@ namespace Morula
            << found.tissue.counts.points << " boundary points\n  grid spacing "
            << scene.grid.spacing << " um, cell spacing "
            << scene.tissue.cell_spacing << " um\n"
-           << "  until " << scene.time.end_time << " day in steps of "
+           << "  until day " << scene.time.end_time << ", in steps of "
            << scene.time.step << " day\n";
       print_method(text, scene);
       text << "Effects\n";
@@ -362,7 +362,8 @@ namespace Morula
       text << "Size\n  unknowns: " << found.n_unknowns
            << " in the first step\n  numbers stored per cell: "
            << found.n_numbers << " (" << 8 * found.n_numbers
-           << " bytes)\n  memory: " << found.memory / 1e9 << " GB here\n";
+           << " bytes)\n  memory of this machine: " << found.memory / 1e9
+           << " GB\n";
       for (const std::string &warning : found.tissue.warnings)
         text << warning << '\n';
     }

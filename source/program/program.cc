@@ -264,15 +264,14 @@ namespace Morula
       if (print_information(command, program.catalogue))
         return;
       if (command.resume && !program.resumes)
-        throw InputError("The command line",
-                         "--resume",
-                         "a new run",
-                         "This program makes several runs; leave the option "
-                         "out.");
+        throw InputError(
+          "This program makes several runs, which --resume cannot "
+          "go on with: leave it out.");
 
       Scene scene =
         Scene::read(command.scene_file, command.overrides, program.catalogue);
-      scene.replace = command.replace;
+      scene.replace      = command.replace;
+      scene.command_line = "morula " + command.text;
       // An error that is found after the reading gets the file and the line of
       // its key here, in one place. What the reading itself refuses has them
       // already.
@@ -384,10 +383,8 @@ namespace Morula
       {
         const CommandLine command = CommandLine::parse(words);
         if (command.serve)
-          throw InputError("The command line",
-                           "--serve",
-                           "this option alone, on one rank",
-                           "It reads from standard input what to run.");
+          throw InputError("--serve stands alone, on one rank: it reads from "
+                           "standard input what to run.");
         execute(command, *this, resume_hint);
         return 0;
       }

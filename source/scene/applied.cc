@@ -95,10 +95,6 @@ namespace Morula
        * of their magnitudes, kPa µm^(dim-1). */
       Tensor<1, dim> force;
       double         magnitude = 0.;
-      /** Whether it is a load that is zero at the end of every step. */
-      bool is_idle = false;
-      /** See BoundaryCondition. */
-      bool is_tension = false;
 
       AppliedCondition()
       {
@@ -140,28 +136,6 @@ namespace Morula
       }
     };
 
-    /** Whether a load is zero at the ends of all steps, or of many of them
-     *  where there are more. Collective. */
-    template <int dim>
-    bool
-    is_idle(const Scene                  &scene,
-            const LoadedPoints<dim>      &loaded,
-            const BoundaryCondition<dim> &condition,
-            const MPI_Comm                comm)
-    {
-      constexpr double most_times = 200.;
-      const double     end = scene.time.end_time, step = scene.time.step;
-      const double     n   = std::ceil(end / step - 1e-9);
-      double           sum = 0.;
-      for (double i = 1.; i <= n; i += std::max(1., std::floor(n / most_times)))
-        everywhere(comm, [&]() {
-          if (const auto forces =
-                forces_at_start(condition, loaded, std::min(i * step, end)))
-            for (const Tensor<1, dim> &force : *forces)
-              sum += force.norm();
-        });
-      return Utilities::MPI::sum(sum, comm) == 0.;
-    }
   } // namespace
 
 
@@ -230,7 +204,6 @@ namespace Morula
             continue; // Obstacles act where they touch, which is not known yet.
           AppliedCondition<dim> row;
           row.name           = name;
-          row.is_tension     = condition->is_tension();
           const bool is_load = condition->kind() == SurfaceCondition::loaded;
           // An expression may have no value at a point of one rank; then all
           // ranks must throw.
@@ -258,8 +231,6 @@ namespace Morula
               }
           });
           row.gather(comm);
-          row.is_idle = row.has_force && row.magnitude == 0. &&
-                        is_idle(scene, loads, *condition, comm);
           list.push_back(row);
         }
       return list;
@@ -298,32 +269,13 @@ namespace Morula
     /** With fewer patches a condition's area is not known to a tenth. */
     constexpr std::uint64_t fewest_points = 10;
 
-    /** The other keys of a condition than that of its place. */
-    template <int dim>
-    std::string
-    other_keys(const Scene                 &scene,
-               const AppliedCondition<dim> &one,
-               const AnyKey                &where)
-    {
-      std::string paths;
-      for (const AnyKey *key :
-           find_choice(scene.catalogue.boundary_conditions, one.name)
-             ->keys()
-             .list())
-        if (key != &where)
-          paths += (paths.empty() ? "" : " or ") + key->path();
-      return paths;
-    }
-
-    /** Loads that are none. */
+    /** Conditions that another one keeps from acting. */
     template <int dim>
     void
-    review_load(const Scene                 &scene,
-                const AppliedCondition<dim> &one,
-                const AnyKey                &where,
-                Review                      &review)
+    review_place(const AppliedCondition<dim> &one,
+                 const AnyKey                &where,
+                 Review                      &review)
     {
-      const std::string keys = other_keys(scene, one, where);
       if (one.points == 0 && one.chosen > 0)
         review.warn(where.path(),
                     where.text(),
@@ -331,11 +283,6 @@ namespace Morula
                       " boundary points that it chooses another condition wins "
                       "(fixed over slip, slip over loads).",
                     "Choose places that differ.");
-      else if (one.is_idle && !keys.empty() && !one.is_tension)
-        review.warn(where.path(),
-                    where.text(),
-                    "its load is zero at the end of every step.",
-                    "Set " + keys + ", or remove the condition.");
     }
 
     template <int dim>
@@ -389,7 +336,7 @@ namespace Morula
       review_points(scene, one, where, review);
     });
     for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
-      review_load(scene, one, where, review);
+      review_place(one, where, review);
     });
     return review.warnings;
   }

@@ -320,17 +320,6 @@ namespace Morula
       return text.str();
     }
 
-    std::string
-    balanced_by(const Scene &scene)
-    {
-      for (const auto &choice : scene.catalogue.boundary_conditions)
-        if (const EffectFacts facts = choice.keys().facts();
-            choice.keys().is_on() && facts.names_key != nullptr &&
-            facts.switch_key == nullptr)
-          return "the weak drag (4.8f)";
-      return "inertia";
-    }
-
     /** The pieces that hold cells, largest first. Collective. */
     template <int dim>
     std::vector<HeldPiece<dim>>
@@ -371,15 +360,14 @@ namespace Morula
       return pieces.result();
     }
 
-    /** E.g. "100 cells around (0 0) um: held nowhere", one for each of the
+    /** E.g. "100 cells around (0 0) um, not supported", one for each of the
      * first pieces. */
     template <int dim>
     std::vector<std::string>
-    texts_of(const Scene &scene, const std::vector<HeldPiece<dim>> &pieces)
+    texts_of(const std::vector<HeldPiece<dim>> &pieces)
     {
       // The largest pieces have a line each: where it is, what holds it, which
-      // motions nothing holds, and what balances its loads along these. The
-      // rest is counted.
+      // motions nothing holds, and its loads along these. The rest is counted.
       std::vector<std::string> texts;
       const unsigned int       all = RigidModes<dim>::n_modes;
       for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
@@ -388,22 +376,22 @@ namespace Morula
           std::ostringstream    text;
           text.precision(4);
           text << piece.cells << (piece.cells == 1 ? " cell" : " cells")
-               << " around " << vector_text(piece.center, 1e-6) << " um: ";
+               << " around " << vector_text(piece.center, 1e-6) << " um, ";
           if (piece.free_motions == all)
-            text << "held nowhere";
+            text << "not supported";
           else
             {
-              text << "held";
+              text << "supported";
               if (piece.held_points > 0)
                 text << " at " << piece.held_points << " boundary points";
               if (piece.has_friction)
                 text << (piece.held_points > 0 ? " and" : "") << " by friction";
               if (piece.free_motions > 0)
-                text << ", but for " << piece.free_motions << " rigid motions";
+                text << ", but free in " << piece.free_motions
+                     << " rigid motions";
             }
           if (piece.is_unbalanced)
-            text << "; loads add up to " << load_text(piece) << ", which "
-                 << balanced_by(scene) << " balances";
+            text << "; loads add up to " << load_text(piece);
           texts.push_back(text.str());
         }
       if (pieces.size() > most_listed)
@@ -432,21 +420,18 @@ namespace Morula
       if (pieces.size() == 1)
         piece << "the tissue";
       else
-        piece << "the piece of " << first->cells << " cells around "
+        piece << "the part of " << first->cells << " cells around "
               << vector_text(first->center, 1e-6) << " um"
               << (n > 1 ? " (nor " + std::to_string(n - 1) + " others)" : "");
-      const bool drags = balanced_by(scene) != "inertia";
-      review.warn("Boundary conditions",
-                  first->held_points > 0 ? "held in part" : "nothing held",
-                  "the loads add up to " + load_text(*first) +
-                    " at the end, and nothing holds " + piece.str() +
-                    (drags ? " against them unless an obstacle does: the weak "
-                             "drag (4.8f) balances them, and lets it go far in "
-                             "a step (doc/theory.md, section 4.4)." :
-                             " against them: inertia balances them, as in free "
-                             "fall (doc/theory.md, section 4.4)."),
-                  "Hold a part of its surface by Fixed where or Slip where, or "
-                  "balance the loads.");
+      review.warn(
+        "Boundary conditions",
+        first->held_points > 0 ? "supported in part" : "no support",
+        "the loads add up to " + load_text(*first) +
+          " at the end, and nothing holds " + piece.str() +
+          " against them: inertia balances them, as in free fall, or "
+          "beside obstacles a weak drag (doc/theory.md, section 4.4).",
+        "Hold a part of its surface by Fixed where or Slip where, or "
+        "balance the loads.");
       return review.warnings;
     }
   } // namespace
@@ -461,7 +446,7 @@ namespace Morula
     const std::vector<HeldPiece<dim>> pieces =
       held_pieces(model, tissue.founders, tissue.surface, comm);
     tissue.n_pieces = pieces.size();
-    tissue.pieces   = texts_of(model.scene, pieces);
+    tissue.pieces   = texts_of(pieces);
     return review_held(model.scene, pieces);
   }
 

@@ -288,21 +288,6 @@ namespace Morula
 
 
   template <int dim>
-  std::string
-  bodies_text(const Scene             &scene,
-              const SeededTissue<dim> &tissue,
-              const MPI_Comm           comm)
-  {
-    const BodyCounts counts =
-      count_bodies(scene.grid, tissue.founders, tissue.surface, comm);
-    return std::to_string(counts.bodies) +
-           (counts.bodies == 1 ? " body" : " bodies") + " in " +
-           std::to_string(counts.pieces) +
-           (counts.pieces == 1 ? " piece" : " pieces") + " of the grid";
-  }
-
-
-  template <int dim>
   SeededTissue<dim>
   seed_tissue(const TissueModel<dim> &model, const MPI_Comm comm)
   {
@@ -331,8 +316,6 @@ namespace Morula
       check_at_cells(model, tissue.founders.positions, comm);
     tissue.counts            = check_at_surface(model, tissue.surface, comm);
     const auto of_conditions = describe_conditions(model, tissue, comm);
-    if (scene.tissue.is_from_file() && interaction == nullptr)
-      tissue.bodies = bodies_text(scene, tissue, comm);
     if (scene.tissue.is_mesh())
       tissue.mesh = surfaces_text(volumes_of_surfaces(
         SurfaceMesh(scene.tissue.surface_mesh.path(), scene.tissue.surface_mesh)
@@ -348,7 +331,6 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(bodies_text);
   MORULA_INSTANTIATE(has_surface);
   MORULA_INSTANTIATE(seed_tissue);
 } // namespace Morula

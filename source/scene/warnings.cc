@@ -10,10 +10,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace Morula
 {
@@ -28,11 +28,6 @@ namespace Morula
 
     /** Places of this rank at which an expression is looked at. */
     constexpr std::size_t most_places = 4;
-
-    /** Where in time an expression leaves the range of a step's ends most: by
-     *  how much, relative to its range in time; when the step begins and ends,
-     *  and the values then and in between. */
-    using Excursion = std::array<double, 6>;
 
     /** The values of all variables at a place: 1 for what only the run knows,
      *  so that a factor that depends on time is seen. */
@@ -54,9 +49,10 @@ namespace Morula
       return values;
     }
 
-    /** The largest excursion of one component at one place.
-     *  @throws InputError where it has no value */
-    Excursion
+    /** By how much of its range in time a component leaves, at one place, the
+     *  range of its values at the ends of a step, at most, and the begin of
+     * that step, day. @throws InputError where it has no value */
+    std::pair<double, double>
     excursion(const Expression  &expression,
               const unsigned int component,
               VariableValues     values,
@@ -77,43 +73,28 @@ namespace Morula
           all.push_back(expression.value(values, component));
         }
       const auto [least, most] = std::minmax_element(all.begin(), all.end());
-      const double range       = *most - *least;
-      Excursion    worst{};
-      if (!(range > 1e-9 * std::max(std::abs(*most), std::abs(*least))))
-        return worst;
-      for (std::size_t n = 0; n < n_steps; ++n)
-        {
-          const double a = all[n * parts], b = all[(n + 1) * parts];
-          for (std::size_t i = n * parts + 1; i < (n + 1) * parts; ++i)
-            {
-              const double outside =
-                std::max(all[i] - std::max(a, b), std::min(a, b) - all[i]) /
-                range;
-              if (outside > worst[0])
-                worst = {{outside,
-                          step * n,
-                          std::min(step * (n + 1), end_time),
-                          a,
-                          b,
-                          all[i]}};
-            }
-        }
+      const double              range = *most - *least;
+      std::pair<double, double> worst{};
+      if (range > 1e-9 * std::max(std::abs(*most), std::abs(*least)))
+        for (std::size_t n = 0; n < n_steps; ++n)
+          {
+            const auto from = all.begin() + n * parts, to = from + parts;
+            const auto [low, high] = std::minmax_element(from, to);
+            worst                  = std::max(worst,
+                                              {std::max(*high - std::max(*from, *to),
+                                       std::min(*from, *to) - *low) /
+                                                 range,
+                                               step * n});
+          }
       return worst;
     }
 
-    /** An expression, and how many components of it count. */
-    struct Timed
-    {
-      Expression   expression;
-      unsigned int n_components;
-    };
-
-    /** The expressions of keys that are evaluated in the run and depend on
-     *  time. Those of types are keys as well. */
-    std::vector<Timed>
+    /** The expressions of keys, those of types as well, that are evaluated in
+     *  the run and depend on time, and how many components of each count. */
+    std::vector<std::pair<Expression, unsigned int>>
     of_time(const Scene &scene)
     {
-      std::vector<Timed> list;
+      std::vector<std::pair<Expression, unsigned int>> list;
       for (const AnyKey *any : scene.list())
         if (const auto *const key = dynamic_cast<const ExpressionKey *>(any);
             key != nullptr && !key->empty() &&
@@ -122,9 +103,9 @@ namespace Morula
             {
               const Expression &expression = key->expression(scene.dimension);
               if (expression.depends_on_time())
-                list.push_back(
-                  {expression,
-                   std::min(key->components(), scene.dimension.value())});
+                list.emplace_back(expression,
+                                  std::min(key->components(),
+                                           scene.dimension.value()));
             }
           catch (const std::exception &)
             {} // a word, such as a direction
@@ -143,9 +124,8 @@ namespace Morula
                  Review                    &review)
     {
       // A few founders and boundary points of each rank stand for all places.
-      // The worst of all ranks is told of, by the rank that has it, so that all
-      // print the same. Expressions that have no value somewhere are refused
-      // elsewhere.
+      // The worst of all ranks counts, so that all print the same. Expressions
+      // that have no value somewhere are refused elsewhere.
       std::vector<Point<dim>> places;
       for (const auto *points : {&founders.positions, &surface.positions})
         for (std::size_t i = 0; i < points->size();
@@ -153,18 +133,17 @@ namespace Morula
           places.push_back((*points)[i]);
       for (const auto &[expression, n_components] : of_time(scene))
         {
-          Excursion worst{};
+          std::pair<double, double> worst{};
           for (const Point<dim> &X : places)
             for (unsigned int c = 0; c < n_components; ++c)
               try
                 {
-                  const Excursion here = excursion(expression,
-                                                   c,
-                                                   values_at(X, expression),
-                                                   scene.time.step,
-                                                   scene.time.end_time);
-                  if (here[0] > worst[0])
-                    worst = here;
+                  worst = std::max(worst,
+                                   excursion(expression,
+                                             c,
+                                             values_at(X, expression),
+                                             scene.time.step,
+                                             scene.time.end_time));
                 }
               catch (const std::exception &)
                 {}
@@ -172,19 +151,14 @@ namespace Morula
           // counts.
           for (const auto &other : Utilities::MPI::all_gather(comm, worst))
             worst = std::max(worst, other);
-          const auto &[outside, begin, end, first, last, between] = worst;
-          if (outside <= most_outside)
-            continue;
-          review.warn(
-            expression.key(),
-            expression.text(),
-            "in the step from t = " + as_text(begin) + " to " + as_text(end) +
-              " day it is " + as_text(between) + " in between, and " +
-              as_text(first) + " and " + as_text(last) +
-              " at the ends: what happens between the ends of steps is "
-              "not seen, or in part.",
-            "Let steps end where it changes, and take at least ten "
-            "for a period.");
+          if (worst.first > most_outside)
+            review.warn(expression.key(),
+                        expression.text(),
+                        "it changes within the step that begins on day " +
+                          as_text(worst.second) +
+                          ": the run sees its values at the ends of steps.",
+                        "Let steps end where it changes, and take at least ten "
+                        "for a period.");
         }
     }
   } // namespace
@@ -234,7 +208,7 @@ namespace Morula
       keys->check(scene, review);
     for (const auto &[name, equation] : model.equations)
       equation->review(at, review);
-    review_idle_effects(scene, review);
+    review_idle_keys(scene, review);
     review_types(scene.cell_types, at, !founders.types.empty(), review);
     review_steps(scene, founders, surface, comm, review);
     scene.material.review(review);

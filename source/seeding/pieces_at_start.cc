@@ -236,14 +236,12 @@ namespace Morula
       review.warn(grid.spacing.path(),
                   as_text(grid.spacing) + " um",
                   "the tissue is " + std::to_string(counts.bodies) +
-                    " bodies, and the grid makes " +
+                    " bodies, of which the grid makes " +
                     std::to_string(counts.pieces) +
-                    (counts.pieces == 1 ? " piece" : " pieces") +
-                    " of them: those within a grid spacing of each other stick "
-                    "together from the start, though their cells do not touch "
-                    "(doc/faq.md, bodies that stick).",
-                  "A Grid/Spacing of less than half the gap between them keeps "
-                  "them apart.");
+                    ": those closer than a grid spacing stick together from "
+                    "the start.",
+                  "Set Contact/Between = bodies, or Grid/Spacing to less than "
+                  "half the gap between them.");
   }
 
 
@@ -342,9 +340,8 @@ namespace Morula
         path,
         value,
         "the tissue is only " + as_text(thickness) +
-          " um wide, less than a grid cell: one quadratic field goes "
-          "through its thickness, and details within it are lost "
-          "(doc/hard-cases.md, small_and_thin).",
+          " um wide, less than a grid cell: details across its thickness are "
+          "lost (doc/hard-cases.md, small_and_thin).",
         "Lower Grid/Spacing to half the thickness if they matter, with " +
           tissue.cell_spacing.path() + " at most a third of that.");
 
@@ -425,7 +422,7 @@ namespace Morula
                   tissue.points_file,
                   "its columns '" +
                     boost::join(founders.skipped_columns, "', '") +
-                    "' say nothing about cells here and are skipped.",
+                    "' are not known, and are skipped.",
                   "Columns that count are x, y, z, volume, generation, phase "
                   "and type: correct the name of one that is misspelt.");
     const double length = cell_length(founders, comm);
@@ -453,7 +450,7 @@ namespace Morula
                   tissue.points_file,
                   std::to_string(surface.n_outside) + " of " +
                     std::to_string(founders.n_global) +
-                    " cells stand outside of the surface around them: they "
+                    " cells lie outside the surface around them: they "
                     "leave gaps, and it encloses no more than their volume.",
                   advice);
     if (tissue.is_points() && surface.filled > 0.)

@@ -2,13 +2,18 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/available_memory.h>
+#include <morula/base/json.h>
+#include <morula/base/version.h>
 #include <morula/output/point_fields.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace Morula
 {
@@ -92,6 +97,44 @@ namespace Morula
         tables.push_back({"newton", newton_row({}, {}).header(), true});
       return tables;
     }
+
+    /** Adds to provenance.json which program begins or resumes the run, when,
+     *  where, and by which command. Collective.
+     *  @return the same, a line each */
+    std::string
+    note_provenance(const std::string &path,
+                    const std::string &command,
+                    const bool         resume,
+                    const MPI_Comm     comm)
+    {
+      // The file is a list, of which a resumed run keeps what is there. Its
+      // last line is the bracket that closes it.
+      const std::time_t now = std::time(nullptr);
+      char              date[32];
+      std::strftime(date, sizeof(date), "%FT%TZ", std::gmtime(&now));
+      std::string                                      text;
+      std::vector<std::pair<std::string, std::string>> members;
+      for (const auto &[name, value] :
+           std::vector<std::pair<std::string, std::string>>{
+             {"version", version_in_words()},
+             {"date", date},
+             {"host", Utilities::System::get_hostname()},
+             {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(comm))},
+             {"command", command}})
+        {
+          members.emplace_back(name, Json::text(value));
+          text += (text.empty() ? "" : "\n") + name + ": " + value;
+        }
+      on_root(comm, [&]() {
+        std::ifstream file(path);
+        std::string   list(std::istreambuf_iterator<char>(file), {});
+        const auto    end = list.rfind("\n]");
+        list =
+          resume && end != std::string::npos ? list.substr(0, end) + "," : "[";
+        write_atomically(path, list + '\n' + Json::object(members) + "\n]\n");
+      });
+      return text;
+    }
   } // namespace
 
   template <int dim>
@@ -156,6 +199,11 @@ namespace Morula
                      resumed_from ? resumed_from->time : 0.,
                      scene.time.end_time,
                      comm);
+    progress->message(note_provenance(path("provenance.json"),
+                                      scene.command_line,
+                                      resumed_from.has_value(),
+                                      comm),
+                      false);
     if (!lock->reason_without_lock().empty())
       message(lock->reason_without_lock());
     if (resumed_from)

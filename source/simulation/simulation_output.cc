@@ -200,10 +200,10 @@ namespace Morula
         << "Warning: at t = " << t
         << " day the forces on the tissue add up to (" << sum
         << ") kPa um^2 (2-D: kPa um), " << sum.norm() / magnitude
-        << " of their sizes: what is left, the weak drag (4.8f) balances, so "
-           "the tissue, or a piece of it, drifts until an obstacle stops it. "
-           "Hold it by Fixed where or Slip where, or give it Friction. Later "
-           "times are not told of.";
+        << " of their sizes: only a weak drag (4.8f) balances that, so the "
+           "tissue, or a part of it, drifts until an obstacle stops it. Hold it "
+           "by Fixed where or Slip where, or give it Friction. Further cases "
+           "are not reported.";
       return text.str();
     }
   } // namespace

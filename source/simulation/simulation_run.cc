@@ -167,14 +167,12 @@ namespace Morula
                 "Material: " + material_text(model.scene)};
     for (const auto &[name, text] : seeded.applied)
       warnings.push_back("Applied: " + name + " at " + text);
-    if (!seeded.bodies.empty())
-      warnings.push_back("Tissue: " + seeded.bodies);
     if (!seeded.mesh.empty())
       warnings.push_back("Surface mesh: " + seeded.mesh);
     if (!seeded.cuts.empty())
       warnings.push_back("Cut: " + seeded.cuts);
     for (const std::string &text : seeded.pieces)
-      warnings.push_back("Piece: " + text);
+      warnings.push_back("Connected tissue: " + text);
     warnings.insert(warnings.end(),
                     seeded.warnings.begin(),
                     seeded.warnings.end());

@@ -217,9 +217,9 @@ namespace Morula
                 "of each other near ("
              << *place
              << ") um. From now on they stick together there, though their "
-                "cells may not touch yet (doc/faq.md, bodies that stick). A "
-                "smaller Grid/Spacing lets them come closer. Later ones are "
-                "not told of.";
+                "cells may not touch yet (doc/faq.md, bodies that stick). Set "
+                "Contact/Between, or a smaller Grid/Spacing. Further cases are "
+                "not reported.";
         announce(text.str());
       }
     if (!model.development.is_mortal())
@@ -231,9 +231,9 @@ namespace Morula
     has_parted = true;
     std::ostringstream text;
     text << "Warning: at t = " << t << " day the tissue has parted: it has "
-         << n_pieces_ << " pieces now, and had " << before
-         << ". Each of them moves on its own. The column pieces of "
-            "statistics.csv has their number; later ones are not told of.";
+         << n_pieces_ << " parts now, and had " << before
+         << ". Each moves on its own. The column pieces of statistics.csv has "
+            "their number; further cases are not reported.";
     announce(text.str());
   }
 
@@ -253,14 +253,12 @@ namespace Morula
       return;
     std::ostringstream text;
     text << "Warning: from t = " << t
-         << " day on the surface faces itself at a distance of " << gap[0]
+         << " day on two surfaces face each other at a distance of " << gap[0]
          << " um near (" << Flat<Point<dim>>::read(&gap[1])
-         << ") um, and the splines reach across: the grid cannot see so narrow "
-            "a hole, or a gap between two parts of the tissue. Its sides stick "
-            "together, though their cells do not touch, and it hardly closes "
-            "any further (doc/faq.md, bodies that stick). A smaller "
-            "Grid/Spacing follows it down to two spacings. Later ones are not "
-            "told of.";
+         << ") um. The grid does not resolve so narrow a gap or lumen: its "
+            "walls are coupled, and it hardly closes any further (doc/faq.md, "
+            "bodies that stick). A smaller Grid/Spacing follows it down to two "
+            "spacings. Further cases are not reported.";
     announce(text.str());
   }
 
@@ -297,7 +295,7 @@ namespace Morula
               << ", more than 0.3: cells leave together that would stay once "
                  "others have left, as the rate follows the state of the "
                  "step's beginning. Shorten Time/Step, or lower the rate. "
-                 "Later ones are not told of.";
+                 "Further cases are not reported.";
             announce(text.str());
           }
   }
@@ -371,7 +369,7 @@ namespace Morula
     if (!std::exchange(has_told_of_cells, true))
       announce("Warning: at t = " + as_text(t) + " day " + text +
                "Smaller steps and grid spacings keep more of them inside. "
-               "Later ones are not told of.");
+               "Further cases are not reported.");
     return "";
   }
 

@@ -34,6 +34,16 @@ TEST(Suggestion, FindsTheMostSimilarWord)
 }
 
 
+TEST(Suggestion, KnowsTheWordsOfTheField)
+{
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(words_of_keys("Uptake"), Words{"Consumption"});
+  EXPECT_EQ(words_of_keys("cell size"), Words{"Cell spacing"});
+  EXPECT_EQ(words_of_keys("adhesion"), (Words{"Tension/With", "Fusion time"}));
+  EXPECT_EQ(words_of_keys("Spacing"), Words());
+}
+
+
 TEST(Suggestion, FindsPaths)
 {
   const std::vector<std::string> keys = {"Dimension",

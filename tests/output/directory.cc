@@ -42,6 +42,7 @@ TEST(Directory, LosesTheOldRunAndNothingElse)
   Names                  all       = {"parameters.prm",
                                       "parameters.prm.tmp",
                                       "log.txt",
+                                      "provenance.json",
                                       "cells.pvd",
                                       "surface.pvd",
                                       "cells-0000.vtu",

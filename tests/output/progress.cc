@@ -94,6 +94,7 @@ TEST(Summary, NamesTheDearestSections)
             "  steps           80, 2 rejected\n"
             "  wall time       3 min 20 s\n"
             "  spent mostly in linear solver 50 %, assembly 25 %, grid 10 %\n"
+            "  error in time   none to estimate\n"
             "  files in        output/");
 }
 

@@ -93,6 +93,30 @@ TEST(CommandLine, PrintsParametersThatCanBeReadBack)
   print_parameters(few, CommandLine::parse({"--parameters", "LUMEN", "gas"}));
   expect_parts(few.str(), {"Lumen pressure"});
   EXPECT_EQ(few.str().find("Lumen where"), std::string::npos);
+  // Words of the field find keys, also those of sections that scenes name.
+  for (const auto &[words, part] :
+       std::vector<std::pair<std::vector<std::string>, std::string>>{
+         {{"viscosity"}, "set Relaxation time"},
+         {{"cell", "size"}, "set Cell spacing"},
+         {{"uptake"}, "set Consumption"},
+         {{"morogen", "uptake"}, ""},
+         {{"apoptosis"}, "subsection Death"},
+         {{"stiffness"}, "set Young's modulus"},
+         {{"adhesion"}, "set With OTHER"},
+         {{"drag"}, "subsection Friction"},
+         {{"necrosis"}, "subsection Death"},
+         {{"surface", "tension"}, "set Surface tension"},
+         {{"morphogen"}, "subsection Fields"}})
+    {
+      CommandLine line = CommandLine::parse({"keys"});
+      line.words       = words;
+      std::ostringstream found;
+      if (part.empty())
+        EXPECT_THROW(print_parameters(found, line), InputError);
+      else
+        print_parameters(found, line);
+      expect_parts(found.str(), {part});
+    }
   std::size_t n_keys = 0;
   for (const Statement &statement : read_statements(out, "output"))
     n_keys += !statement.is_section;

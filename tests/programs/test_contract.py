@@ -60,7 +60,7 @@ DEFAULTS = {"Dimension": "3", "Output directory": "", "Random seed": "1", "Time/
             "Output/Condition estimate": "false", "Output/Newton trace": "false",
             "Solver/Newton iterations": "400"}
 ALWAYS = {"parameters.prm", "log.txt", "statistics.csv", "timings.csv", "lineage.csv",
-          "snapshot.h5", "forces.csv"}
+          "snapshot.h5", "forces.csv", "provenance.json"}
 WORDS = {"timings.csv": {0}, "forces.csv": {1, 2}}
 
 
@@ -212,7 +212,7 @@ def test_information(runs):
 def test_explain_counts_founders(runs, where, said):
     """Those that proliferate, and where."""
     text = runs.explain(CUBE, {"Proliferation/Cell cycle/Where": where})
-    assert f" day, Lambda = 2 /day, {said}" in text
+    assert f" day, G0 exit rate 2 /day, {said}" in text
 
 
 def test_condition_estimate(cube):

@@ -158,7 +158,7 @@ def test_pieces(runs):
         "Death/When": "abs(X) < 50 && t >= 0.25"})
     assert [*run.statistics["pieces"]] == [1, 1, 1, 2, 2, 2, 2, 2, 2]
     assert run.said.count("the tissue has parted") == 1
-    assert "it has 2 pieces now, and had 1" in run.said
+    assert "it has 2 parts now, and had 1" in run.said
 
 
 def test_rates_that_become_negative(runs):

@@ -54,15 +54,11 @@ IDLE = (
     ("Tension/Force", "false", {**TYPES, "Cell types/a/Tension/With b": 1}),
     ("Solver/Largest gap", 0.1, BOX),
     ("Fields/u/Dilution", "false", FIELD),
-    ("Growth/Rate/Rate", 0.3, GROWS),
-    ("Cell types/b/Growth/Rate/Rate", 0.3, GROWS),
     ("Cell types/b/Material/Yield stress", 0.3, TYPES),
-    ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE),
-    ("Proliferation/Cell cycle/Duration", 0.5,
-     {**BOX, "Proliferation/Law": "none"}),
-    ("Death/Final volume", 0.2, {**BOX, "Death/Rate": 0}))
+    ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE))
 
 READ = (
+    ("Growth/Rate/Rate", 0.3, GROWS),  # switched off by another law
     ("Tension/Force", "false", {**MOVES, "Cell types/a/Tension/With b": 1,
                                 "Rearrangement/Fluctuation energy": 1}),
     ("Solver/Largest gap", 0.1,
@@ -95,7 +91,7 @@ def points(runs, columns):
 
 def test_columns_that_nothing_reads(runs):
     said = runs.explain(POINTS, points(runs, {"phase": 1, "id": 7}))
-    assert "its columns 'id' say nothing about cells here and are skipped." in said
+    assert "its columns 'id' are not known, and are skipped." in said
 
 
 @pytest.mark.parametrize("keys, idle, acts, word", NOBODY)
@@ -111,13 +107,6 @@ def test_key_twice(runs):
     said = runs.explain(scene, {key: BOX[key] for key in BOX if key != "Grid/Spacing"})
     assert re.search("twice.prm:3: the key 'Grid/Spacing' is set to '40', which counts; "
                      ".*twice.prm:1: it was set to '30'", said)
-
-
-def test_all_of_an_effect_in_one_line(runs):
-    said = runs.explain(GROWS, {"Growth/Rate/Rate": 0.3, "Growth/Rate/Homeostasis": 0.1,
-                                "Cell types/a/Growth/Rate/Rate": 2})
-    assert ("Growth/Law = isotropic; so do Cell types/a/Growth/Rate/Rate, "
-            "Growth/Rate/Homeostasis.") in said
 
 
 @pytest.mark.parametrize("where, is_said", [("X < -20", True), ("X <= 20", False), ("1", False)])

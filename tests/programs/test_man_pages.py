@@ -41,7 +41,7 @@ def test_page(runs, name):
     assert not re.search(r"contrib/(?!python)", page.replace("\\-", "-"))
     if shutil.which("mandoc"):
         runs.call(["mandoc", "-T", "lint", "-W", "warning", file])
-    assert re.search(rf"(?m)^complete .*\b{name}\b", COMPLETION.read_text())
+    assert re.search(rf"(?m)^complete .*\b{name.removeprefix('morula-')}\b", COMPLETION.read_text())
 
 
 def complete(work, *words):
@@ -62,6 +62,8 @@ def test_completion(runs):
     for words, found in (
             ((morula, "bu"), ["bud.prm", "buds"]),
             ((morula, "--re"), ["--replace", "--resume"]),
+            ((morula, "re"), ["render", "report"]), ((morula, "render", "--mo"), ["--movie"]),
+            ((morula, "report", "budd"), ["budding.csv"]),
             ((morula, "bud.prm", "-s", "Time/S"),
              ["Time/Smallest step=", "Time/Step=", "Time/Stop at cells="]),
             ((morula, "bud.prm", "-s", "Time/End\\ t"), ["Time/End time="]),

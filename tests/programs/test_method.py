@@ -22,11 +22,12 @@ DISC = {"Dimension": "2", "Time/End time": "2", "Time/Step": "1", "Tissue/Radius
         "Tissue/Cell spacing": "10", "Grid/Spacing": "40", "Growth/Law": "isotropic",
         "Growth/Isotropic/Stretch": "1 + 0.1*t", "Boundary conditions/Fixed where": "Y <= 0",
         "Output/Interval": "0", "Output/Formats": "csv"}
+HEAD = 5  # lines of log.txt on version, date, host, ranks and command
 HALF = {"Time/End time": "1"}
 
 
 def first_line(run):
-    return (run.directory / "log.txt").read_text().splitlines()[0]
+    return (run.directory / "log.txt").read_text().splitlines()[HEAD]
 
 
 @pytest.fixture(scope="module")

@@ -4,6 +4,7 @@
 
 On the same number of ranks they agree bit for bit, on others in the lineage.
 """
+import json
 import re
 
 import h5py
@@ -119,6 +120,21 @@ def test_other_format(runs):
         assert listed == [f"{stem}-0003.vtu", f"{stem}-0004.vtu"]
     run = runs.run("formats", SCENE, {"Output/Formats": "csv, vtu"}, "--resume")
     assert "states so far" not in run.said
+
+
+def test_provenance(runs):
+    """log.txt begins with what provenance.json says of each part of a run, also once resumed."""
+    runs.run("provenance", SCENE, {END: 0.25})
+    run = runs.run("provenance", SCENE, {END: 0.375}, "--resume", ranks=2)
+    parts = json.loads((run.directory / "provenance.json").read_text())
+    assert [part["ranks"] for part in parts] == ["1", "2"]
+    assert parts[0]["command"].startswith(f"morula {SCENE} ")
+    assert f"'{END}=0.25'" in parts[0]["command"] and "--resume" in parts[1]["command"]
+    version = runs.call([runs.options.morula, "--version"]).stdout.split()[1]
+    assert {part["version"].split()[0] for part in parts} == {version}
+    log = (run.directory / "log.txt").read_text()
+    heads = ["".join(f"{name}: {value}\n" for name, value in part.items()) for part in parts]
+    assert log.startswith(heads[0]) and log.count(heads[1]) == 1
 
 
 def test_failure_is_logged(runs):

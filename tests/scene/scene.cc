@@ -165,7 +165,7 @@ TEST(Scene, RefusesBadFiles)
          {"subsection Time\n  set step = 1\nend",
           {"Time/step", "Did you mean 'Time/Step'"}},
          {"set Completely different = 1",
-          {"Completely different", "a key that exists", "--parameters"}},
+          {"Completely different", "a key that exists", "morula keys WORD"}},
          {"Spacing = 50",
           {"scene.prm:1",
            "Spacing = 50",

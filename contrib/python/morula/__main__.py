@@ -14,12 +14,9 @@ TOOLS = {  # those of an installation, then those that need Morula's tree, from
     # parameters on those of contrib/upkeep
     "accuracy": "morula.accuracy.tool", "cell-shapes": "morula.shapes.tool",
     "export": "morula.export.tool", "import": "morula.images.tool",
-    "render": "morula.render.tool",
-    "report": "morula.report.tool", "sweep": "morula.sweep.tool",
-    "reproduce": "reproduction.tool",
-    "parameters": "upkeep.parameters",
-    "man-pages": "upkeep.man_pages", "renew": "upkeep.renew",
-    "showcase": "upkeep.showcase.tool",
+    "render": "morula.render.tool", "report": "morula.report.tool", "sweep": "morula.sweep.tool",
+    "reproduce": "reproduction.tool", "parameters": "upkeep.parameters",
+    "man-pages": "upkeep.man_pages", "renew": "upkeep.renew", "showcase": "upkeep.showcase.tool",
     "benchmark": "tests.benchmarks.tool"}
 
 PACKAGES = {"vtkmodules": "python3-vtk9 (or python3-paraview)", "numpy": "python3-numpy",

@@ -12,12 +12,11 @@ INSTALLED = not (ROOT / "CMakeLists.txt").is_file()
 
 
 def _program():
-    if os.environ.get("MORULA"):  # set by the program that started this tool
-        return Path(os.environ["MORULA"])
-    if not INSTALLED:
-        return ROOT / "build/morula"
-    beside = ROOT.parent / "bin/morula"
-    return beside if beside.is_file() else Path(shutil.which("morula") or "morula")
+    beside = ROOT.parent / "bin/morula" if INSTALLED else ROOT / "build/morula"
+    if INSTALLED and not beside.is_file():
+        beside = shutil.which("morula") or "morula"
+    # the program that started this tool says where it is
+    return Path(os.environ.get("MORULA") or beside)
 
 
 MORULA = _program()

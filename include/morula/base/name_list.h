@@ -80,6 +80,13 @@ namespace Morula
                const std::vector<std::string> &candidates);
 
   /**
+   * What keys call a thing that has this name in the field, e.g. "Consumption"
+   * for "uptake": parts of their paths. Empty if that is no other word.
+   */
+  std::vector<std::string>
+  words_of_keys(const std::string &name);
+
+  /**
    * A suggestion for the full path of a key or section that does not exist: the
    * most similar path, or those that end with the same name. Empty if nothing
    * is similar.

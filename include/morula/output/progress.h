@@ -114,7 +114,7 @@ namespace Morula
     double        wall_seconds   = 0.; // across resumes
     SectionTimes  sections;
     std::string   directory;
-    /** Estimated, relative, if the run knows it. */
+    /** Estimated, relative, if steps can have one. */
     std::optional<double> error_in_time = {};
   };
 
@@ -150,9 +150,10 @@ namespace Morula
              const double       end_time,
              const MPI_Comm     comm);
 
-    /** Shows a message, of one or more lines, and logs it. */
+    /** Shows a message, of one or more lines, and logs it.
+     *  @param shown false: it is only logged */
     void
-    message(const std::string &text);
+    message(const std::string &text, const bool shown = true);
 
     /** Reports an accepted step. */
     void

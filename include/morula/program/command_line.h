@@ -19,10 +19,12 @@ namespace Morula
      *  @ref help. */
     std::string              scene_file;
     std::vector<std::string> overrides; // "Section/Key=value"
-    bool                     resume     = false;
-    bool                     replace    = false;
-    bool                     explain    = false;
-    bool                     parameters = false;
+    /** The words as a shell reads them. */
+    std::string text;
+    bool        resume     = false;
+    bool        replace    = false;
+    bool        explain    = false;
+    bool        parameters = false;
     /** With @ref parameters only those keys are printed that have all of these
      *  words. */
     std::vector<std::string> words;

@@ -120,7 +120,7 @@ namespace Morula
    *  tell: of effects that it switches off, and of keys that only some scenes
    *  read. Values of an effect whose switch it does not set are refused. */
   void
-  review_idle_effects(const Scene &scene, Review &review);
+  review_idle_keys(const Scene &scene, Review &review);
 
   /**
    * Warnings of what is legal in a scene but unwise. Each is a line with key,

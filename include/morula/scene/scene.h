@@ -51,6 +51,10 @@ namespace Morula
     /** Whether the run may delete any run that it finds in its directory. */
     bool replace = false;
 
+    /** What started the run, for provenance.json; empty if it was no command.
+     */
+    std::string command_line;
+
     /** What to say about keys that were written by a former name, or set twice.
      */
     std::vector<std::string> renamed;

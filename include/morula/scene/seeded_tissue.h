@@ -92,10 +92,8 @@ namespace Morula
     std::vector<std::pair<std::string, std::string>> applied;
     /** What bodies are that interact, by their numbers. */
     std::vector<BodyMeasures> measures;
-    /** Of how many bodies and pieces tissue from a file is, and which closed
-     *  surfaces its mesh has; empty otherwise. */
-    std::string bodies, mesh;
-
+    /** Which closed surfaces its mesh has; empty without a mesh. */
+    std::string mesh;
     /** How far the tissue is cut at t = 0; empty if it is not. */
     std::string cuts;
     /** Number of pieces that hold cells, and what holds the largest ones. */
@@ -128,13 +126,6 @@ namespace Morula
   describe_pieces(const TissueModel<dim> &model,
                   SeededTissue<dim>      &tissue,
                   const MPI_Comm          comm);
-
-  /** E.g. "2 bodies in 1 piece of the grid". Collective. */
-  template <int dim>
-  std::string
-  bodies_text(const Scene             &scene,
-              const SeededTissue<dim> &tissue,
-              const MPI_Comm           comm);
 
   /** Whether the tissue of a scene has boundary points. */
   template <int dim>

@@ -402,19 +402,17 @@ namespace Morula
         for (const BodyMeasures &body : bodies)
           thinnest = std::min(thinnest, body.thickness());
         std::ostringstream text;
-        text << "boundary points that face each other press from their first "
-                "overlap on, "
-             << as_text(keys.stiffness) << " E/h: bodies overlap by h/"
-             << as_text(keys.stiffness) << " (" << h / keys.stiffness
-             << " um) at a pressure of E; ";
+        text << "bodies overlap by " << h / keys.stiffness
+             << " um at a pressure of E (stiffness " << as_text(keys.stiffness)
+             << " E/h); ";
         if (keys.friction > 0.)
           text << "friction " << as_text(keys.friction) << " kPa day/um";
         else
           text << "without friction";
-        text << "; in a step two of them come nearer by at most " << way(h)
-             << " um; the thinnest body is about " << thinnest
-             << " um thick (2 V/A), the least is "
-             << ContactPoints<dim>::deepest_pair * h << " um; fields "
+        text << "; surfaces approach by at most " << way(h)
+             << " um in a step; the thinnest body is about " << thinnest
+             << " um thick, at least " << ContactPoints<dim>::deepest_pair * h
+             << " um are needed; fields "
              << (keys.fields_pass ? "pass from body to body" :
                                     "end at each body's surface");
         if (fuses())

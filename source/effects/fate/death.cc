@@ -105,7 +105,8 @@ namespace Morula
       std::string
       details() const override
       {
-        return "rate = " + rate.text() + " /day, when = " + when.text() +
+        return "rate = " + rate.text() + " /day" +
+               (when.is_default() ? "" : ", when " + when.text()) +
                ", shrinking time = " + shrinking_time.text() + " day";
       }
     };

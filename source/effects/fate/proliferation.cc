@@ -157,7 +157,7 @@ namespace Morula
                   as_text(scene.keys.time.step) + " day",
                   "that is " + as_text(scene.keys.time.step / shortest) +
                     " of the shortest cell cycle, " + as_text(shortest) +
-                    " day; measured are steps of up to a quarter "
+                    " day; we have tested steps up to a quarter "
                     "(doc/accuracy-and-cost.md, advice; doc/hard-cases.md, "
                     "showcase).",
                   "Shorten the step to 0.1 or 0.2 of the cycle.");

@@ -121,7 +121,7 @@ namespace Morula
         "Fields/" + field.name + "/Consumption",
         "",
         "a rate > 0 1/day at some cell, or a value or a transfer > 0 at some "
-        "boundary point, of each separate piece of the tissue in which "
+        "boundary point, of each separate part of the tissue in which "
         "something makes the field",
         "Without a sink a steady field has no level: any constant could be "
         "added to it. Dead cells take nothing.");

@@ -86,17 +86,19 @@ namespace Morula
   std::string
   FieldKeys::details() const
   {
-    std::string text = time + ", D = " + diffusion.text() +
-                       " um^2/day, s = " + production.text() +
-                       ", k = " + consumption.text() + " /day";
+    const auto at = [](const ExpressionKey &where) {
+      return where.text() == "1" ? std::string(" on the whole surface") :
+                                   " on the surface where " + where.text();
+    };
+    std::string text = time + ", diffusion " + diffusion.text() +
+                       " um^2/day, production " + production.text() +
+                       " /day, consumption " + consumption.text() + " /day";
     if (!fixed_where.empty())
-      text +=
-        ", " + value.text() + " at boundary points where " + fixed_where.text();
+      text += ", " + value.text() + at(fixed_where);
     if (!transfer.empty())
       text += ", transfer " + transfer.text() + " um/day to " + value.text();
     if (!flux_where.empty())
-      text += ", flux " + flux.text() + " um/day in at boundary points where " +
-              flux_where.text();
+      text += ", flux " + flux.text() + " um/day in" + at(flux_where);
     return text;
   }
 
@@ -324,7 +326,7 @@ namespace Morula
                     what + ", and a cell is " + as_text(cell) +
                       " um long. Is Diffusion in um^2/day (1 um^2/s is 86400 "
                       "of it), Consumption in 1/day?",
-                    "If it is meant so, all is well.");
+                    "Correct the unit, or leave it if that is meant.");
       else if (const double wrong = excess_at_fixed_values(*reach / h);
                points.fixed > 0. && wrong > 0.)
         review.warn(field.diffusion.path(),

@@ -163,7 +163,7 @@ namespace Morula
                       std::to_string(field.iterations) +
                       " iterations, as what cells do to it depends on itself. "
                       "The next step goes on from there; expressions without "
-                      "jumps converge better. Later ones are not told of.");
+                      "jumps converge better. Further cases are not reported.");
         if (field.raised > 1.)
           warn_once(warned_of_surface,
                     "the fixed value of the field '" + name +
@@ -172,18 +172,18 @@ namespace Morula
                       "the tissue thin, within a grid spacing, and the field "
                       "is inexact there. Take a smaller Grid/Spacing with "
                       "smaller cells, or keep the surface smooth by Boundary "
-                      "conditions/Surface tension. Later times are not told "
-                      "of.");
+                      "conditions/Surface tension. Further cases are not "
+                      "reported.");
         if (const unsigned int n = field.pieces_of_nothing; n > 0)
           warn_once(warned_of_nothing,
-                    (n == 1 ? "a separate piece" :
-                              std::to_string(n) + " separate pieces") +
+                    (n == 1 ? "a separate part" :
+                              std::to_string(n) + " separate parts") +
                       " of the tissue has neither source nor sink of the "
                       "steady field '" +
                       name +
                       "': its level there is not determined, and is set to 0. "
                       "Give it a Consumption, a fixed value or a Transfer "
-                      "there. Later ones are not told of.");
+                      "there. Further cases are not reported.");
       }
 
       const Fields<dim>              &fields;

@@ -47,7 +47,7 @@ namespace Morula
       std::string
       details() const override
       {
-        return coefficient.text() + " kPa day/um^2";
+        return "coefficient " + coefficient.text() + " kPa day/um^2";
       }
     };
 

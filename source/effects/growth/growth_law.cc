@@ -112,15 +112,16 @@ namespace Morula
     // it. The two limits are the largest steps that were measured; 1e-9 is for
     // rounding.
     if (ratio > (scene.is_clamped ? 1.2 : 1.4) + 1e-9)
-      review.warn(TimeParameters::step_path,
-                  as_text(scene.keys.time.step) + " day",
-                  "in one step cells grow (or wither) by a factor of up to " +
-                    as_text(ratio) +
-                    "; measured are steps of up to 1.2 beside a clamp, where "
-                    "one of 1.1 is enough, and of 1.4 elsewhere "
-                    "(doc/accuracy-and-cost.md, advice).",
-                  "Shorten the step, unless you have compared with shorter "
-                  "ones.");
+      review.warn(
+        TimeParameters::step_path,
+        as_text(scene.keys.time.step) + " day",
+        "in one step cells grow (or wither) by a factor of up to " +
+          as_text(ratio) +
+          "; we have tested up to 1.2 beside a clamp (where 1.1 suffices) "
+          "and 1.4 elsewhere "
+          "(doc/accuracy-and-cost.md, advice).",
+        "Shorten the step, unless you have compared with shorter "
+        "ones.");
   }
 
 

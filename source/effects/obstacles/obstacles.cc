@@ -415,8 +415,8 @@ namespace Morula
                 "Obstacles/Names",
                 obstacle.name,
                 std::to_string(n_cells) +
-                  " cells stand in it, and no boundary point does: it "
-                  "lies within the tissue, where nothing feels it.",
+                  " cells lie in it, but no boundary point: inside the tissue "
+                  "it has no effect.",
                 "Make a hole in the tissue around it, or move it.");
           }
       }

@@ -70,11 +70,6 @@ namespace Morula
                                1)
       {}
 
-      bool
-      is_tension() const override
-      {
-        return true;
-      }
 
       /** @throws InputError if the tension has no value or is negative */
       std::unique_ptr<Term<dim>>

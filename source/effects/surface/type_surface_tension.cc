@@ -43,11 +43,6 @@ namespace Morula
           }
       }
 
-      bool
-      is_tension() const override
-      {
-        return true;
-      }
       std::unique_ptr<Term<dim>>
       term(const LoadedPoints<dim> &points, const double) const override
       {

@@ -82,8 +82,8 @@ def accuracy(run):
         ("elastic volume ratio, all steps",
          f"{rows['min_elastic_volume_ratio'].min():.3g} to "
          f"{rows['max_elastic_volume_ratio'].max():.3g}"),
-        ("error in time, its own estimate", in_time is not None
-         and f"{100 * in_time:.2g} % of growth and strain"),
+        ("error in time, its own estimate", "none to estimate" if in_time is None
+         else f"{100 * in_time:.2g} % of growth and strain"),
         ("condition estimate, largest", condition(run))]
     return [(name, value) for name, value in found if value]
 

@@ -2,7 +2,6 @@
 # Copyright (C) 2026 by the Morula authors
 """The command morula report."""
 import argparse
-import shutil
 import sys
 from pathlib import Path
 
@@ -66,17 +65,15 @@ def check(run, options):
 
 
 def find_program(wanted):
-    """The program that was named, or the one that is found, or None."""
-    if wanted is not None:
-        return Program(wanted)
-    for file in filter(None, (MORULA, shutil.which("morula"))):
-        try:
-            program = Program(file)  # which must be an executable
-            program.defaults  # that of another machine fails
-            return program
-        except (Refused, OSError):
-            continue
-    return None
+    """The program that was named, or the usual one if it works here, or None."""
+    try:
+        program = Program(wanted or MORULA)  # which must be an executable
+        program.defaults  # that of another machine fails
+        return program
+    except (Refused, OSError):
+        if wanted is not None:
+            raise
+        return None
 
 
 def main(words=None):

@@ -23,10 +23,8 @@ Voronoi region of each cell among all cells, cut off at the tissue's surface
     morula shapes output/bud --all               all states
     morula shapes output/bud --time 1 --where "y < 0 && generation >= 2"
 
-It writes cell-shapes-NNNN.vtu for cells-NNNN, with all columns of the cells,
-and region_volume, neighbours and touches_surface besides, and cell-shapes.pvd,
-which lists them over time. doc/looking-at-results.md says how regions are cut
-off, and how well they fill the tissue.
+It writes cell-shapes-NNNN.vtu, with the cells' columns, region_volume, neighbours and
+touches_surface, and cell-shapes.pvd for all of them: doc/looking-at-results.md.
 """
 
 

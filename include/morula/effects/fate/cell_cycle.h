@@ -105,8 +105,8 @@ namespace Morula
     std::string
     details() const override
     {
-      return "cell cycle, T = " + duration.text() +
-             " day, Lambda = " + exit_rate.text() + " /day" +
+      return "cell cycle, duration T = " + duration.text() +
+             " day, G0 exit rate " + exit_rate.text() + " /day" +
              (size_checkpoint.is_default() ?
                 "" :
                 ", size checkpoint J_th = " + size_checkpoint.text());

@@ -55,8 +55,10 @@ namespace Morula
     std::string
     details() const override
     {
-      return "tau = " + time.text() +
-             " day, yield stress = " + yield_stress.text() + " kPa";
+      return "viscoelastic, tau = " + time.text() + " day" +
+             (yield_stress.is_default() ?
+                "" :
+                ", yield stress = " + yield_stress.text() + " kPa");
     }
   };
 

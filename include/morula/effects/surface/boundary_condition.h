@@ -74,14 +74,6 @@ namespace Morula
       return SurfaceCondition::loaded;
     }
 
-    /** Whether it is a tension: forces along a closed surface add up to none,
-     *  so that neither their sum nor their size tells whether it acts. */
-    virtual bool
-    is_tension() const
-    {
-      return false;
-    }
-
     /** Whether it acts on the point with initial position @p X (µm) and initial
      *  outward unit normal @p N; asked at t = 0. */
     virtual bool

@@ -11,7 +11,7 @@ SCENE = {"Dimension": 2, "Time/End time": 1, "Time/Step": 0.1, "Tissue/Shape": "
          "Output/Interval": 0, "Output/Snapshot interval": 0.1}
 MESSAGE = re.compile(r"Warning: at t = ([0-9.]+) day two parts of the tissue have come within a "
                      r"grid spacing of each other near \(([-0-9.e]+) ([-0-9.e]+)\) um\.")
-AT_START = re.compile(r"the tissue is (\d+) bodies, and the grid makes (\d+) pieces? of them")
+AT_START = re.compile(r"the tissue is (\d+) bodies, of which the grid makes (\d+):")
 
 
 def bodies(runs, gaps, rate):

@@ -18,16 +18,19 @@ namespace Morula
   EffectKeys::details() const
   {
     // The list begins with a comma since the name of the effect stands before
-    // it. Defaults are left out, unless there is nothing else.
-    const auto keys = list();
+    // it. Defaults that switch something off or on are left out, unless there
+    // is nothing else.
+    const auto list = this->list();
     const bool all =
-      std::all_of(keys.begin(), keys.end(), [](const AnyKey *key) {
+      std::all_of(list.begin(), list.end(), [](const AnyKey *key) {
         return key->is_default();
       });
     std::string text;
-    for (const AnyKey *key : keys)
-      if ((all || !key->is_default()) && !key->text().empty())
-        text += ", " + key->short_name() + " = " + key->text();
+    for (const AnyKey *key : list)
+      if (const std::string value = key->text();
+          !value.empty() &&
+          (all || !key->is_default() || (value != "0" && value != "true")))
+        text += ", " + key->short_name() + " = " + value;
     return text;
   }
 

@@ -24,8 +24,10 @@ namespace Morula
      *  motion by h with a stress of a tenth of E, or a hundred times E. */
     constexpr double first_drag = 1e3, strongest_drag = 1e6;
 
-    /** How much stronger it becomes at a time, or weaker. */
-    constexpr double change_of_drag = 4.;
+    /** How much stronger it becomes where a step fails, and how much stronger
+     *  or weaker after one: so that no strand turns by more than half of what
+     *  it may in a step, as one that folds turns twice as far in the next. */
+    constexpr double change_of_drag = 4., small_change = 2., most_of_turn = 0.5;
 
     /** Steps that are held back are Step/4 or shorter. In longer ones tissue
      *  would grow far under the drag, which then chooses how it folds. */
@@ -153,7 +155,7 @@ namespace Morula
   }
 
   void
-  TimeSteps::accept()
+  TimeSteps::accept(const double turn)
   {
     // Three things can follow a step. Its interval is done: the next one
     // begins, with steps as long as before if Tolerance chooses them, else with
@@ -170,8 +172,11 @@ namespace Morula
         state_.good = state_.patience;
       }
     const bool grows = parameters.tolerance <= 0. && may_grow();
-    if (state_.good >= state_.patience)
-      state_.drag = std::max(1., state_.drag / change_of_drag);
+    if (turn > most_of_turn)
+      state_.drag = std::min(strongest_drag, small_change * state_.drag);
+    else if (state_.good >= state_.patience &&
+             small_change * turn <= most_of_turn)
+      state_.drag = std::max(1., state_.drag / small_change);
     if (state_.part == 1u << state_.level)
       {
         // An interval that End time has cut is not finished: a resumed run with

@@ -201,7 +201,13 @@ namespace Morula
                         const typename StepEquilibrium<dim>::Solution &solution)
   {
     const DisplacementField<dim> displacement(space, solution.u, comm);
-    warn_of_turn(displacement);
+    warn_of_turn(space, displacement);
+    // How far a strand turns that was held back tells how it is held on.
+    double turn = 0.;
+    if (time_steps.state().drag > 1.)
+      for (turn = 1.; turn > 0.25 &&
+                      !turns_too_far(tissue, space, displacement, 0.5 * turn);)
+        turn *= 0.5;
     // commit() empties growth_of_step, so what the step before missed of growth
     // is read here.
     const double missed_growth = mean_missed(growth_of_step.missed_growth);
@@ -216,7 +222,7 @@ namespace Morula
         pull_back_detached_points(tissue);
       }
     row.dt = time_steps.next() - time_steps.time();
-    time_steps.accept();
+    time_steps.accept(turn);
   }
 
 

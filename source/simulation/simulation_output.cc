@@ -243,14 +243,15 @@ namespace Morula
 
   template <int dim>
   void
-  Simulation<dim>::warn_of_turn(const DisplacementField<dim> &displacement)
+  Simulation<dim>::warn_of_turn(const SplineSpace<dim>       &space,
+                                const DisplacementField<dim> &displacement)
   {
     // Steps in which tissue snaps take many iterations. So others are not
     // looked at, which costs nothing then.
     constexpr unsigned int many_iterations = 15;
     if (told_of_turn || tissue.cells().has_parts() ||
         newton_report.newton_iterations < many_iterations ||
-        !turns_too_far(tissue, displacement))
+        !turns_too_far(tissue, space, displacement))
       return;
     told_of_turn = true;
     files->message(turn_message(time_steps.time()));

@@ -108,14 +108,14 @@ namespace Morula
 
   namespace
   {
-    /** The cosine of the largest turn of tissue, 36°: two points that did not
-     *  face each other, whose normals' product was above -0.3, do not look at
-     *  each other straight after both have turned by less. */
-    constexpr double straight_on = 0.8;
+    /** The largest turn of tissue, 36°: two points that did not face each
+     *  other, whose normals' product was above -0.3, do not look at each other
+     *  straight after both have turned by less. */
+    const double largest_turn = std::acos(0.8);
 
-    /** The least |f - I| of tissue that has turned so far, and how much of it
-     *  counts, in h^dim: single cells at the end of a fold may turn. */
-    constexpr double least_change = 0.5, strand = 0.3;
+    /** How much of tissue that has turned so far counts, in h^dim: single cells
+     *  at the end of a fold may turn. */
+    constexpr double strand = 0.3;
 
     /** The cosine of the angle by which f = R U turns, from the trace of R. */
     template <int dim>
@@ -133,40 +133,54 @@ namespace Morula
   template <int dim>
   bool
   turns_too_far(const Tissue<dim>            &tissue,
-                const DisplacementField<dim> &displacement)
+                const SplineSpace<dim>       &space,
+                const DisplacementField<dim> &displacement,
+                const double                  part)
   {
     // Cells tell how the tissue turns, as boundary points beyond the last ones
-    // see an extrapolated field. Of cells that turn those within h around are
-    // taken together, so that a few do not count.
+    // see an extrapolated field. Of cells that turn those of a piece within h
+    // around are taken together, so that a few do not count, nor single cells
+    // between the sides of a fold, which nothing keeps from turning. The part
+    // of f - I that turns by φ is as large as √2 sin φ, which is faster to look
+    // at.
+    const double sine             = std::sin(part * largest_turn),
+                 cosine           = std::cos(part * largest_turn);
     const Cells<dim>       &cells = tissue.cells();
     const double            h     = tissue.grid().box().spacing();
     std::vector<double>     turned(cells.size(), 0.); // volume, µm^dim
+    std::vector<double>     pieces;                   // of all cells
     std::vector<Point<dim>> queries;
+    std::vector<double>     of_queries;
+    for (const auto &grid_cell : cells.grid_cells())
+      pieces.resize(grid_cell.end,
+                    space.piece(grid_cell.number, grid_cell.part));
     displacement.at_points(
       cells,
       [&](const unsigned int       p,
           const LocalField<dim>   &field,
           const SplineValues<dim> &splines) {
         const Tensor<2, dim> f = field.step_deformation(splines);
-        if ((f - Tensor<2, dim>(unit_symmetric_tensor<dim>())).norm() <
-              least_change ||
-            cosine_of_turn(f) > straight_on)
+        if ((f - Tensor<2, dim>(unit_symmetric_tensor<dim>())).norm() < sine ||
+            cosine_of_turn(f) > cosine)
           return;
         turned[p] = cells.volume(p);
         queries.push_back(cells.position(p));
+        of_queries.push_back(pieces[p]);
       });
     const auto numbers = [&](const unsigned int p, std::vector<double> &list) {
       list.push_back(turned[p]);
+      list.push_back(pieces[p]);
     };
     const PointList<dim> near = near_points(
-      queries, cells, {1, numbers, Ties::lowest_id}, tissue.grid(), 1);
+      queries, cells, {2, numbers, Ties::lowest_id}, tissue.grid(), 1);
     const NearTree<dim> tree(near.positions);
     double              largest = 0.;
-    for (const Point<dim> &x : queries)
+    for (std::size_t k = 0; k < queries.size(); ++k)
       {
         double volume = 0.;
-        for (const unsigned int i : tree.within(x, h))
-          volume += near.row(i)[0];
+        for (const unsigned int i : tree.within(queries[k], h))
+          if (near.row(i)[1] == of_queries[k])
+            volume += near.row(i)[0];
         largest = std::max(largest, volume);
       }
     return Utilities::MPI::max(largest, tissue.communicator()) >

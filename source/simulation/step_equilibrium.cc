@@ -202,11 +202,7 @@ namespace Morula
               is_solved                           = false;
               const Equilibrium::Evaluation found = find_in_turn(
                 attempt, parts.is_exact, early, balance, linear, u, report);
-              if (tissue.cells().has_parts() &&
-                  turns_too_far(tissue, {space, u, comm}))
-                throw StepFailed(
-                  "a strand of the tissue turns by more than 36 degrees, so "
-                  "that the step is too long for its contact");
+              check_turn(u);
               is_solved = true;
               return found;
             },
@@ -225,6 +221,17 @@ namespace Morula
           throw StepFailed(failure.what() + (". " + balance.describe(u)),
                            is_solved);
         }
+    }
+
+    /** @throws StepFailed where contact of folds does not see what meets. */
+    void
+    check_turn(const Equilibrium::Vector &u) const
+    {
+      if (tissue.cells().has_parts() &&
+          turns_too_far(tissue, space, {space, u, comm}))
+        throw StepFailed("a strand of the tissue turns by more than 36 "
+                         "degrees, so that the step is too long for its "
+                         "contact");
     }
 
     /** Newton's method from u on, and a proximal path where it fails. */
@@ -257,18 +264,18 @@ namespace Morula
           parameters.newton_iterations =
             std::min(50u, parameters.newton_iterations.value());
         }
+      const auto check = [this](const auto &state) { check_turn(state); };
       try
         {
           return Morula::solve(
-            balance, linear, scales, parameters, timer, u, report, early);
+            balance, linear, scales, parameters, timer, u, report, check, early);
         }
       catch (const StepFailed &)
         {
           if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
               tissue.cells().has_parts())
             throw;
-          // Newton's method may have left u anywhere. The path starts from the
-          // last state that is known to be good.
+          // The path starts from the last good state, as u may be anywhere.
           u = begin;
           return follow_proximal_path(
             balance, linear, scales, model.scene.solver, timer, u, report);

@@ -85,13 +85,15 @@ namespace Morula
 
       /** @param has_energy whether a lower energy counts as progress
        *  @param report     kept as a reference, as are the tangents */
-      ConvergenceTest(const Bounds   &bounds,
-                      const Tangents &tangents,
-                      const bool      has_energy,
-                      NewtonReport   &report)
+      ConvergenceTest(const Bounds     &bounds,
+                      const Tangents   &tangents,
+                      const bool        has_energy,
+                      const CheckState &check,
+                      NewtonReport     &report)
         : bounds(bounds)
         , tangents(tangents)
         , has_energy(has_energy)
+        , check(check)
         , report(report)
       {}
 
@@ -194,6 +196,8 @@ namespace Morula
           }
         has_risen = has_risen || norm > last_norm;
         last_norm = norm;
+        if (iteration > 0 && check && group.curvature() < 0.)
+          check(values_of(group.getX()));
         if (!report.wants_trace)
           return;
         NewtonIteration state{report.place,
@@ -209,12 +213,13 @@ namespace Morula
         report.trace.push_back(state);
       }
 
-      const Bounds    bounds;
-      const Tangents &tangents;
-      const bool      has_energy;
-      NewtonReport   &report;
-      double          last_norm   = std::numeric_limits<double>::infinity();
-      double          lowest_norm = // that counted as progress, N
+      const Bounds     bounds;
+      const Tangents  &tangents;
+      const bool       has_energy;
+      const CheckState check;
+      NewtonReport    &report;
+      double           last_norm   = std::numeric_limits<double>::infinity();
+      double           lowest_norm = // that counted as progress, N
         std::numeric_limits<double>::infinity();
       double      lowest_energy = std::numeric_limits<double>::infinity();
       double      gained        = std::numeric_limits<double>::infinity();
@@ -424,6 +429,7 @@ namespace Morula
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
         NewtonReport           &report,
+        const CheckState       &check,
         const Renewal          &renew)
   {
     // The state u, which is where the solve starts, is evaluated first,
@@ -467,7 +473,7 @@ namespace Morula
       for (;;)
         {
           const auto test   = Teuchos::rcp(new ConvergenceTest(
-            bounds, tangents, linear_problem.symmetric, report));
+            bounds, tangents, linear_problem.symmetric, check, report));
           const auto solver = NOX::Solver::buildSolver(
             group,
             test,

@@ -263,6 +263,45 @@ TEST(Newton, GoesDownFromAHill)
 }
 
 
+// It asks of states to which indefinite tangents have led, and ends where one
+// is refused.
+TEST(Newton, EndsWhereAStateIsRefused)
+{
+  QuietTimer             timer;
+  NewtonReport           report;
+  unsigned int           asked = 0;
+  const SolverParameters parameters;
+  const CheckState       check = [&](const Equilibrium::Vector &u) {
+    ++asked;
+    if (u.linfty_norm() > 0.1)
+      throw StepFailed("too far");
+  };
+  ChainProblem well = alike(
+    n,
+    [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
+    [](double u) { return 4. * u * (u * u - 1.) - 0.1; },
+    [](double u) { return 12. * u * u - 4.; });
+  Equilibrium::Vector u = well.zero();
+  try
+    {
+      solve(
+        well, well.linear, well.scales, parameters, timer, u, report, check);
+      FAIL() << "it must fail";
+    }
+  catch (const StepFailed &failure)
+    {
+      EXPECT_NE(std::string(failure.what()).find("too far"), std::string::npos);
+    }
+  EXPECT_GT(asked, 0u);
+  ChainProblem stable = hardening(0.);
+  asked               = 0;
+  u                   = stable.zero();
+  solve(
+    stable, stable.linear, stable.scales, parameters, timer, u, report, check);
+  EXPECT_EQ(asked, 0u);
+}
+
+
 TEST(Newton, FailsWithoutASolution)
 {
   ONE_RANK_IS_ENOUGH();

@@ -141,9 +141,11 @@ namespace Morula
       return time() >= parameters.end_time - time_slack * parameters.step;
     }
 
-    /** Records that the step has succeeded. */
+    /** Records that the step has succeeded.
+     *  @param turn the largest turn of a strand that was held back, in units of
+     *         the largest one allowed */
     void
-    accept();
+    accept(const double turn = 0.);
 
     /** Whether half the next step is at least Smallest step. */
     bool

@@ -272,7 +272,8 @@ namespace Morula
     /** Says once where tissue without contact may have passed through itself.
      */
     void
-    warn_of_turn(const DisplacementField<dim> &displacement);
+    warn_of_turn(const SplineSpace<dim>       &space,
+                 const DisplacementField<dim> &displacement);
     void
     complete_row();
     void

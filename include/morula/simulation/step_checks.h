@@ -45,12 +45,14 @@ namespace Morula
                       const MPI_Comm                 comm);
 
   /** Whether a strand of tissue turns so far in a step, by 36°, that its
-   *  surface may have passed through one which it did not face at t.
-   *  Collective. */
+   *  surface may have passed through one which it did not face at t; or by this
+   *  @p part of it. Collective. */
   template <int dim>
   bool
   turns_too_far(const Tissue<dim>            &tissue,
-                const DisplacementField<dim> &displacement);
+                const SplineSpace<dim>       &space,
+                const DisplacementField<dim> &displacement,
+                const double                  part = 1.);
 
   /** What is known of a step that no attempt has solved. */
   struct FailedStep

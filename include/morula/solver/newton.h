@@ -69,6 +69,10 @@ namespace Morula
   /** Renews what an equilibrium holds fixed, as TurnParticipant::renew(). */
   using Renewal = std::function<bool(const Equilibrium::Vector &u)>;
 
+  /** Throws StepFailed on all ranks where a state of a solve is none from which
+   *  the problem's solution can be found. Collective. */
+  using CheckState = std::function<void(const Equilibrium::Vector &)>;
+
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
    * NOX; doc/theory.md, section 5):
@@ -90,6 +94,7 @@ namespace Morula
    * @param u      in: where to start from; out: the increment, or where the
    *               method has failed
    * @param report in/out: this solve's work is added, also when it fails
+   * @param check  called with the states to which indefinite tangents have led
    * @param renew  called on the way where the first iteration has gone well:
    *               turns of their own, which begin with the last tangent
    * @return energy and extremes at u
@@ -103,6 +108,7 @@ namespace Morula
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
         NewtonReport           &report,
+        const CheckState       &check = {},
         const Renewal          &renew = {});
 
   /** Solves with what is held fixed; may renew it early. */

@@ -304,9 +304,8 @@ namespace Morula
     std::optional<Equilibrium::Vector>
     start(const Attempt &attempt) const
     {
-      // Where a clamp moves, Newton's method starts with the tissue going
-      // along, doc/theory.md (4.14). From u = 0 it may not converge where the
-      // clamp moves by a grid spacing.
+      // Where a clamp moves the tissue goes along from the start, doc/theory.md
+      // (4.14): from u = 0 Newton's method may fail if it moves by h.
       if (!model.boundary_conditions.has_dirichlet())
         return {};
       std::vector<HeldPoint<dim>> points;

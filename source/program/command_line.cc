@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/input_error.h>
-#include <morula/base/parameter_keys.h>
 #include <morula/base/name_list.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/base/version.h>
 #include <morula/program/command_line.h>
 #include <morula/scene/scene.h>

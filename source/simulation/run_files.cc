@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/available_memory.h>
-#include <morula/base/json.h>
+#include <morula/base/parameter_keys.h>
 #include <morula/base/version.h>
 #include <morula/output/point_fields.h>
 #include <morula/scene/seeded_tissue.h>

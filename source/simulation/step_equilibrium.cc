@@ -52,8 +52,7 @@ namespace Morula
       Solution solution = balance(attempt, points, report, condition);
 
       // A large cell is several quadrature points, but deforms as the field
-      // does at its own position. The energy does not see this position and has
-      // not kept it from turning inside out.
+      // does at its own position, which the energy does not see.
       if (points.subdivided &&
           inverts(DisplacementField<dim>(space, solution.u, comm),
                   tissue.cells(),
@@ -174,18 +173,15 @@ namespace Morula
          Equilibrium::Vector  &u,
          NewtonReport         &report) const
     {
-      // The participants hold their quantities fixed while Newton's method runs
-      // and renew them at its end. They begin before the first residual needs
-      // them. The report is completed in both outcomes, as the diagnosis of a
-      // failed step reads it.
+      // The participants begin before the first residual needs what they hold
+      // fixed. The report is completed for the diagnosis of a failed step, too.
       std::vector<TurnParticipant *> participants;
       for (const auto &part : parts.list)
         {
           part->begin(balance, u);
           participants.push_back(part.get());
         }
-      // States of the trace get the extremes of all ranks in the end, as
-      // Newton's method needs none.
+      // Newton's method needs no extremes of all ranks; the trace does.
       const std::size_t n_traced       = report.trace.size();
       const auto        share_extremes = [&]() {
         for (std::size_t i = n_traced; i < report.trace.size(); ++i)
@@ -214,7 +210,6 @@ namespace Morula
       catch (const StepFailed &failure)
         {
           share_extremes();
-          // Its energy and smallest J_e are signs of what went wrong.
           Equilibrium::Vector R(u);
           report.failed_at            = balance.residual(u, R);
           report.failed_at.smallest_J = balance.smallest_J(report.failed_at);
@@ -229,9 +224,7 @@ namespace Morula
     {
       if (tissue.cells().has_parts() &&
           turns_too_far(tissue, space, {space, u, comm}))
-        throw StepFailed("a strand of the tissue turns by more than 36 "
-                         "degrees, so that the step is too long for its "
-                         "contact");
+        throw StepFailed("a strand of the tissue turns too far for contact");
     }
 
     /** Newton's method from u on, and a proximal path where it fails. */
@@ -244,19 +237,18 @@ namespace Morula
                  Equilibrium::Vector  &u,
                  NewtonReport         &report) const
     {
-      // A step that is plainly too long is halved, which is cheaper than a path
-      // and as good. All other failures have a path to their equilibrium, as
-      // the energy has a lowest value (doc/theory.md, section 5.9). Where folds
-      // have contact the path goes step by step: hold_back().
+      // A step that is plainly too long is halved. All other failures have a
+      // path to their equilibrium, as the energy has a lowest value
+      // (doc/theory.md, section 5.9). Where folds have contact it goes step by
+      // step: hold_back().
       const Equilibrium::Vector begin(u);
       NewtonScales scales = balance.scales(attempt.typical_stiffness);
-      // In a later turn only what was renewed is not balanced. Forces count as
-      // small in relation to those of the first turn.
+      // In a later turn forces count as small beside those of the first one.
       if (report.place.turn > 1 && !is_exact)
         scales.small_force =
           std::max(scales.small_force, report.first_residual);
       // Where folds have contact, a turn of many iterations fails, as held back
-      // it is easier; and forces need to be known to half a per cent only.
+      // it is easier; half a per cent of the forces is enough.
       SolverParameters parameters = model.scene.solver;
       if (tissue.cells().has_parts())
         {
@@ -264,19 +256,21 @@ namespace Morula
           parameters.newton_iterations =
             std::min(50u, parameters.newton_iterations.value());
         }
-      const auto check = [this](const auto &state) { check_turn(state); };
+      const OnTheWay on_the_way{[this](const auto &state) {
+                                  check_turn(state);
+                                },
+                                early};
       try
         {
           return Morula::solve(
-            balance, linear, scales, parameters, timer, u, report, check, early);
+            balance, linear, scales, parameters, timer, u, report, on_the_way);
         }
       catch (const StepFailed &)
         {
           if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
               tissue.cells().has_parts())
             throw;
-          // The path starts from the last good state, as u may be anywhere.
-          u = begin;
+          u = begin; // as it may be anywhere
           return follow_proximal_path(
             balance, linear, scales, model.scene.solver, timer, u, report);
         }

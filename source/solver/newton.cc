@@ -38,8 +38,8 @@ namespace Morula
     constexpr double loose = 100., least_gain = 1e-4;
     constexpr int    idle = 80;
 
-    /** A residual that is lower by less than this part is no progress: without
-     *  an energy it can creep down for ever towards a state that is none. */
+    /** A residual that is lower by less than this part is no progress: it can
+     *  creep down for ever. */
     constexpr double least_fall = 0.01;
 
     /** An iteration with a tangent of its own ends far below the bound of
@@ -47,10 +47,9 @@ namespace Morula
      *  this part of the bound. */
     constexpr double part_of_kept = 0.1;
 
-    /** What is held fixed may be renewed as soon as the first iteration has
-     *  brought the residual down to this part without moving anything by more
-     *  than a grid spacing: then what is left of it counts little in comparison
-     *  with what the renewal changes. */
+    /** What is held fixed is renewed as soon as the first iteration has brought
+     *  the residual down to this part and moved nothing by more than a grid
+     *  spacing: the renewal then changes more than what is left of it. */
     constexpr double       early           = 0.1;
     constexpr unsigned int last_early_turn = 10; // then it is no help
 
@@ -85,15 +84,15 @@ namespace Morula
 
       /** @param has_energy whether a lower energy counts as progress
        *  @param report     kept as a reference, as are the tangents */
-      ConvergenceTest(const Bounds     &bounds,
-                      const Tangents   &tangents,
-                      const bool        has_energy,
-                      const CheckState &check,
-                      NewtonReport     &report)
+      ConvergenceTest(const Bounds   &bounds,
+                      const Tangents &tangents,
+                      const bool      has_energy,
+                      const OnTheWay &on_the_way,
+                      NewtonReport   &report)
         : bounds(bounds)
         , tangents(tangents)
         , has_energy(has_energy)
-        , check(check)
+        , on_the_way(on_the_way)
         , report(report)
       {}
 
@@ -181,9 +180,7 @@ namespace Morula
         const double norm      = group.getNormF();
         const double energy    = group.evaluation().energy;
         const int    iteration = solver.getNumIterations();
-        // The lowest residual stays until it is beaten by a hundredth, so that
-        // many small falls add up to progress.
-        const bool falls = norm < (1. - least_fall) * lowest_norm;
+        const bool   falls     = norm < (1. - least_fall) * lowest_norm;
         if (falls || (has_energy && energy < lowest_energy))
           progress_at = iteration;
         if (falls)
@@ -196,8 +193,8 @@ namespace Morula
           }
         has_risen = has_risen || norm > last_norm;
         last_norm = norm;
-        if (iteration > 0 && check && group.curvature() < 0.)
-          check(values_of(group.getX()));
+        if (iteration > 0 && on_the_way.check && group.curvature() < 0.)
+          on_the_way.check(values_of(group.getX()));
         if (!report.wants_trace)
           return;
         NewtonIteration state{report.place,
@@ -213,13 +210,13 @@ namespace Morula
         report.trace.push_back(state);
       }
 
-      const Bounds     bounds;
-      const Tangents  &tangents;
-      const bool       has_energy;
-      const CheckState check;
-      NewtonReport    &report;
-      double           last_norm   = std::numeric_limits<double>::infinity();
-      double           lowest_norm = // that counted as progress, N
+      const Bounds    bounds;
+      const Tangents &tangents;
+      const bool      has_energy;
+      const OnTheWay &on_the_way;
+      NewtonReport   &report;
+      double          last_norm   = std::numeric_limits<double>::infinity();
+      double          lowest_norm = // that counted as progress, N
         std::numeric_limits<double>::infinity();
       double      lowest_energy = std::numeric_limits<double>::infinity();
       double      gained        = std::numeric_limits<double>::infinity();
@@ -429,18 +426,14 @@ namespace Morula
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
         NewtonReport           &report,
-        const CheckState       &check,
-        const Renewal          &renew)
+        const OnTheWay         &on_the_way)
   {
-    // The state u, which is where the solve starts, is evaluated first,
-    // together with the rounding error of its residual. From both follows the
-    // bound of doc/theory.md (5.3): a start that is below it is the solution
-    // already, and NOX never runs. Else NOX iterates with our group, line
-    // search and convergence test. Where its first iteration has gone well,
-    // what is held fixed may be renewed, doc/theory.md, section 5.8: NOX then
-    // begins anew, as its line search compares energies, while tangents and
-    // preconditioner are kept. Whatever ends it, u and the report have its last
-    // state, from which a caller may go on.
+    // The start u and the rounding error of its residual give the bound of
+    // doc/theory.md (5.3): a start that is below it is the solution already,
+    // and NOX never runs. Else NOX iterates with our group, line search and
+    // convergence test. Where what is held fixed is renewed, NOX begins anew,
+    // as its line search compares energies, while tangents and preconditioner
+    // are kept. In the end u and the report have its last state.
     Tangents     tangents(problem, linear_problem.costly);
     LinearSolver linear_solver(parameters, linear_problem, timer);
     const auto   group    = Teuchos::rcp(new NoxGroup(
@@ -454,7 +447,6 @@ namespace Morula
     const double bound = std::max(parameters.newton_tolerance *
                                     std::max(first, scales.small_force),
                                   rounding);
-    // Several solves of an attempt compare with the first one's residual.
     if (report.first_residual == 0.)
       report.first_residual = first;
     const auto relative = [&](const double norm) {
@@ -473,7 +465,7 @@ namespace Morula
       for (;;)
         {
           const auto test   = Teuchos::rcp(new ConvergenceTest(
-            bounds, tangents, linear_problem.symmetric, check, report));
+            bounds, tangents, linear_problem.symmetric, on_the_way, report));
           const auto solver = NOX::Solver::buildSolver(
             group,
             test,
@@ -481,11 +473,11 @@ namespace Morula
                            linear_problem.symmetric,
                            parameters.linear_tolerance));
           const double start = group->getNormF();
-          if (solver->step() == NOX::StatusTest::Unconverged && renew &&
-              report.place.turn < last_early_turn &&
+          if (solver->step() == NOX::StatusTest::Unconverged &&
+              on_the_way.renew && report.place.turn < last_early_turn &&
               group->part_taken() == 1. && group->getNormF() <= early * start &&
               last_motion(*solver) <= scales.length &&
-              renew(values_of(group->getX())))
+              on_the_way.renew(values_of(group->getX())))
             {
               group->renew();
               ++report.turns;

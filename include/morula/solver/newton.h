@@ -69,9 +69,16 @@ namespace Morula
   /** Renews what an equilibrium holds fixed, as TurnParticipant::renew(). */
   using Renewal = std::function<bool(const Equilibrium::Vector &u)>;
 
-  /** Throws StepFailed on all ranks where a state of a solve is none from which
-   *  the problem's solution can be found. Collective. */
-  using CheckState = std::function<void(const Equilibrium::Vector &)>;
+  /** What is done on the way to an equilibrium, if it is not empty. */
+  struct OnTheWay
+  {
+    /** Throws StepFailed on all ranks where an indefinite tangent has led to a
+     *  state from which the problem's solution cannot be found. Collective. */
+    std::function<void(const Equilibrium::Vector &u)> check;
+    /** Called where the first iteration has gone well: turns of their own,
+     *  which begin with the last tangent. */
+    Renewal renew;
+  };
 
   /**
    * Finds the equilibrium increment u of a step with Newton's method (Trilinos
@@ -94,9 +101,6 @@ namespace Morula
    * @param u      in: where to start from; out: the increment, or where the
    *               method has failed
    * @param report in/out: this solve's work is added, also when it fails
-   * @param check  called with the states to which indefinite tangents have led
-   * @param renew  called on the way where the first iteration has gone well:
-   *               turns of their own, which begin with the last tangent
    * @return energy and extremes at u
    * @throws StepFailed on all ranks together
    */
@@ -108,8 +112,7 @@ namespace Morula
         TimerOutput            &timer,
         Equilibrium::Vector    &u,
         NewtonReport           &report,
-        const CheckState       &check = {},
-        const Renewal          &renew = {});
+        const OnTheWay         &on_the_way = {});
 
   /** Solves with what is held fixed; may renew it early. */
   using SolveTurn =

@@ -140,7 +140,7 @@ def test_bias_of_a_power_law(order, ratios):
 
 def test_bias_without_an_order():
     """Values that turn round, that hardly change, that differ by noise."""
-    assert bias({1.0: 5, 1.25: 7, 1.5: 6}) == (2.0, 1.0)
+    assert bias({1.0: 5, 1.25: 7, 1.5: 6}) == (2.5, 1.0)
     assert bias({1.0: 5, 1.25: 5, 1.5: 5}) == (0.0, 1.0)
     assert bias({1.0: 5, 1.25: 5.5, 1.5: 6}, noise=3) == (1.0, 1.0)
 

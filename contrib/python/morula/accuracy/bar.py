@@ -33,7 +33,7 @@ def bias(values, noise=0.0):
         return spread, 1.0
     order = observed_order(ratios, found) if len(found) == 3 else 1.0
     if not LOWEST_ORDER <= order <= HIGHEST_ORDER:
-        return spread, 1.0
+        return SAFETY * spread, 1.0
     order = min(max(order, 1.0), 2.0)
     far = ratios[-1] if ratios[-1] > 1 else ratios[0]
     return SAFETY * abs(values[far] - values[1.0]) / abs(far**order - 1), order

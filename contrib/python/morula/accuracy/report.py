@@ -94,7 +94,8 @@ def digits(number, sign):
         return "–"
     plus = "+" if sign else ""
     text = f"{number:{plus}.2g}" if abs(number) < 100 else f"{number:{plus}.0f}"
-    return "0" if abs(number) < 1e-6 else text.replace("e-0", "e-").replace("-", "−", text[0] == "-")
+    return "0" if abs(number) < 1e-6 else text.replace("e-0", "e-").replace(
+        "-", "−", text[0] == "-")
 
 
 def scatter_table(findings):

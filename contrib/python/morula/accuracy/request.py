@@ -68,8 +68,8 @@ class Request:
         options = self.options
         for name in ("seeds", "reference"):
             if getattr(options, name) and not self.asked:
-                raise Refused(f"--{name}", getattr(options, name), "something with a ladder or --offsets",
-                              "For instance " '--vary "Grid/Spacing=100,75,50".')
+                raise Refused(f"--{name}", getattr(options, name), "something with a ladder or "
+                              '--offsets', 'For instance --vary "Grid/Spacing=100,75,50".')
         ladders = [read_ladder(text, self.scene, NOT_VARIED, "a key that changes how well the same "
                                "state is computed") for text in options.vary]
         names = [ladder.name for ladder in ladders]

@@ -167,7 +167,8 @@ def map(scene: Scene, samples: "pandas.DataFrame | Iterable[Mapping]",
         progress: bool = True) -> "pandas.DataFrame":
     """Runs a scene at samples, a data frame whose columns are paths of keys, and returns it with
     what was measured besides: measure(run) gives a dictionary of columns, or one number, the
-    column `measure`; names of measures give columns of these names. Rows whose run fails have nan. Runs are kept as those of Function are."""
+    column `measure`; names of measures give columns of these names. Rows whose run fails have
+    nan. Runs are kept as those of Function are."""
     import pandas
     table = pandas.DataFrame(samples).reset_index(drop=True)
     texts = [] if callable(measure) else [measure] if isinstance(measure, str) else measure

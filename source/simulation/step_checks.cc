@@ -188,7 +188,21 @@ namespace Morula
   }
 
 
+  template <int dim>
+  void
+  check_turn(const Tissue<dim>            &tissue,
+             const SplineSpace<dim>       &space,
+             const DisplacementField<dim> &displacement)
+  {
+    if (tissue.cells().has_parts() &&
+        turns_too_far(tissue, space, displacement))
+      throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
+                       "so that the step is too long for its contact");
+  }
+
+
   MORULA_INSTANTIATE(turns_too_far);
+  MORULA_INSTANTIATE(check_turn);
 
 
   namespace

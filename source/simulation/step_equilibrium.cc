@@ -198,7 +198,7 @@ namespace Morula
               is_solved                           = false;
               const Equilibrium::Evaluation found = find_in_turn(
                 attempt, parts.is_exact, early, balance, linear, u, report);
-              check_turn(u);
+              check_turn<dim>(tissue, space, {space, u, comm});
               is_solved = true;
               return found;
             },
@@ -216,15 +216,6 @@ namespace Morula
           throw StepFailed(failure.what() + (". " + balance.describe(u)),
                            is_solved);
         }
-    }
-
-    /** @throws StepFailed where contact of folds does not see what meets. */
-    void
-    check_turn(const Equilibrium::Vector &u) const
-    {
-      if (tissue.cells().has_parts() &&
-          turns_too_far(tissue, space, {space, u, comm}))
-        throw StepFailed("a strand of the tissue turns too far for contact");
     }
 
     /** Newton's method from u on, and a proximal path where it fails. */
@@ -257,7 +248,9 @@ namespace Morula
             std::min(50u, parameters.newton_iterations.value());
         }
       const OnTheWay on_the_way{[this](const auto &state) {
-                                  check_turn(state);
+                                  check_turn<dim>(tissue,
+                                                  space,
+                                                  {space, state, comm});
                                 },
                                 early};
       try

@@ -54,6 +54,14 @@ namespace Morula
                 const DisplacementField<dim> &displacement,
                 const double                  part = 1.);
 
+  /** Refuses a step in which contact of folds does not see what meets.
+   *  Collective. @throws StepFailed */
+  template <int dim>
+  void
+  check_turn(const Tissue<dim>            &tissue,
+             const SplineSpace<dim>       &space,
+             const DisplacementField<dim> &displacement);
+
   /** What is known of a step that no attempt has solved. */
   struct FailedStep
   {

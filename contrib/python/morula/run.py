@@ -27,7 +27,7 @@ from .lineage import Lineage
 from .prm import parse
 from .refusal import Refused
 
-ERRORS = "errors.json"  # of contrib/accuracy
+ERRORS = "errors.json"  # of morula accuracy
 ESSENTIAL = ("parameters.prm", "statistics.csv")
 
 # Written as numbers, and whole ones.
@@ -179,7 +179,7 @@ class Run:
 
     @property
     def errors(self):
-        """What contrib/accuracy has found of this run, a row a measure: value, error, unit; the
+        """What morula accuracy has found of this run, a row a measure: value, error, unit; the
         parts grid, cells, step, position, chance; and `text`, all that in words."""
         import pandas
         file = self.directory / ERRORS

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Accuracy against time: contrib/accuracy.
+"""Accuracy against time: morula accuracy.
 
 The way through the package: `options` is the command line and `request` checks it. The error bar:
 `further` does the runs, `bar` adds up what they say. Ladders: `reference` is what a file knows of

@@ -23,7 +23,7 @@ def write_tables(findings, directory):
 def markdown(findings):
     request = findings.request
     sections = [f"# Accuracy of {request.scene.name}",
-                f"    {shlex.join(['contrib/accuracy', *request.options.words])}", how(request)]
+                f"    {shlex.join(['morula', 'accuracy', *request.options.words])}", how(request)]
     if findings.scatters:
         sections += [f"## Scatter at day {request.end:g}", scatter_table(findings)]
     if findings.estimates:

@@ -39,7 +39,7 @@ class Function:
     changes several keys together. Or a function of the parameters, by its
     arguments' names, that returns a dictionary of keys: for units, logarithms,
     and expressions of several parameters. measure(run) returns a number or an array, or is
-    the name of a measure of contrib/accuracy, "zmax" or "cells:p90(volume)", or a list of them.
+    the name of a measure of morula accuracy, "zmax" or "cells:p90(volume)", or a list of them.
     Runs are kept in `directory`: the same point is not run twice, by nobody, and
     what was interrupted goes on. A run that fails, or that the program refuses,
     gives nan of the shape of the others; a measure that throws is not caught.

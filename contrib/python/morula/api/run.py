@@ -39,7 +39,7 @@ class Run(run.Run):
 
     `statistics`: a row a step. `lineage`: every cell that ever lived. `events`: changes of type,
     deaths, removals. `timings`: what took how long. `errors`: error bars that
-    contrib/accuracy has found. `keys`: all keys as used. `times`: days on
+    morula accuracy has found. `keys`: all keys as used. `times`: days on
     which cells were written. `surface(i)`: the boundary points of state i.
 
     Throws morula.Refused if the directory is none of a run."""

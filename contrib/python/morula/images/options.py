@@ -14,9 +14,9 @@ DESCRIPTION = """Makes a scene of a label image (TIFF, OME, PNG, NumPy, cellpose
 OME-Zarr, NRRD; axes z, y, x; 0 is no cell) or of a tracker's table (CSV):
 cells.csv, the smooth closed surface of the tissue with its cavities, scene.prm.
 
-    contrib/import labels.tif --voxel 0.5,0.5,2
-    contrib/import labels.npy --voxel 1,1 --output disc
-    contrib/import spots.csv --frame 0
+    morula import labels.tif --voxel 0.5,0.5,2
+    morula import labels.npy --voxel 1,1 --output disc
+    morula import spots.csv --frame 0
 
 doc/from-an-image.md explains what it does, and what it says of the image.
 """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""The command contrib/import."""
+"""The command morula import."""
 import re
 import shutil
 from pathlib import Path
@@ -195,7 +195,7 @@ def _finish(options, directory, keys, length, n, volumes, words):
     keys["Output directory"] = "output/" + str(place.relative_to(
         Path.cwd() if place.is_relative_to(Path.cwd()) else place.anchor))
     _tune(options, directory / "scene.prm", keys, [
-        f"From {options.file.name} by contrib/import; lengths in um, times in "
+        f"From {options.file.name} by morula import; lengths in um, times in "
         "days.", "Growth and mechanics are examples: set your own."], words)
     surface = keys["Tissue/Points surface"]
     return [f"{n} cells in {dim}-D, together {np.sum(volumes):.5g} um^{dim}, on average "

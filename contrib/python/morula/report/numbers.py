@@ -89,7 +89,7 @@ def accuracy(run):
 
 
 def errors(run):
-    """The error bars that contrib/accuracy has kept."""
+    """The error bars that morula accuracy has kept."""
     return [(name, row.text.partition(" = ")[2]) for name, row in run.errors.iterrows()]
 
 

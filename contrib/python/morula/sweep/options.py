@@ -33,7 +33,7 @@ doc/sweeps.md explains the results.""")
         "that the program refuses, with a word, instead of giving up")
     add("--seeds", metavar="1-5", help="random seeds of each combination; default: the scene's own")
     add("--columns", default="cells,total_volume", metavar="LIST",
-        help="measures, as those of contrib/accuracy, to draw against time and to "
+        help="measures, as those of morula accuracy, to draw against time and to "
         "show in table.md; default: cells,total_volume")
     add_run_options(add, "output/sweep/SCENE")
     return result

@@ -50,7 +50,9 @@ namespace Morula
     /** What is held fixed is renewed as soon as the first iteration has brought
      *  the residual down to this part and moved nothing by more than a grid
      *  spacing: the renewal then changes more than what is left of it. */
-    constexpr double       early           = 0.1;
+    constexpr double early = 0.1;
+    /** Of a first linear solve: what is renewed then must not feel ranks. */
+    constexpr double       exact = 1e-4, loose_start = 1e-2;
     constexpr unsigned int last_early_turn = 10; // then it is no help
 
     /** The largest change of a coefficient by the last iteration, µm. */
@@ -102,9 +104,7 @@ namespace Morula
       {
         // The conditions of doc/theory.md (5.3), the cheapest one first. A
         // state within rounding has converged, whatever is left to move: no
-        // iteration can do better. At the start nothing has moved yet, so there
-        // is no motion to judge. Then come the signs of failure. The norm is
-        // the same on all ranks, and so is the outcome.
+        // iteration can do better. At the start there is no motion to judge.
         if (report.before_iteration)
           report.before_iteration();
         look(solver);
@@ -228,8 +228,7 @@ namespace Morula
     };
 
 
-    /** The number of energies of which the largest counts. With three instead
-     *  of ten, folding rings took half as many iterations again. */
+    /** The number of energies of which the largest counts. */
     constexpr unsigned int memory = 10;
 
 
@@ -296,8 +295,6 @@ namespace Morula
                      norm <= rounding_error * problem.residual_magnitude(
                                                 values_of(new_group.getX()))))
               return true;
-            // A step of length 0 counts as a success for NOX, which goes on
-            // from the old state.
             if (is_kept)
               {
                 step = 0.;
@@ -353,7 +350,8 @@ namespace Morula
     Teuchos::RCP<Teuchos::ParameterList>
     nox_parameters(const Equilibrium &problem,
                    const bool         has_energy,
-                   const double       linear_tolerance)
+                   const double       linear_tolerance,
+                   const double       first_tolerance)
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
@@ -372,12 +370,11 @@ namespace Morula
       // Type 2 is Eisenstat and Walker's second choice: doc/theory.md, section
       // 5.4. Early solves need few digits, as the next tangent differs anyway;
       // the first tolerance is 1e-2, and none is looser than 1e-1. Later ones
-      // follow the fall of the residual down to 1e-6. Without the last set()
-      // NOX would not tell the linear solver.
+      // follow the fall of the residual down to 1e-6. NOX needs the last set().
       newton.set("Forcing Term Method",
                  linear_tolerance > 0. ? "Constant" : "Type 2");
       newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);
-      newton.set("Forcing Term Initial Tolerance", 1e-2);
+      newton.set("Forcing Term Initial Tolerance", first_tolerance);
       newton.set("Forcing Term Maximum Tolerance", 1e-1);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
       newton.set("Set Tolerance in Parameter List", true);
@@ -471,7 +468,8 @@ namespace Morula
             test,
             nox_parameters(problem,
                            linear_problem.symmetric,
-                           parameters.linear_tolerance));
+                           parameters.linear_tolerance,
+                           on_the_way.renew ? exact : loose_start));
           const double start = group->getNormF();
           if (solver->step() == NOX::StatusTest::Unconverged &&
               on_the_way.renew && report.place.turn < last_early_turn &&

@@ -145,6 +145,7 @@ namespace Morula
       return !unfinished.empty();
     };
     const bool early =
+      !participants.empty() &&
       std::all_of(participants.begin(),
                   participants.end(),
                   [](const auto *const p) { return p->renews_early(); });

@@ -334,6 +334,22 @@ namespace Morula
       return *this;
     }
 
+    template <typename Other>
+    Key &
+    operator+=(const Other &other)
+    {
+      value_ += other;
+      return *this;
+    }
+
+    template <typename Other>
+    Key &
+    operator/=(const Other &other)
+    {
+      value_ /= other;
+      return *this;
+    }
+
     const T *
     operator->() const
     {

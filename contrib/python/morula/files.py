@@ -10,8 +10,7 @@ from pathlib import Path
 
 @contextmanager
 def replaced(file):
-    """The path of a file, with the same ending, that takes the place of `file`
-    if all goes well."""
+    """The path of a file, with the same ending, that takes the place of `file` if all goes well."""
     file = Path(file)
     # VTK drops an underscore at the end of a name, which would be another file.
     handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.stem}.",

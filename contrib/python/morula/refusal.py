@@ -8,8 +8,7 @@ LONGEST = 400
 
 
 def shown(text):
-    """A text of the user's: the beginning of a long one, and what cannot be
-    printed as \\x00."""
+    """A text of the user's: the beginning of a long one, and what cannot be printed as \\x00."""
     text = str(text)
     start = "".join(f"\\x{ord(c):02x}" if ord(c) < 32 or ord(c) == 127 else c
                     for c in text[:LONGEST])
@@ -17,8 +16,7 @@ def shown(text):
 
 
 class Refused(Exception):
-    """What was given, its value, what is allowed, what to do: found before
-    anything is computed."""
+    """What was given, its value, what is allowed, what to do: found before anything is computed."""
 
     def __init__(self, what, value, allowed, remedy=""):
         super().__init__(f"{shown(what)} = '{shown(value)}': allowed is {allowed}."

@@ -91,9 +91,8 @@ def finite_element_values(theta):
 
 
 def finite_element_outline(theta, points=1000):
-    """Its free surface (n, 2) from the clamp's edge to the axis, or None; between the
-    initial polar angles given by cubics that do not overshoot at the edge, where the
-    outline is singular."""
+    """Its free surface (n, 2) from the clamp's edge to the axis, or None; between the initial polar
+    angles given by cubics that do not overshoot at the edge, where the outline is singular."""
     rows = finite_elements("half-fixed-sphere-outline.csv", theta)
     if rows.empty:
         return None

@@ -49,8 +49,3 @@ LADDERS = {name: shlex.split(words) for name, words in {
     --vary Time/Step=0.2,0.1,0.05,0.025 {COARSE} -s 'Time/End time=2'
     --seeds 1..8 --jobs 2 {MEASURES}""",
 }.items()}
-
-
-def wrapped(words):
-    """The command, an option a line."""
-    return shlex.join(["contrib/accuracy", *words]).replace(" -", " \\\n    -")

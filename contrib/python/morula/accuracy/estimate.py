@@ -22,8 +22,7 @@ class Part:
 
 @dataclass
 class Estimate:
-    """One measure: the right value as far as it is known, and each point's value,
-    error, noise."""
+    """One measure: the right value as far as it is known, and each point's value, error, noise."""
 
     measure: object
     center: tuple

@@ -10,9 +10,8 @@ OPTION = "--reference"
 
 
 class Reference:
-    """A CSV file with a column for every measure, named like it, MEASURE_error (by
-    how much the value may be wrong; without it zero), and time (day), unless it has
-    a single row."""
+    """A CSV file with a column for every measure, named like it, MEASURE_error (by how much the
+    value may be wrong; without it zero), and time (day), unless it has a single row."""
 
     def __init__(self, file):
         self.file = file

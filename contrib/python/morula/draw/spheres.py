@@ -50,10 +50,9 @@ def sphere_actor(positions, radii, colours):
 
 
 def render_discs(positions, radii, colours, view, pixels):
-    """The same of discs, whose colours are those of the colour bar, without
-    light and shade. Where two overlap, a place is the one's in which it is
-    farther inside: they are spheres seen from above. A second one in each, of
-    the disc without its rim, stands out of the first everywhere."""
+    """The same of discs, whose colours are those of the colour bar, without light and shade. Where
+    two overlap, a place is the one's in which it is farther inside: they are spheres seen from
+    above. A second one in each, of the disc without its rim, stands out of the first everywhere."""
     rim = np.maximum(RIM * radii, LEAST_RIM * 2 * view.half_width / pixels[0])
     inner = np.maximum(radii - rim, 0)
     lift = np.sqrt(radii**2 - inner**2)[:, None] * np.array([0, 0, 1])

@@ -65,10 +65,9 @@ def course(start, days, line):
 
 
 def keys(line, start, days):
-    """All cells stand before their cycle at t = 0. As the growth of a cycle is linear in
-    time, they are worth a volume that is 1/(2 ln² 2) = 1.0407 times theirs, once they are
-    spread over the cycle: the mean of 1 + a over the steady ages a, whose density falls
-    as 2^-a, by that of 2^a."""
+    """All cells stand before their cycle at t = 0. As the growth of a cycle is linear in time, they
+    are worth a volume that is 1/(2 ln² 2) = 1.0407 times theirs, once they are spread over the
+    cycle: the mean of 1 + a over the steady ages a, whose density falls as 2^-a, by that of 2^a."""
     arrest = 1 - (1 - DEATH) * (line.arrest / line.necrosis)**2
     rate = (f"if(type == necrotic, {-3 * line.loss:.4f}, {line.growth}*"
             f"((oxygen > {arrest:.4f}) - (cycle_phase > 0 && cycle_phase < 9)))")

@@ -271,12 +271,13 @@ TEST(Newton, EndsWhereAStateIsRefused)
   NewtonReport           report;
   unsigned int           asked = 0;
   const SolverParameters parameters;
-  const CheckState       check = [&](const Equilibrium::Vector &u) {
-    ++asked;
-    if (u.linfty_norm() > 0.1)
-      throw StepFailed("too far");
-  };
-  ChainProblem well = alike(
+  const OnTheWay         check{[&](const Equilibrium::Vector &u) {
+                         ++asked;
+                         if (u.linfty_norm() > 0.1)
+                           throw StepFailed("too far");
+                       },
+                               {}};
+  ChainProblem           well = alike(
     n,
     [](double u) { return std::pow(u * u - 1., 2) - 0.1 * u; },
     [](double u) { return 4. * u * (u * u - 1.) - 0.1; },

@@ -177,7 +177,7 @@ TEST(Turns, AreShortWhereThatIsAllowed)
                        timer,
                        u,
                        report,
-                       renew);
+                       {{}, renew});
         },
         u,
         report);

@@ -20,8 +20,7 @@ def names_in(keys, section="Cell types"):
 def names_of_run(directory):
     """The same of a run's directory, which need not have all its files."""
     file = directory / "parameters.prm"
-    return names_in(parse(file.read_text(encoding="utf-8"))) \
-        if file.is_file() else ()
+    return names_in(parse(file.read_text(encoding="utf-8"))) if file.is_file() else ()
 
 
 def read_events(file, names):

@@ -40,8 +40,7 @@ class Measure:
         """The number in a Run on a day, or at its end."""
         if self.kind == "statistics":
             column = run.statistics[self.column]
-            return float(column.iloc[-1] if time is None
-                         else column[row_at(run.statistics, time)])
+            return float(column.iloc[-1] if time is None else column[row_at(run.statistics, time)])
         points = run.at(self.kind, time)
         values = (numpy.linalg.norm(places(points) - center_of(run), axis=1)
                   if self.column == "radius" else points[self.column].to_numpy())

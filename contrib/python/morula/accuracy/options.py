@@ -27,9 +27,8 @@ doc/accuracy-and-cost.md explains the results.""")
     add("--measure", required=True, metavar="LIST",
         help="columns of statistics.csv, or cells:reduction(column), surface:reduction(column)")
     add("--seeds", metavar="1..8", help="means over these random seeds")
-    add("--offsets", metavar="N", help="every run at N positions of the grid, "
-        "spread through one grid cell: how far do results depend on where it "
-        "lies? Needs no --vary")
+    add("--offsets", metavar="N", help="every run at N positions of the grid, spread through one "
+        "grid cell: how far do results depend on where it lies? Needs no --vary")
     add("--reference", metavar="FILE.csv", help="right values, in columns "
         "named like the measures, MEASURE_error, time")
     add_run_options(add, "output/accuracy/SCENE")

@@ -63,8 +63,7 @@ def scene_of_image(options, directory):
     types = _types(options, cells, words)
     if types is not None:
         types = dict(zip(cells.names, types))
-    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps, words,
-                          options.file)
+    mask, pad = tissue_of(cells, options.smallest_cavity, options.fill_gaps, words, options.file)
     parts = surface_of(cells, mask, pad, words)
     directory.mkdir(parents=True, exist_ok=True)
     kinds = [types[name] for name in cells.names] if types else None

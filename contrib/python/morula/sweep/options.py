@@ -23,12 +23,10 @@ doc/sweeps.md explains the results.""")
     add = result.add_argument
     add("scene", metavar="SCENE.prm")
     add("--vary", action="append", default=[], metavar="KEY=VALUES",
-        help="values separated by commas ('|' where they contain some); "
-        "KEY,KEY=VALUE:VALUE,... changes keys together; repeated, every "
-        "combination is run")
-    add("--samples", type=Path, metavar="FILE.csv", help="instead of --vary: "
-        "a line of keys, and a line of values for each run, as latin "
-        "hypercubes and posterior samples are")
+        help="values separated by commas ('|' where they contain some); KEY,KEY=VALUE:VALUE,... "
+        "changes keys together; repeated, every combination is run")
+    add("--samples", type=Path, metavar="FILE.csv", help="instead of --vary: a line of keys, and a "
+        "line of values for each run, as latin hypercubes and posterior samples are")
     add("--skip-refused", action="store_true", help="leave out combinations "
         "that the program refuses, with a word, instead of giving up")
     add("--seeds", metavar="1-5", help="random seeds of each combination; default: the scene's own")

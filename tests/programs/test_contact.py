@@ -228,7 +228,7 @@ def test_a_surface_around_both(runs):
 
 def test_what_is_said(runs):
     text = runs.explain(blocks(runs, 10))
-    assert "2 bodies, each with splines of its own" in text
+    assert "2 bodies; body 0: 450 cells" in text
     assert "body 1: 450 cells, 1800 um^2, surface 180 um" in text
     text = runs.explain(blocks(runs, 10), {
         "Contact/Friction": 0.25, "Contact/Fusion time": 0.5})

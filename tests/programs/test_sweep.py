@@ -244,7 +244,6 @@ NONSENSE = [
     ("what --help shows", [*VARY, "--sedes", "1-2"]),
 ]
 BAD_SAMPLES = [
-    ("same as number 1", "Grid/Spacing\n40\n40.0\n"),
     ("as many values", "Grid/Spacing\n"),
     ("Did you mean", "Grid/Spcing\n40\n"),
     ("2 values", "Grid/Spacing,Time/Step\n40\n"),

@@ -45,7 +45,6 @@ def read_ladder(text, scene, not_varied=(), allowed=""):
     if len(rungs) < 2 or wrong:
         raise Refused("--vary", text, FORM, f"Not so: '{wrong[0]}'." if wrong
                       else "-s sets a single value.")
-    _refuse_double("--vary", text, rungs)
     refuse_keys("--vary", keys, not_varied, allowed)
     return Ladder(keys, rungs, name.strip() or " and ".join(keys))
 
@@ -63,17 +62,6 @@ def refuse_keys(option, keys, not_varied, allowed):
     for key in keys:
         if key in not_varied or key.startswith("Output/"):
             raise Refused(option, key, allowed, not_varied.get(key, "-s sets it for all runs."))
-
-
-def _refuse_double(option, text, points):
-    """Refuses points of equal values, as they would be one run."""
-    seen = {}
-    for number, point in enumerate(points, 1):
-        same = tuple(map(normal, point))
-        if same in seen:
-            raise Refused(option, text, "other values in each run", f"Number {number}, "
-                          f"{':'.join(point)}, is the same as number {seen[same]}.")
-        seen[same] = number
 
 
 def read_seeds(text):
@@ -209,7 +197,8 @@ class SamplesPlan(Plan):
         self.keys = list(keys)
         self.own = tuple(scene[key] for key in keys)
         self._exact = {}
-        self.points = [self._exact.setdefault(tuple(map(normal, point)), point) for point in points]
+        self.points = list(dict.fromkeys(
+            self._exact.setdefault(tuple(map(normal, point)), point) for point in points))
 
 
 def read_samples(file, scene):
@@ -220,5 +209,4 @@ def read_samples(file, scene):
         raise Refused("--samples", file, f"{len(keys)} values in each line")
     _require_once("--samples", keys, scene)
     points = list(table.itertuples(index=False, name=None))
-    _refuse_double("--samples", file, points)
     return keys, points

@@ -46,7 +46,7 @@ namespace Step4
 
   // The reference is the work of another program that shares nothing with the
   // library, see doc/half-fixed-sphere.md. It stands in a file with the columns
-  // theta, apex, apex_error, total_volume, total_volume_error,
+  // theta, time, zmax, zmax_error, total_volume, total_volume_error,
   // mean_energy_density, mean_energy_density_error. Which theta the scene
   // reaches, its own expression says.
   Result
@@ -66,7 +66,7 @@ namespace Step4
         const std::vector<double> row =
           Utilities::string_to_double(Utilities::split_string_list(line, ','));
         if (std::abs(row.at(0) - stretch) < 1e-6)
-          return {row.at(1), row.at(5)};
+          return {row.at(2), row.at(6)};
       }
     theta.refuse("a stretch that doc/data/half-fixed-sphere.csv has at End "
                  "time",

@@ -295,7 +295,6 @@ NONSENSE = [
     ("at least two values", ["--vary", "Grid/Spacing", *MEASURE]),
     ("Not so: ''", ["--vary", "Grid/Spacing=80,,40", *MEASURE]),
     ("at least two values", ["--vary", "Grid/Spacing=80", *MEASURE]),
-    ("80.0, is the same", ["--vary", "Grid/Spacing=80,40,80.0", *MEASURE]),
     ("one ladder for", [*SPACING, "--vary", "Grid/Spacing=20,10", *MEASURE]),
     ("Not so: '40'", ["--vary", "Grid/Spacing,Tissue/Cell spacing=80:20,40",
                       *MEASURE]),

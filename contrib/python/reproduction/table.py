@@ -35,7 +35,7 @@ def grids(runs):
     rows = [grid_row(runs[scene], fine if scene != "fig-2e" else None, elements) for scene in GRIDS]
     values = outline.finite_element_values(theta)
     if values is not None:
-        rows.append(["FE", *["–"] * 6, *last_values(values, "zmax")])
+        rows.append(["FE", *["–"] * 6, *last_values(values)])
     return f"""The grids of Fig. 2 at θ = {theta:.3g}, lengths in µm. Distances are those of the free
 boundary points from the outline of (e) and from that of body-fitted finite elements (FE, an
 independent solution). "Near" are the points that began less than {outline.NEAR_CLAMP:g} µm above
@@ -52,11 +52,11 @@ def grid_row(run, fine, elements):
                                            for off in outline.distances(run, -1, fine)]
     row += ["–"] * 2 if elements is None else [f"{outline.rms(off):.1f}" for off in
                                                outline.distances(run, -1, elements)]
-    return row + last_values(run.statistics.iloc[-1], "zmax")
+    return row + last_values(run.statistics.iloc[-1])
 
 
-def last_values(row, apex):
-    return [f"{row[apex]:.1f}", f"{row['total_volume'] * 1e-6:.2f}",
+def last_values(row):
+    return [f"{row['zmax']:.1f}", f"{row['total_volume'] * 1e-6:.2f}",
             f"{row['mean_energy_density']:.4f}"]
 
 

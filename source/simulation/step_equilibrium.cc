@@ -260,10 +260,12 @@ namespace Morula
         }
       catch (const StepFailed &)
         {
-          if ((attempt.halve_first && balance.is_far_from(begin, u)) ||
+          if ((attempt.halve_first && !report.ends_at_leap &&
+               balance.is_far_from(begin, u)) ||
               tissue.cells().has_parts())
             throw;
-          u = begin; // as it may be anywhere
+          if (!report.ends_at_leap)
+            u = begin; // as it may be anywhere
           return follow_proximal_path(
             balance, linear, scales, model.scene.solver, timer, u, report);
         }

@@ -287,20 +287,25 @@ namespace Morula
             const double norm   = new_group.getNormF();
             const bool   falls =
               norm <= (1. - armijo * step) * old_group.getNormF();
-            if (std::isfinite(energy) &&
-                (!is_kept || norm <= old_group.getNormF()) &&
-                (has_energy ?
-                   energy <= compared + armijo * step * slope + slack :
-                   falls ||
-                     norm <= rounding_error * problem.residual_magnitude(
-                                                values_of(new_group.getX()))))
+            const bool is_accepted =
+              std::isfinite(energy) &&
+              (!is_kept || norm <= old_group.getNormF()) &&
+              (has_energy ? energy <= compared + armijo * step * slope + slack :
+                            falls || norm <= rounding_error *
+                                               problem.residual_magnitude(
+                                                 values_of(new_group.getX())));
+            const bool leaps =
+              is_accepted && has_energy && norm > old_group.getNormF() &&
+              energy > before.energy + slack && old_group.is_unresisted();
+            if (is_accepted && !leaps)
               return true;
-            if (is_kept)
+            // A leap ends the solve where it is.
+            if (is_kept || leaps)
               {
                 step = 0.;
                 new_group.computeX(old_group, direction, step);
                 new_group.computeF();
-                return true;
+                return !leaps;
               }
           }
         step = 0.; // any other length NOX would take for a recovery step
@@ -449,7 +454,8 @@ namespace Morula
     const auto relative = [&](const double norm) {
       return norm > 0. ? norm / report.first_residual : 0.;
     };
-    report.residual = relative(first);
+    report.residual     = relative(first);
+    report.ends_at_leap = false;
     if (first <= bound)
       return group->evaluation();
 

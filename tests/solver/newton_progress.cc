@@ -50,6 +50,83 @@ TEST(NewtonProgress, GoesOnAlongACurvedValley)
 }
 
 
+/** Pairs of unknowns whose difference m is resisted by @p softness only, while
+ *  their sum s is drawn to 1 + m² by a spring that is less stiff near there.
+ * The lowest energy has m = 1/2. */
+ChainProblem
+soft_differences(const double softness)
+{
+  ChainProblem problem(n_unknowns);
+  struct Pair
+  {
+    Pair(const unsigned int i, const std::vector<double> &u)
+      : m((u[i - i % 2] - u[i - i % 2 + 1]) / std::sqrt(2.))
+      , t((u[i - i % 2] + u[i - i % 2 + 1]) / std::sqrt(2.) - 1. - m * m)
+    {}
+
+    const double m, t;
+  };
+  problem.energy = [=](const std::vector<double> &u) {
+    double sum = 0.;
+    for (unsigned int i = 0; i < n_unknowns; i += 2)
+      {
+        const Pair p(i, u);
+        sum += 0.5 * p.t * p.t + 0.25 * std::pow(p.t, 4) +
+               0.5 * softness * (p.m * p.m - p.m);
+      }
+    return sum;
+  };
+  problem.force = [=](const unsigned int i, const std::vector<double> &u) {
+    const Pair   p(i, u);
+    const double along_s = p.t + std::pow(p.t, 3);
+    const double along_m = -2. * p.m * along_s + softness * (p.m - 0.5);
+    return (along_s + (i % 2 == 0 ? along_m : -along_m)) / std::sqrt(2.);
+  };
+  problem.stiffness = [=](const unsigned int         i,
+                          const unsigned int         j,
+                          const std::vector<double> &u) {
+    const Pair   p(i, u);
+    const double ss = 1. + 3. * p.t * p.t;
+    const double sm = -2. * p.m * ss;
+    const double mm =
+      4. * p.m * p.m * ss - 2. * (p.t + std::pow(p.t, 3)) + softness;
+    if (i / 2 != j / 2)
+      return 0.;
+    if (i != j)
+      return 0.5 * (ss - mm);
+    return 0.5 * (ss + mm) + (i % 2 == 0 ? sm : -sm);
+  };
+  problem.linear.costly = false;
+  return problem;
+}
+
+
+// A leap along m makes energy and residual larger. What resists m tells whether
+// it is taken.
+TEST(NewtonProgress, EndsBeforeALeapThatNothingResists)
+{
+  ChainProblem  soft   = soft_differences(1e-4);
+  const Outcome leapt  = outcome(soft, 1e-11, "direct");
+  bool          climbs = false;
+  for (std::size_t k = 1; k < leapt.report.trace.size(); ++k)
+    climbs = climbs || (leapt.report.trace[k].evaluation.energy >
+                        leapt.report.trace[k - 1].evaluation.energy + 0.01);
+  EXPECT_EQ(leapt.failure, "");
+  EXPECT_TRUE(climbs);
+  EXPECT_FALSE(leapt.report.ends_at_leap);
+  EXPECT_NEAR(leapt.u[0] - leapt.u[1], 0.5 * std::sqrt(2.), 1e-8);
+
+  ChainProblem  unresisted = soft_differences(1e-9);
+  const Outcome ended      = outcome(unresisted, 1e-11, "direct");
+  EXPECT_NE(ended.failure, "");
+  EXPECT_TRUE(ended.report.ends_at_leap);
+  EXPECT_LT(ended.report.residual, 1e-8);
+  EXPECT_LT(ended.report.newton_iterations, 10u);
+  EXPECT_NEAR(ended.u[0] - ended.u[1], 0., 0.01);
+  EXPECT_NEAR(ended.u[0] + ended.u[1], std::sqrt(2.), 0.01);
+}
+
+
 // The energy's rounding hides that nothing gets better.
 TEST(NewtonProgress, EndsWithoutIt)
 {

@@ -55,6 +55,10 @@ namespace Morula
     /** Where an attempt has failed, with the extremes of all ranks. */
     Equilibrium::Evaluation failed_at;
 
+    /** Whether the last solve has ended next to balance, because along a motion
+     *  that hardly anything resists Newton's method led away from there. */
+    bool ends_at_leap = false;
+
     /** The place of the present solve. */
     NewtonPlace place;
 

@@ -424,6 +424,20 @@ namespace Morula
       return tangents.kept();
     }
 
+    /** Whether |R| is a small part of the first one here and hardly anything
+     *  resists the direction d: d·Kd / d·|diag K|d is below a tenth of the
+     * least c of a proximal path (5.7), whose friction decides where d goes.
+     * Noted in the report. Collective. */
+    bool
+    is_unresisted() const
+    {
+      Equilibrium::Vector d(direction.values);
+      d.scale(diagonal_magnitude(*K, d));
+      return report.ends_at_leap =
+               getNormF() <= 1e-4 * report.first_residual &&
+               -(R.values * direction.values) < 1e-7 * (d * direction.values);
+    }
+
     /** The part of the last direction that has led here. */
     double
     part_taken() const

@@ -31,15 +31,8 @@ namespace Morula
      *  a soft motion follows a stiff path, the residual falls within ten. */
     constexpr int patience = 20;
 
-    /** Where the residual is below so many times its bound, and this part of
-     *  the energy has not been won in so many iterations, a motion is left that
-     *  hardly anything resists, as the bending of a sheet of one layer of
-     * cells. Half the step or a proximal path ends it sooner. */
-    constexpr double loose = 100., least_gain = 1e-4;
-    constexpr int    idle = 80;
-
-    /** A residual that is lower by less than this part is no progress: it can
-     *  creep down for ever. */
+    /** A residual that is lower by less than this part is no progress: without
+     *  an energy it can creep down for ever towards a state that is none. */
     constexpr double least_fall = 0.01;
 
     /** An iteration with a tangent of its own ends far below the bound of
@@ -123,9 +116,6 @@ namespace Morula
           reason =
             "Solver/Newton iterations = " + std::to_string(bounds.iterations) +
             " were not enough";
-        else if (has_energy && norm <= loose * bounds.residual &&
-                 iteration - gain_at >= idle)
-          reason = "hardly anything resists the motion that is left";
         else if (iteration - progress_at >= patience)
           reason =
             std::to_string(patience) +
@@ -186,13 +176,8 @@ namespace Morula
         if (falls)
           lowest_norm = norm;
         lowest_energy = std::min(lowest_energy, energy);
-        if (energy < gained - least_gain * group.evaluation().energy_magnitude)
-          {
-            gained  = energy;
-            gain_at = iteration;
-          }
-        has_risen = has_risen || norm > last_norm;
-        last_norm = norm;
+        has_risen     = has_risen || norm > last_norm;
+        last_norm     = norm;
         if (iteration > 0 && on_the_way.check && group.curvature() < 0.)
           on_the_way.check(values_of(group.getX()));
         if (!report.wants_trace)
@@ -219,9 +204,7 @@ namespace Morula
       double          lowest_norm = // that counted as progress, N
         std::numeric_limits<double>::infinity();
       double      lowest_energy = std::numeric_limits<double>::infinity();
-      double      gained        = std::numeric_limits<double>::infinity();
       int         progress_at   = 0; // the iteration that brought the lowest
-      int         gain_at       = 0; // the one that brought the gained energy
       bool        has_risen     = false; // the residual, in any iteration
       std::string reason        = "no part of Newton's step has a lower energy";
       NOX::StatusTest::StatusType status = NOX::StatusTest::Unevaluated;

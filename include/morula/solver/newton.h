@@ -97,8 +97,9 @@ namespace Morula
    *   what is left to move, estimated from the last iteration, is below tol
    *   times the typical length: doc/theory.md (5.3);
    * - it goes on while it gets on: it fails once twenty iterations have brought
-   *   neither a new lowest energy nor a new lowest residual, or at
-   *   Solver/Newton iterations.
+   *   neither a new lowest energy nor a new lowest residual, at Solver/Newton
+   *   iterations, or next to balance before a leap along a motion that hardly
+   *   anything resists, where u stays.
    *
    * @param linear_problem what is known of the problem's tangents
    * @param scales what small forces and lengths are compared with

@@ -285,8 +285,7 @@ namespace Morula
             // A leap ends the solve where it is.
             if (is_kept || leaps)
               {
-                step = 0.;
-                new_group.computeX(old_group, direction, step);
+                new_group.computeX(old_group, direction, step = 0.);
                 new_group.computeF();
                 return !leaps;
               }

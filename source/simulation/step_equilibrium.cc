@@ -264,8 +264,7 @@ namespace Morula
                balance.is_far_from(begin, u)) ||
               tissue.cells().has_parts())
             throw;
-          if (!report.ends_at_leap)
-            u = begin; // as it may be anywhere
+          u = begin; // as it may be anywhere
           return follow_proximal_path(
             balance, linear, scales, model.scene.solver, timer, u, report);
         }

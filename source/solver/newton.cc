@@ -477,8 +477,10 @@ namespace Morula
     });
     u                                    = values_of(group->getX());
     report.residual                      = relative(group->getNormF());
-    // Below its bound rounding, not the equilibrium, has stopped the search.
-    if (group->isF() && std::isfinite(group->evaluation().energy) &&
+    // Below its bound rounding, not the equilibrium, has stopped the search. A
+    // leap leaves open how far its motion goes, which a path decides.
+    const bool leaps = report.ends_at_leap && report.proximal_paths == 0;
+    if (!leaps && group->isF() && std::isfinite(group->evaluation().energy) &&
         group->getNormF() <= bound)
       return group->evaluation();
     throw StepFailed("Newton's method has not converged: " + reason);

@@ -59,15 +59,8 @@ namespace Morula
     // The residual at the start is the force that the path has to work off: a
     // part counts as solved relative to it.
     remove_parts(R, linear_problem.null_space);
-    NewtonScales of_parts = scales;
-    of_parts.small_force  = std::max(scales.small_force, R.l2_norm());
-    // Next to balance nearly all of that force has been worked off.
-    if (report.ends_at_leap)
-      {
-        of_parts.small_force =
-          std::max(scales.small_force, report.first_residual);
-        problem.use_growth_at_end();
-      }
+    NewtonScales of_parts    = scales;
+    of_parts.small_force     = std::max(scales.small_force, R.l2_norm());
     SolverParameters limited = parameters;
     limited.newton_iterations =
       std::min<unsigned int>(iterations_of_part, parameters.newton_iterations);

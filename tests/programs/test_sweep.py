@@ -240,7 +240,6 @@ NONSENSE = [
     ("nothing is random", [*VARY, "--seeds", "1-3", "-s", "Proliferation/Law=none"]),
     ("3996 runs", [*VARY, "--seeds", "1-999"]),
     ("Did you mean 'total_volume'", [*VARY, "--columns", "cells,total_volum"]),
-    ("once", [*VARY, "--columns", "cells,cells"]),
     ("what --help shows", [*VARY, "--sedes", "1-2"]),
 ]
 BAD_SAMPLES = [

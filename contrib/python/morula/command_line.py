@@ -8,7 +8,6 @@ import signal
 import sys
 from pathlib import Path
 
-from .execute import cores
 from .places import MORULA
 from .refusal import Refused
 
@@ -65,14 +64,8 @@ def lengths(option, text, numbers):
 
 
 def ranks_and_jobs(options):
-    """Both as numbers that fit this machine."""
-    ranks = whole_number("--ranks", options.ranks)
-    jobs = whole_number("--jobs", options.jobs)
-    if jobs > 1 and jobs * ranks > cores():
-        raise Refused("--jobs", options.jobs, f"at most {cores()} cores for all runs with --ranks "
-                      f"{ranks}", "More would wait for each other, and make every time "
-                      "meaningless.")
-    return ranks, jobs
+    """Both as numbers."""
+    return whole_number("--ranks", options.ranks), whole_number("--jobs", options.jobs)
 
 
 def output_directory(options, default):

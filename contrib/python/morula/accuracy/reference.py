@@ -41,9 +41,5 @@ class Reference:
         if "time" in found:
             found = found[[same_time(there, time) for there in found["time"]]]
         if len(found) != 1:
-            days = ", ".join(f"{day:g}" for day in self.table.get("time", ()))
-            raise Refused(OPTION, self.file, f"one row for day {time:g}",
-                          f"It has {len(self.table)} rows"
-                          + (f", for the days {days}" if days else "")
-                          + "; Time/End time says when the runs are compared.")
+            raise Refused(OPTION, self.file, f"one row for day {time:g}", f"It has {len(found)}.")
         return found.iloc[0]

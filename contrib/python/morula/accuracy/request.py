@@ -82,13 +82,8 @@ class Request:
         """The day on which runs are compared, that of their end."""
         end = self.scene.number("Time/End time")
         if self.scene.number("Time/Stop at cells") > 0:
-            raise Refused("Time/Stop at cells", self.scene["Time/Stop at cells"],
-                          "0 here", "Such runs end at different times: use -s "
-                          "\"Time/Stop at cells=0\" and -s \"Time/End time=...\".")
-        longest = max(self.plan.values("Time/Step"), key=float)
-        if "Time/Step" in self.plan.keys and float(longest) > end * (1 + 1e-9):
-            raise Refused("--vary", f"Time/Step={longest}", "a step up to the end, "
-                          f"{end:g} day", "Longer ones are all the same run.")
+            raise Refused("Time/Stop at cells", self.scene["Time/Stop at cells"], "0 here", "Such runs "
+                          'end at different times: use -s "Time/Stop at cells=0" and an End time.')
         return end
 
     def keys_at(self, point):

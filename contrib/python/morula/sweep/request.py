@@ -50,9 +50,7 @@ class Request:
 
     def _columns(self, text):
         """--columns: measures; those of the cells' and the surface's files are told, too."""
-        names = [name.strip() for name in text.split(",")]
-        if len(set(names)) < len(names):
-            raise Refused("--columns", text, "each column once")
+        names = dict.fromkeys(name.strip() for name in text.split(","))
         for name in names:
             if name not in self.told or name == "time":
                 self.told[name] = read_measure(name, self.scene.keys, "--columns")

@@ -10,7 +10,6 @@
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -63,7 +62,9 @@ namespace Morula
      *  of the residual r, z = P r, w = K z, and s = K p of the last p. */
     struct Products
     {
-      double rz, zw, zs, rr, rw, rs, ww, ws, ss; // one after the other
+      double rz = 0., zw = 0., zs = 0.;
+      double rr = 0., rw = 0., rs = 0.;
+      double ww = 0., ws = 0., ss = 0.;
 
       static constexpr std::size_t n = 9;
 
@@ -83,9 +84,16 @@ namespace Morula
       }
 
       explicit Products(const std::vector<double> &sums)
-      {
-        std::copy_n(sums.begin(), n, &rz);
-      }
+        : rz(sums[0])
+        , zw(sums[1])
+        , zs(sums[2])
+        , rr(sums[3])
+        , rw(sums[4])
+        , rs(sums[5])
+        , ww(sums[6])
+        , ws(sums[7])
+        , ss(sums[8])
+      {}
 
       /** A bound on |r - α (w + β s)|², rounding included. */
       double

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
 """What the program says before and in a run that a user may not have meant:
-pieces that nothing holds, keys that do nothing, times between steps."""
+pieces that nothing holds, and keys that do nothing."""
 import math
 
 import h5py
@@ -15,7 +15,6 @@ POINTS = {"Dimension": 2, "Tissue/Shape": "points", "Grid/Spacing": 20, "Time/En
           "Time/Step": 0.1, "Output/Formats": "none"}
 FIXED, SLIP = "Boundary conditions/Fixed where", "Boundary conditions/Slip where"
 TRACTION, WEIGHT = "Boundary conditions/Traction", "Body force/Force density"
-MOVES = "Boundary conditions/Displacement"
 HELD = {**BOX, FIXED: "X < -49.9"}
 PULLED = {**HELD, TRACTION + " where": "X > 49.9"}
 PULL = {**PULLED, TRACTION: "0.01*t; 0"}
@@ -26,7 +25,6 @@ LEAVES = {**BOX, "Death/Shrinking time": 0}
 # A box of 80 um, of 12 triangles.
 CUBE = ("OFF|8 12 0|0 0 0|80 0 0|80 80 0|0 80 0|0 0 80|80 0 80|80 80 80|0 80 80|3 0 2 1|3 0 3 2"
         "|3 4 5 6|3 4 6 7|3 0 1 5|3 0 5 4|3 1 2 6|3 1 6 5|3 2 3 7|3 2 7 6|3 3 0 4|3 3 4 7")
-PULSE, WAVE = "(t > 0.12 && t < 0.18)", "sin(2*pi*t/0.1)"
 
 
 def field(**keys):
@@ -141,7 +139,6 @@ def test_points_in_metres(runs, scale):
 
 
 NOWHERE = "it acts nowhere: at all 10"
-BETWEEN = "the run sees its values at the ends of steps"
 ALONE = "it does nothing without "
 EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
 
@@ -149,15 +146,6 @@ EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
 @pytest.mark.parametrize("keys, word", [
     ({**PULLED, TRACTION + " where": "X < -49.9", TRACTION: "0.1; 0"}, NOWHERE),
     ({**BOX, TRACTION + " where": "X > 49.9", TRACTION: "0.1; 0", SLIP: 1}, NOWHERE),
-    ({**PULLED, TRACTION: f"0.01*{PULSE}; 0"}, BETWEEN),
-    ({**PULLED, TRACTION: f"0.01*{WAVE}; 0"}, BETWEEN),
-    ({**RATE, "Growth/Rate/Rate": f"2*{PULSE}"}, BETWEEN),
-    ({**HELD, FIXED: "abs(X) > 49.9", MOVES: f"(X > 0)*{WAVE}; 0"}, BETWEEN),
-    (field(Time="transient", Diffusion=100, Fixed_where="X > 49.9", Value=f"10*{PULSE}"), BETWEEN),
-    (field(Time="transient", Diffusion=100, Initial=1, Production=f"u*{PULSE}"), BETWEEN),
-    ({**LEAVES, "Death/When": f"X > 0 && {PULSE}"}, BETWEEN),
-    (obstacle("plane", Center="0, -60, 0", Normal="0, 1, 0", Velocity=f"0; 10*{WAVE}; 0"),
-     BETWEEN),
     ({**BOX, "Material/Yield stress": 1}, ALONE),
     ({**RATE, "Growth/Rate/Homeostatic stress": -1}, ALONE),
     ({**RATE, "Growth/Rate/Rate": 0.1, "Growth/Rate/Share along": 0.5}, ALONE),
@@ -186,20 +174,9 @@ def test_words(runs, keys, word):
     assert word in runs.run("words", keys).said
 
 
-@pytest.mark.parametrize("keys", [
-    HELD, PULL, {**PULLED, "Time/Step": 0.01, TRACTION: f"0.01*{WAVE}; 0"},
-    {**PULLED, TRACTION: "0.01*(t > 0.15); 0"}])
+@pytest.mark.parametrize("keys", [HELD, PULL])
 def test_no_words(runs, keys):
-    said = runs.run("plain", keys).said
-    assert BETWEEN not in said
-    assert keys not in (HELD, PULL) or "Warning" not in said
-
-
-def test_between_steps_of_a_type(runs):
-    said = runs.explain(TYPES, {
-        "Cell types/b/Where": "X > 0", "Growth/Law": "rate", "Growth/Rate/Rate": 0.1,
-        "Cell types/b/Growth/Rate/Rate": WAVE})
-    assert said.count(BETWEEN) == 1
+    assert "Warning" not in runs.run("plain", keys).said
 
 
 @pytest.mark.parametrize("production, mean", [("t > 0.15", 0.1), ("2*t", 0.06)])

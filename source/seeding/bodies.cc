@@ -35,7 +35,9 @@ namespace Morula
 
   template <int dim>
   std::vector<unsigned int>
-  bodies_apart(const Founders<dim> &founders, const MPI_Comm comm)
+  bodies_apart(const Founders<dim> &founders,
+               const MPI_Comm       comm,
+               const double         widest)
   {
     // Every rank gets all founders, which takes far less memory than its cells
     // do later, and finds the same bodies: a tree gives the neighbours of each
@@ -52,10 +54,9 @@ namespace Morula
     boost::disjoint_sets_with_storage<> sets(positions.size());
     for (unsigned int i = 0; i < positions.size(); ++i)
       for (const unsigned int j :
-           tree.within(positions[i],
-                       0.5 * widest_bond * (lengths[i] + longest)))
+           tree.within(positions[i], 0.5 * widest * (lengths[i] + longest)))
         if (positions[i].distance(positions[j]) <=
-            0.5 * widest_bond * (lengths[i] + lengths[j]))
+            0.5 * widest * (lengths[i] + lengths[j]))
           sets.union_set(i, j);
     const unsigned int        no_body = numbers::invalid_unsigned_int;
     std::vector<unsigned int> body_of_set(positions.size(), no_body), mine;

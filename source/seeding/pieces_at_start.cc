@@ -7,7 +7,6 @@
 #include <morula/seeding/pieces_at_start.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/mpi.templates.h>
 #include <deal.II/base/utilities.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -120,105 +119,6 @@ namespace Morula
   MORULA_INSTANTIATE(pieces_at_start);
 
 
-  namespace
-  {
-    /** Cubes of a lattice that follow each other along the last axis, far fewer
-     *  than cubes: the first one, and the place on that axis behind the last
-     *  one. */
-    template <int dim>
-    using Run = std::array<int, dim + 1>;
-
-    /** The cubes of a lattice, its lines at i @p length (µm), that hold points,
-     *  as runs; all ranks' on rank 0. Collective. */
-    template <int dim>
-    std::vector<Run<dim>>
-    occupied(const std::vector<Point<dim>> &points,
-             const double                   length,
-             const MPI_Comm                 comm)
-    {
-      // Sorted by coordinates, cubes along the last axis follow each other, and
-      // become one run where they touch. That makes far less to send.
-      std::vector<std::array<int, dim>> places(points.size());
-      for (std::size_t i = 0; i < points.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-          places[i][d] = static_cast<int>(std::floor(points[i][d] / length));
-      std::sort(places.begin(), places.end());
-
-      std::vector<Run<dim>> mine;
-      for (const std::array<int, dim> &place : places)
-        {
-          const int end = place[dim - 1] + 1;
-          if (!mine.empty() && end <= mine.back()[dim] + 1 &&
-              std::equal(place.begin(), place.end() - 1, mine.back().begin()))
-            mine.back()[dim] = end;
-          else
-            {
-              mine.emplace_back();
-              std::copy(place.begin(), place.end(), mine.back().begin());
-              mine.back()[dim] = end;
-            }
-        }
-      std::vector<Run<dim>> all;
-      for (const auto &runs : Utilities::MPI::gather(comm, mine, 0))
-        all.insert(all.end(), runs.begin(), runs.end());
-      return all;
-    }
-
-    /** How many groups the cubes form, of which neighbours stand at most two
-     *  cubes apart along each axis. */
-    template <int dim>
-    unsigned int
-    n_groups(const std::vector<Run<dim>> &runs)
-    {
-      // Each run is joined with those found before it in all rows within reach,
-      // where they overlap along the last axis or come as near as that. All
-      // pairs are looked at, as the later of two runs finds the earlier one.
-      using Row = std::array<int, dim - 1>; // the other axes
-      std::map<Row, std::vector<std::size_t>> rows;
-      boost::disjoint_sets_with_storage<>     groups(runs.size());
-      std::vector<std::size_t>                list;
-      for (std::size_t r = 0; r < runs.size(); ++r)
-        {
-          list.push_back(r);
-          const Run<dim> &run = runs[r];
-          Row             row;
-          std::copy_n(run.begin(), dim - 1, row.begin());
-          // This joins it with runs that came before.
-          for (int k = 0; k < Utilities::pow(5, dim - 1); ++k)
-            {
-              Row other = row;
-              for (int d = 0, rest = k; d < dim - 1; ++d, rest /= 5)
-                other[d] += rest % 5 - 2;
-              if (const auto found = rows.find(other); found != rows.end())
-                for (const std::size_t s : found->second)
-                  if (run[dim - 1] < runs[s][dim] + 2 &&
-                      runs[s][dim - 1] < run[dim] + 2)
-                    groups.union_set(r, s);
-            }
-          rows[row].push_back(r);
-        }
-      return groups.count_sets(list.begin(), list.end());
-    }
-  } // namespace
-
-
-  template <int dim>
-  BodyCounts
-  count_bodies(const GridParameters      &grid,
-               const Founders<dim>       &founders,
-               const SurfacePatches<dim> &surface,
-               const MPI_Comm             comm)
-  {
-    // Bodies are groups of cubes as long as the longest cell that stand at most
-    // two apart, counted on rank 0. The grid sticks bodies together that the
-    // cells keep apart where there are fewer pieces than bodies.
-    const std::vector<Run<dim>> runs =
-      occupied<dim>(founders.positions, longest_length(founders, comm), comm);
-    return {Utilities::MPI::broadcast(comm, n_groups<dim>(runs), 0),
-            pieces_at_start(grid, founders, surface, comm).n};
-  }
-
-
   template <int dim>
   void
   review_bodies(const GridParameters      &grid,
@@ -228,16 +128,23 @@ namespace Morula
                 const MPI_Comm             comm,
                 Review                    &review)
   {
-    // A shape is one body. The run says when bodies come to stick later.
+    // A shape is one body. The run says when bodies come to stick later. A gap
+    // of two of the longest cells counts, one of a single cell does not.
     if (!tissue.is_from_file())
       return;
-    const BodyCounts counts = count_bodies(grid, founders, surface, comm);
-    if (counts.bodies > counts.pieces)
+    Founders<dim> apart(founders);
+    apart.volumes.assign(founders.volumes.size(),
+                         std::pow(longest_length(founders, comm), dim));
+    apart.bodies                = bodies_apart(apart, comm, 2.5);
+    const unsigned int n_bodies = number_of_bodies(apart, comm),
+                       n_pieces =
+                         pieces_at_start(grid, founders, surface, comm).n;
+    if (n_bodies > n_pieces)
       review.warn(grid.spacing.path(),
                   as_text(grid.spacing) + " um",
-                  "the tissue is " + std::to_string(counts.bodies) +
+                  "the tissue is " + std::to_string(n_bodies) +
                     " bodies, of which the grid makes " +
-                    std::to_string(counts.pieces) +
+                    std::to_string(n_pieces) +
                     ": those closer than a grid spacing stick together from "
                     "the start.",
                   "Set Contact/Between = bodies, or Grid/Spacing to less than "
@@ -245,7 +152,6 @@ namespace Morula
   }
 
 
-  MORULA_INSTANTIATE(count_bodies);
   MORULA_INSTANTIATE(review_bodies);
 
 

@@ -41,12 +41,14 @@ namespace Morula
 
   /**
    * The body of each of this rank's founders: founders that stand together,
-   * each at most widest_bond lengths from some other. Bodies have the numbers
-   * 0, 1, ... in the order of their first founders. Collective.
+   * each at most so many lengths from some other. Bodies have the numbers 0, 1,
+   * ... in the order of their first founders. Collective.
    */
   template <int dim>
   std::vector<unsigned int>
-  bodies_apart(const Founders<dim> &founders, const MPI_Comm comm);
+  bodies_apart(const Founders<dim> &founders,
+               const MPI_Comm       comm,
+               const double         widest = widest_bond);
 
   /** Tells bodies apart once more when cells have gone at t = 0: the numbers go
    *  by the lowest id in a body. What the surface was before, @p former, takes

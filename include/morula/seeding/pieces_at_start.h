@@ -33,30 +33,6 @@ namespace Morula
                   const MPI_Comm             comm);
 
 
-  /** The number of bodies, and the number of pieces that the grid makes of
-   *  them. */
-  struct BodyCounts
-  {
-    /** Groups of founders with a gap of two cells or more between them. */
-    unsigned int bodies = 0;
-    /** Groups of touching grid cells that hold founders or boundary points:
-     *  those of one group share splines. */
-    unsigned int pieces = 0;
-  };
-
-  /**
-   * Counts the bodies and the pieces of the tissue at the start. A gap of two
-   * of the longest cells counts, one of a single cell does not; in between it
-   * depends on where the cells stand. Collective: rank 0 gets runs of places,
-   * far fewer than founders, and all ranks get its answer.
-   */
-  template <int dim>
-  BodyCounts
-  count_bodies(const GridParameters      &grid,
-               const Founders<dim>       &founders,
-               const SurfacePatches<dim> &surface,
-               const MPI_Comm             comm);
-
   /**
    * Warns of bodies that stick together from the start, because they are within
    * a grid spacing of each other. Only shapes that come from a file can be

@@ -115,31 +115,6 @@ namespace Morula
   }
 
 
-  template <int dim>
-  SeedingLimits<dim>
-  seeding_limits(const Scene &scene, const MPI_Comm comm)
-  {
-    // Seeding calls the function when it knows how many cells and grid cells
-    // there would be, before it makes them. The scene is copied into it, as the
-    // function may outlive it.
-    SeedingLimits<dim> limits = seeding_limits<dim>(
-      scene.tissue,
-      scene.grid.spacing,
-      [scene,
-       comm](const double cells, const double volume, const double grid_cells) {
-        check_memory(scene, {cells, volume, grid_cells}, comm);
-      });
-    limits.types = scene.type_names();
-    return limits;
-  }
-
-
-  template SeedingLimits<2>
-  seeding_limits(const Scene &, const MPI_Comm);
-  template SeedingLimits<3>
-  seeding_limits(const Scene &, const MPI_Comm);
-
-
   namespace
   {
     template <int dim>

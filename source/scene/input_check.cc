@@ -316,9 +316,14 @@ namespace Morula
       // them. Types of cells come before effects, which are made with them.
       scene.time.check();
       check_grid(scene.grid, dim);
-      check_lengths(scene.tissue,
-                    scene.grid.spacing,
-                    dim); // This is first: the next one visits all places.
+      // Points have volumes of their own, which are tested as they are read.
+      if (const double longest = longest_cell * scene.grid.spacing;
+          !scene.tissue.is_points() && scene.tissue.cell_spacing > longest)
+        scene.tissue.cell_spacing.refuse(
+          "a spacing of at most " + as_text(longest_cell) +
+            " times Grid/Spacing, " + as_text(longest) + " um",
+          "Choose a smaller spacing, or a larger Grid/Spacing: a "
+          "cell deforms as a whole.");
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
       check_material(scene.material, dim);

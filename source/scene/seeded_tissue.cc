@@ -284,6 +284,29 @@ namespace Morula
                seed_points_surface(scene.tissue, scene.grid, founders, comm) :
                SurfacePatches<dim>();
     }
+
+
+    /** The limits of tissue from a file, and the names of its cells' types. */
+    template <int dim>
+    SeedingLimits<dim>
+    seeding_limits(const Scene &scene, const MPI_Comm comm)
+    {
+      // Seeding calls the function when it knows how many cells there would be,
+      // before it makes them.
+      const double       h = scene.grid.spacing;
+      SeedingLimits<dim> limits;
+      limits.farthest     = farthest_place * h;
+      limits.cell_length  = longest_cell * h;
+      limits.types        = scene.type_names();
+      limits.check_memory = [&scene, h, comm](const BoundingBox<dim> &box,
+                                              const double            cells,
+                                              const double            volume) {
+        const double grid_cells =
+          check_filled(scene.tissue, h, box, cells, volume);
+        check_memory(scene, {cells, volume, grid_cells}, comm);
+      };
+      return limits;
+    }
   } // namespace
 
 

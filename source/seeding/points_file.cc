@@ -343,48 +343,6 @@ namespace Morula
       return table;
     }
 
-    /** Refuses a tissue that is longer than the limit along an axis, and names
-     *  the cell farthest from the mean: of a file with one wrong number that is
-     *  the wrong one. */
-    template <int dim>
-    void
-    check_outlier(const std::string        &file,
-                  const Table<dim>         &table,
-                  const SeedingLimits<dim> &limits)
-    {
-      const std::vector<Point<dim>> &positions = table.cells.positions;
-      const BoundingBox<dim>         box(positions);
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          // Halves are compared, and parts of the mean added, since large
-          // numbers may overflow.
-          if (0.5 * box.upper_bound(d) - 0.5 * box.lower_bound(d) <=
-              0.5 * limits.extent)
-            continue;
-          double center = 0.;
-          for (const Point<dim> &x : positions)
-            center += x[d] / positions.size();
-          const auto distance = [&](const Point<dim> &x) {
-            return std::abs(0.5 * x[d] - 0.5 * center);
-          };
-          const auto farthest =
-            std::max_element(positions.begin(),
-                             positions.end(),
-                             [&](const Point<dim> &a, const Point<dim> &b) {
-                               return distance(a) < distance(b);
-                             });
-          Lines::refuse_line(
-            file,
-            table.lines[farthest - positions.begin()],
-            0,
-            Patterns::Tools::to_string(*farthest),
-            "cells that are at most " + as_text(limits.extent) +
-              " um apart along an axis (a number of times Grid/Spacing)",
-            "This one is the farthest from the others: correct or drop it. If "
-            "the file is in another unit, scale it to um.");
-        }
-    }
-
     /** Refuses the first cell that coincides with one before it. */
     template <int dim>
     void
@@ -434,7 +392,6 @@ namespace Morula
                          file,
                          "a file with 1 to 4e9 cells",
                          "It has " + std::to_string(table.lines.size()) + ".");
-      check_outlier(file, table, limits);
       check_repeated(file, table);
       all = std::move(table.cells);
     });

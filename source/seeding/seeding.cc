@@ -45,28 +45,7 @@ namespace Morula
       return text.str();
     }
 
-    /** Refuses a surface that holds no cell or too many. Then its file most
-     *  likely has another unit of length. */
-    template <int dim>
-    [[noreturn]] void
-    throw_wrong_size(const TissueParameters &parameters,
-                     const BoundingBox<dim> &box,
-                     const bool              too_large)
-    {
-      std::ostringstream remedy;
-      remedy << reach(box) << ", and a cell takes " << parameters.cell_spacing
-             << " um (Tissue/Cell spacing). If the file is in another unit, "
-             << "scale it to um"
-             << (too_large ? "" : ", such as by 1000 from mm or 1e6 from m")
-             << "; else choose another Cell spacing or Lattice offset.";
-      parameters.surface_mesh.refuse(
-        too_large ? "a surface in um with fewer than 4e9 cells" :
-                    "a surface in um with at least one cell's centre inside",
-        remedy.str());
-    }
-
-    /** Refuses a mesh that exceeds the limits, or whose bounding box has room
-     *  for too many cells. */
+    /** Refuses a mesh that exceeds the limits. */
     template <int dim>
     void
     check_extent(const TissueParameters   &parameters,
@@ -75,27 +54,12 @@ namespace Morula
     {
       const BoundingBox<dim> box = shape.bounding_box();
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          if (!(box.side_length(d) <= limits.extent))
-            parameters.surface_mesh.refuse(
-              "a surface in um that is at most " + as_text(limits.extent) +
-                " um long (a number of times Grid/Spacing)",
-              reach(box) + ": correct the vertex that lies astray. If the file "
-                           "is in another unit, scale it to um.");
-          if (!(std::max(std::abs(box.lower_bound(d)),
-                         std::abs(box.upper_bound(d))) <= limits.farthest))
-            parameters.surface_mesh.refuse(
-              "a surface at most " + as_text(limits.farthest) +
-                " um from the origin (a number of times Grid/Spacing)",
-              reach(box) + ": move the scene nearer to the origin.");
-        }
-      // A box around the surface with room for too many cells is refused before
-      // it is filled: its file most likely has another unit.
-      double n = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        n *= box.side_length(d) / parameters.cell_spacing + 1.;
-      if (!(n < most_ids))
-        throw_wrong_size(parameters, box, true);
+        if (!(std::max(std::abs(box.lower_bound(d)),
+                       std::abs(box.upper_bound(d))) <= limits.farthest))
+          parameters.surface_mesh.refuse(
+            "a surface at most " + as_text(limits.farthest) +
+              " um from the origin (a number of times Grid/Spacing)",
+            reach(box) + ": move the scene nearer to the origin.");
       if (limits.check_memory)
         limits.check_memory(box,
                             shape.volume() /
@@ -117,12 +81,15 @@ namespace Morula
         MPI_Exscan(&n_mine, &below, 1, MPI_UINT64_T, MPI_SUM, comm);
       AssertThrowMPI(error);
       if (Utilities::MPI::this_mpi_process(comm) == 0)
-        // MPI_Exscan() leaves it undefined on rank 0.
-        below = 0; // MPI_Exscan leaves it undefined
+        below = 0; // MPI_Exscan() leaves it undefined
 
       const std::uint64_t n = Utilities::MPI::sum(n_mine, comm);
       if (n == 0 && parameters.is_mesh())
-        throw_wrong_size(parameters, box, false);
+        parameters.surface_mesh.refuse(
+          "a surface in um with at least one cell's centre inside",
+          reach(box) + ". If the file is in another unit, scale it to um, such "
+                       "as by 1000 from mm or 1e6 from m; else choose another "
+                       "Cell spacing or Lattice offset.");
       if (n == 0)
         throw_no_cell_fits(parameters);
       founders.first_id = static_cast<types::particle_index>(below);

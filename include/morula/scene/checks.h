@@ -43,12 +43,6 @@ namespace Morula
   void
   check_memory(const Scene &scene, const SceneSize &size, const MPI_Comm comm);
 
-  /** The limits of the scene's tissue, if it comes from a file, and the names
-   * of its cells' types. */
-  template <int dim>
-  SeedingLimits<dim>
-  seeding_limits(const Scene &scene, const MPI_Comm comm);
-
   /** What effects may inspect before the run: founders and boundary points of
    *  this rank, which must outlive the result. Collective. */
   template <int dim>

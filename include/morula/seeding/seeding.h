@@ -93,18 +93,14 @@ namespace Morula
   };
 
   /**
-   * Limits of a tissue from a file: how far it may reach, how large its cells
-   * may be, and which types they may have. With one vertex or cell far away
-   * from all others, the grid between them would not fit into memory. Lengths
-   * in µm.
+   * Limits of a tissue from a file: how far away it may be, how large its cells
+   * may be, and which types they may have. Lengths in µm.
    */
   template <int dim>
   struct SeedingLimits
   {
     /** Largest absolute value of a coordinate. */
     double farthest = std::numeric_limits<double>::infinity();
-    /** Largest extent along an axis. */
-    double extent = std::numeric_limits<double>::infinity();
     /** Largest V^(1/dim) of a cell. */
     double cell_length = std::numeric_limits<double>::infinity();
     /** Names of the types of cells; empty: there are none. */
@@ -140,8 +136,7 @@ namespace Morula
    * @throws InputError on all ranks with the file's first bad line and column:
    * values that are no numbers, wrong columns, volumes that are not positive,
    * generations that are no whole number, a cell beyond the limits, a second
-   * moment; then for two cells at one place, a cell far away from all others,
-   * and a file without cells
+   * moment; then for two cells at one place, and a file without cells
    */
   template <int dim>
   Founders<dim>
@@ -161,36 +156,25 @@ namespace Morula
    *  lose their digits, and grid cells are counted by integers. */
   constexpr double farthest_place = 1e8;
 
-  /** Longest tissue along an axis, in units of h. A box of this length in all
-   *  directions is more than any machine holds. In one direction it is some
-   *  metres of tissue, and nearly always due to a single stray point. */
-  constexpr double longest_tissue = 1000.;
-
   /** Longest cell, in units of h. A cell deforms as a whole, and one of this
    *  length takes longest_cell^dim quadrature points. */
   constexpr double longest_cell = 10.;
 
   /**
-   * Refuses shapes and cells whose lengths, as the scene gives them, are beyond
-   * these limits on a grid of spacing @p h (µm).
+   * Refuses tissue that fills next to nothing of the grid around it, as with
+   * one vertex or cell that lies astray.
+   * @param h       spacing of the grid, µm
+   * @param cells, volume how many cells there are, and their volume, µm^dim
+   * @return the number of the grid's cells
    * @throws InputError
    */
-  void
-  check_lengths(const TissueParameters &tissue,
-                const double            h,
-                const unsigned int      dim);
-
-  /** Refuses a tissue of so many cells, with this volume (µm^dim), on a grid of
-   *  so many grid cells, if the machines' memory cannot hold it. Collective. */
-  using MemoryCheck =
-    std::function<void(const double, const double, const double)>;
-
-  /** The limits for tissue from files on a grid of spacing @p h (µm). */
   template <int dim>
-  SeedingLimits<dim>
-  seeding_limits(const TissueParameters &tissue,
-                 const double            h,
-                 const MemoryCheck      &check_memory);
+  double
+  check_filled(const TissueParameters &tissue,
+               const double            h,
+               const BoundingBox<dim> &box,
+               const double            cells,
+               const double            volume);
 
 
   /**

@@ -32,13 +32,6 @@ namespace Morula
       return "at most " + std::to_string(max_line) + " characters";
     }
 
-    bool
-    is_control(const char c)
-    {
-      return (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\r') ||
-             c == 0x7F;
-    }
-
     /** A subsection that is open: its name, the line where it begins, and how
      *  far that is indented, characters. */
     struct Open
@@ -56,18 +49,17 @@ namespace Morula
       read()
       {
         // Lines are put together while they end with a backslash, then read as
-        // one statement. The length is limited, as the file may be anything.
-        // Sections that were open before belong to the file that includes this
-        // one, so the file must not close them, and must close all of its own.
+        // one statement. Sections that were open before belong to the file that
+        // includes this one, so the file must not close them, and must close
+        // all of its own.
         const std::size_t n_outer = open.size();
         std::string       line, part;
-        while (get_line(part))
+        while (std::getline(input, part))
           {
             ++line_number;
             // Some editors write a byte order mark.
             if (line_number == 1 && part.rfind(byte_order_mark, 0) == 0)
               part.erase(0, byte_order_mark.size());
-            refuse_control_characters(part);
             if (line.empty())
               indent = std::min(part.find_first_not_of(" \t"), part.size());
             boost::trim(part);
@@ -75,9 +67,6 @@ namespace Morula
             if (goes_on)
               part.pop_back();
             line += part;
-            // A comment may be as long as it likes.
-            if (std::min(line.find('#'), line.size()) > max_line)
-              refuse_long_line(line);
             if (goes_on)
               continue;
             read_line(line, n_outer);
@@ -87,7 +76,7 @@ namespace Morula
           fail(name,
                "a file that can be read to its end",
                "Check its permissions and the disk.");
-        // The last line may have no end.
+        // The last line may end with a backslash.
         read_line(line, n_outer);
         if (open.size() > n_outer && !unclosed.name.empty())
           throw InputError(unclosed.opening + ": subsection",
@@ -106,52 +95,6 @@ namespace Morula
               std::to_string(line_number) + ".");
       }
 
-      /**
-       * Reads the next line, but not more than a line may have, since the file
-       * may be anything. Comments may be longer.
-       */
-      bool
-      get_line(std::string &line)
-      {
-        line.clear();
-        bool comment = false;
-        // Character by character, so that a file without line ends does not
-        // fill the memory.
-        int c;
-        while ((c = input.get()) != std::char_traits<char>::eof() && c != '\n')
-          {
-            comment = comment || c == '#';
-            if (line.size() <= max_line)
-              line += static_cast<char>(c);
-            else if (!comment)
-              {
-                // The longest line is exceeded: the file most likely is no
-                // scene.
-                ++line_number;
-                refuse_control_characters(line);
-                refuse_long_line(line);
-              }
-          }
-        return c == '\n' || !line.empty();
-      }
-
-      [[noreturn]] void
-      refuse_long_line(const std::string &line) const
-      {
-        fail(line, too_long(), "Shorten the line. Is this a scene?");
-      }
-
-      void
-      refuse_control_characters(const std::string &line) const
-      {
-        const auto bad = std::find_if(line.begin(), line.end(), is_control);
-        if (bad != line.end())
-          fail(std::string(line.begin(), bad),
-               "text",
-               "Character " + std::to_string(bad - line.begin() + 1) +
-                 " cannot be printed: remove it. Is this a scene?");
-      }
-
       void
       read_line(std::string line, const std::size_t n_outer)
       {
@@ -159,6 +102,8 @@ namespace Morula
         // statement. Both spellings are those of deal.II. What is none of them
         // is refused with a guess at what was meant.
         line = line.substr(0, line.find('#'));
+        if (line.size() > max_line)
+          fail(line, too_long(), "Shorten the line. Is this a scene?");
         boost::replace_all(line, "\t", " ");
         boost::trim(line);
         const auto        blank = line.find(' ');
@@ -260,7 +205,7 @@ namespace Morula
         const bool      here  = std::filesystem::exists(file, error);
         const auto      found = here ? file : sibling.string();
         std::ifstream   stream(found);
-        if (!stream || std::filesystem::is_directory(found, error))
+        if (!stream || !std::filesystem::is_regular_file(found, error))
           fail("include " + file,
                "a file that can be read",
                "Correct the name; it counts from the working directory or from "
@@ -274,8 +219,6 @@ namespace Morula
           const std::string &value)
       {
         statements.push_back({is_section, path, value, place() + ": "});
-        for (const Open &section : open)
-          statements.back().around.push_back(section.opening);
       }
 
       std::string
@@ -354,12 +297,6 @@ namespace Morula
   {
     if (text.size() > max_line)
       throw InputError("-s", text, too_long(), "Shorten it.");
-    const auto control = std::find_if(text.begin(), text.end(), is_control);
-    if (control != text.end())
-      throw InputError("-s",
-                       std::string(text.begin(), control),
-                       "text",
-                       "The next character cannot be printed: remove it.");
     // An override is a whole path with its value. It has no sections around it.
     const auto equals = text.find('=');
     if (equals == std::string::npos)

@@ -107,55 +107,26 @@ namespace Morula
   }
 
 
-  std::string
-  ParameterKeys::missing_end(const Statement &statement) const
-  {
-    // A key that would exist if some section around it were closed tells of a
-    // missing 'end', the most common mistake in long scenes. The innermost
-    // sections are tried first.
-    const std::vector<std::string> names = split_path(statement.path);
-    // Names may have a slash in them by mistake, and -s has no subsections.
-    // Then nothing can be said.
-    if (names.size() !=
-        statement.around.size() + (statement.is_section ? 0 : 1))
-      return "";
-    for (std::size_t n = names.size() - 1; n-- > 0;)
-      {
-        const std::vector<std::string> outer(names.begin(), names.begin() + n);
-        const std::string              path =
-          boost::join(outer, "/") + (n > 0 ? "/" : "") + names.back();
-        const bool known =
-          statement.is_section ? has_section(path) : find(path) != nullptr;
-        if (known)
-          return "'subsection " + names[n] + "' of " + statement.around[n] +
-                 " is still open here: is an 'end' missing? ";
-      }
-    return "";
-  }
-
-
   void
   ParameterKeys::refuse_unknown(const Statement &statement) const
   {
-    // Similar names are the best help, unless an 'end' is missing; then what
-    // the field's word for a thing is called here.
+    // Similar names are the best help; then what the field's word for a thing
+    // is called here.
     std::vector<std::string> paths;
     if (statement.is_section)
       paths = sections;
     else
       for (const AnyKey *key : keys)
         paths.push_back(key->path());
-    std::string suggestion = missing_end(statement);
-    if (suggestion.empty())
-      suggestion = suggest_path(statement.path, paths) + ' ';
+    std::string       suggestion = suggest_path(statement.path, paths);
     const std::string name =
       statement.path.substr(statement.path.rfind('/') + 1);
     const std::vector<std::string> words = words_of_keys(name);
-    if (suggestion == " ")
-      suggestion = words.empty() ?
-                     "" :
-                     "For " + boost::to_lower_copy(name) + " see '" +
-                       boost::join(words, "' or '") + "'. ";
+    if (suggestion.empty() && !words.empty())
+      suggestion = "For " + boost::to_lower_copy(name) + " see '" +
+                   boost::join(words, "' or '") + "'.";
+    if (!suggestion.empty())
+      suggestion += ' ';
     const bool is_section = statement.is_section;
     throw InputError(statement.place +
                        (is_section ? "subsection" : statement.path),

@@ -104,9 +104,7 @@ def test_command_line(fresh, arguments, value, remedy):
     (None, "a .prm file that can be read"),
     (b"PK\x03\x04\0\0", ":1"), (b"subsection Grid\n  set Spacing = 5\n", ":1: subsection = 'Grid'"),
     (b"\nsubsection Material\n  set Young's modulus = X\nend\n", ":3: Material/Young's modulus"),
-    (b"include nowhere.prm\n", ":1"), (b"include scene.prm\n", ":1"),
-    (b"subsection Tissue\n  set Shape = box\nsubsection Grid\nend\nend\n",
-     ":1 is still open here: is an 'end' missing?")])
+    (b"include nowhere.prm\n", ":1"), (b"include scene.prm\n", ":1")])
 def test_scenes(fresh, content, said):
     """Mistakes in the file itself name file and line; tests/scene/scene.cc has more."""
     scene = fresh.work / "scene.prm"

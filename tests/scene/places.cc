@@ -27,22 +27,12 @@ TEST(ScenePlaces, AreThoseOfSubsectionsWithoutEnd)
                             "  end\n";
   expect_parts(complaint(cycle + "subsection Grid\nend\nend\n"),
                {".prm:6: subsection = 'Proliferation/Grid'",
-                "'subsection Proliferation' of ",
-                ".prm:1 is still open here: is an 'end' missing?"});
-  expect_parts(complaint(cycle + "set Dimension = 2\nend\n"),
-               {".prm:6: Proliferation/Dimension = '2'",
-                "'subsection Proliferation' of "});
+                "Did you mean 'Grid'?"});
   expect_parts(complaint(cycle), {".prm:1: subsection", "Proliferation"});
   expect_parts(complaint("subsection Growth\n"
                          "  subsection Isotropic\n"
                          "  set Law = isotropic\n"),
                {".prm:1: subsection = 'Growth'", "ends with line 3"});
-  expect_parts(complaint("subsection Growth\n"
-                         "  subsection Isotropic\n"
-                         "  set Law = isotropic\nend\nend\n"),
-               {".prm:3: Growth/Isotropic/Law",
-                "'subsection Isotropic' of ",
-                ".prm:2 is still open"});
 }
 
 

@@ -24,9 +24,6 @@ namespace Morula
     std::string path;  // full path of the key or section, separated by '/'
     std::string value; // of the key
     std::string place; // of the statement, "file:line: "
-    // The beginnings of the subsections around it, "file:line", outermost
-    // first.
-    std::vector<std::string> around = {};
   };
 
   /**
@@ -75,8 +72,8 @@ namespace Morula
     /**
      * Applies a statement to the keys.
      * @throws InputError for an unknown key or section (with the most similar
-     *         one that exists, or where it stands) or a value that does not
-     *         match the pattern (with the most similar choice)
+     *         one that exists) or a value that does not match the pattern (with
+     *         the most similar choice)
      */
     void
     apply(const Statement &statement) const;
@@ -100,12 +97,6 @@ namespace Morula
       return std::find(sections.begin(), sections.end(), path) !=
              sections.end();
     }
-
-    /** Looks for a subsection around the statement that lacks its end: without
-     *  it and those inside it, the statement would be known. Returns a sentence
-     *  about it; empty if there is none. */
-    std::string
-    missing_end(const Statement &statement) const;
 
     [[noreturn]] void
     refuse_unknown(const Statement &statement) const;

@@ -276,19 +276,4 @@ namespace Morula
             direction,
             (across - outer_product(direction, direction)) / distance};
   }
-
-  void
-  review_mesh(const std::string &key, const std::string &name, Review &review)
-  {
-    // The file is read once more for this, as the mesh keeps none of the
-    // numbers.
-    const MeshSoup soup(key, name);
-    if (soup.n_merged > 0)
-      review.warn(key,
-                  name,
-                  std::to_string(soup.n_merged) +
-                    " of its vertices differ from others by rounding only, and "
-                    "were merged with them: without that the surface is open.",
-                  "Merge them in a mesh editor if they were meant to differ.");
-  }
 } // namespace Morula

@@ -193,9 +193,9 @@ namespace Morula
      * as many or more. No cell is as small. A vertex goes to the first one in
      * the file that it is near to, so that the result does not depend on the
      * order of a search.
-     * @returns how many vertices have gone
+     * @returns whether any has gone
      */
-    std::size_t
+    bool
     merge_vertices(MeshSoup &soup)
     {
       std::vector<Point<3>> points;
@@ -212,7 +212,7 @@ namespace Morula
 
       const NearTree<3>        tree(points);
       std::vector<std::size_t> first(points.size());
-      std::size_t              n_merged = 0;
+      bool                     merged = false;
       for (std::size_t i = 0; i < points.size(); ++i)
         {
           first[i] = i;
@@ -220,12 +220,12 @@ namespace Morula
           for (const unsigned int k : tree.within(points[i], near))
             if (k < first[i] && first[k] == k)
               first[i] = k;
-          n_merged += first[i] != i;
+          merged = merged || first[i] != i;
         }
       for (std::vector<std::size_t> &polygon : soup.polygons)
         for (std::size_t &vertex : polygon)
           vertex = first[vertex];
-      return n_merged;
+      return merged;
     }
   } // namespace
 
@@ -278,14 +278,11 @@ namespace Morula
     if (polygons.empty())
       refuse("The file has no polygons: export the surface again.");
     const auto all = edges();
-    if (std::any_of(all.begin(), all.end(), [](const auto &edge) {
-          return edge.second < 2;
-        }))
-      {
-        n_merged = merge_vertices(*this);
-        if (n_merged > 0)
-          Processing::repair_polygon_soup(points, polygons);
-      }
+    if (std::any_of(all.begin(),
+                    all.end(),
+                    [](const auto &edge) { return edge.second < 2; }) &&
+        merge_vertices(*this))
+      Processing::repair_polygon_soup(points, polygons);
   }
 
   std::vector<std::array<Point<3>, 3>>

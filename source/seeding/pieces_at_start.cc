@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/instantiate.h>
-#include <morula/base/surface_mesh.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/pieces_at_start.h>
 
@@ -382,8 +381,6 @@ namespace Morula
                     as_text(1. / ratio) + " of the shape's volume.",
                   "Choose a spacing that divides the shape, a smaller one, or "
                   "Tissue/Surface cells = trimmed.");
-    if (tissue.is_mesh())
-      review_mesh(TissueKeys::surface_mesh, tissue.surface_mesh, review);
   }
 
 

@@ -4,8 +4,6 @@
 #ifndef morula_base_surface_mesh_h
 #define morula_base_surface_mesh_h
 
-#include <morula/base/review.h>
-
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -98,12 +96,6 @@ namespace Morula
    */
   std::vector<std::array<Point<3>, 3>>
   read_triangles(const std::string &key, const std::string &file);
-
-  /** Warns of vertices of a good mesh that were merged though they differ.
-   * Reads the file.
-   *  @param key path of the key that names the file */
-  void
-  review_mesh(const std::string &key, const std::string &name, Review &review);
 } // namespace Morula
 
 #endif

@@ -51,8 +51,6 @@ namespace Morula
     const std::string                     key, name;
     std::vector<Kernel::Point_3>          points;
     std::vector<std::vector<std::size_t>> polygons;
-    /** Vertices that differed from others by rounding, and are gone. */
-    std::size_t n_merged = 0;
   };
 
   /** Coordinates in µm, for messages. */

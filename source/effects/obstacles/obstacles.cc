@@ -3,7 +3,6 @@
 
 #include <morula/base/input_error.h>
 #include <morula/base/name_list.h>
-#include <morula/base/surface_mesh.h>
 #include <morula/effects/obstacles/body.h>
 #include <morula/effects/scene_keys.h>
 #include <morula/mechanics/point_term.h>
@@ -222,8 +221,6 @@ namespace Morula
                           make_body<dim>(keys),
                           keys.stiffness,
                           velocity_of(keys, dim),
-                          keys.surface_mesh.path(),
-                          keys.shape == "mesh" ? keys.surface_mesh.value() : "",
                           thickness_of(keys, dim),
                           keys.two_sided ? 1u << n_two_sided++ % 32 : 0});
         if (n_two_sided > 32)
@@ -397,8 +394,6 @@ namespace Morula
       {
         for (const Obstacle &obstacle : list)
           {
-            if (!obstacle.mesh.empty())
-              review_mesh(obstacle.mesh_key, obstacle.mesh, review);
             // Only boundary points feel an obstacle, so cells may stand in one
             // that is wholly inside of the tissue.
             const typename ObstacleContact<dim>::Obstacle at_start{
@@ -429,8 +424,6 @@ namespace Morula
         Body<dim>   body;
         double      stiffness; // κ h / E
         Expression  velocity;  // µm/day
-        std::string mesh_key;  // that names the mesh's file
-        std::string mesh;      // empty without one
         /** The least thickness of the body, µm; infinite if it has none. */
         double thickness;
         /** The number that points have which it holds; 0: one-sided. */

@@ -13,7 +13,10 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 namespace Morula
@@ -146,64 +149,30 @@ namespace Morula
 
   namespace
   {
-    /** Six times the volume of the tetrahedron of a triangle and @p apex. */
-    double
-    tetrahedron(const SurfaceTriangle &triangle, const Point<3> &apex)
-    {
-      return (triangle.vertices[0] - apex) *
-             cross_product_3d(triangle.vertices[1] - apex,
-                              triangle.vertices[2] - apex);
-    }
-
-    /**
-     * The volumes within the closed surfaces that a mesh consists of, µm^3, in
-     * the order of their first triangles; negative: the surface is the wall of
-     * a cavity, as it stands inside another one.
-     */
-    std::vector<double>
-    volumes_of_surfaces(const std::vector<SurfaceTriangle> &triangles)
-    {
-      // Each round takes a triangle that was not seen and walks over its
-      // neighbours until the closed surface is complete. The volume is a sum of
-      // tetrahedra with one apex; it is negative where the normals point
-      // inwards, as those of a cavity do.
-      std::vector<double> volumes;
-      std::vector<bool>   seen(triangles.size(), false);
-      for (std::size_t first = 0; first < triangles.size(); ++first)
-        {
-          if (seen[first])
-            continue;
-          // The apex lies on the surface itself: far from the origin that loses
-          // fewer digits.
-          const Point<3>           apex = triangles[first].vertices[0];
-          std::vector<std::size_t> open = {first};
-          seen[first]                   = true;
-          double sum                    = 0.;
-          while (!open.empty())
-            {
-              const SurfaceTriangle &triangle = triangles[open.back()];
-              open.pop_back();
-              sum += tetrahedron(triangle, apex);
-              for (const std::size_t neighbor : triangle.neighbors)
-                if (!seen[neighbor])
-                  {
-                    seen[neighbor] = true;
-                    open.push_back(neighbor);
-                  }
-            }
-          volumes.push_back(sum / 6.);
-        }
-      return volumes;
-    }
-
-    /** E.g. "2 closed surfaces, 1 of them the wall of a cavity of 4188 um^3".
-     */
+    /** E.g. "2 closed surfaces, 1 of them around cavities of 4188 um^3". */
     std::string
-    surfaces_text(const std::vector<double> &volumes)
+    surfaces_text(const std::vector<SurfaceTriangle> &triangles)
     {
+      // Triangles are joined with their neighbours. The volume in a surface is
+      // a sum of tetrahedra with one apex, which lies on the surface itself:
+      // far from the origin that loses fewer digits. It is negative where the
+      // normals point inwards, as those of a cavity do.
+      boost::disjoint_sets_with_storage<> sets(triangles.size());
+      std::map<std::size_t, double>       volumes;
+      for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const std::size_t neighbor : triangles[i].neighbors)
+          sets.union_set(i, neighbor);
+      for (std::size_t i = 0; i < triangles.size(); ++i)
+        {
+          const std::size_t set  = sets.find_set(i);
+          const auto       &v    = triangles[i].vertices;
+          const Point<3>    apex = triangles[set].vertices[0];
+          volumes[set] +=
+            (v[0] - apex) * cross_product_3d(v[1] - apex, v[2] - apex) / 6.;
+        }
       unsigned int n_cavities = 0;
       double       cavities   = 0.;
-      for (const double volume : volumes)
+      for (const auto &[set, volume] : volumes)
         if (volume < 0.)
           {
             ++n_cavities;
@@ -213,11 +182,8 @@ namespace Morula
       text.precision(4);
       text << volumes.size()
            << (volumes.size() == 1 ? " closed surface" : " closed surfaces");
-      if (n_cavities == 1)
-        text << ", 1 of them the wall of a cavity of " << cavities << " um^3";
-      if (n_cavities > 1)
-        text << ", " << n_cavities
-             << " of them the walls of cavities, together " << cavities
+      if (n_cavities > 0)
+        text << ", " << n_cavities << " of them around cavities of " << cavities
              << " um^3";
       return text.str();
     }
@@ -340,9 +306,9 @@ namespace Morula
     tissue.counts            = check_at_surface(model, tissue.surface, comm);
     const auto of_conditions = describe_conditions(model, tissue, comm);
     if (scene.tissue.is_mesh())
-      tissue.mesh = surfaces_text(volumes_of_surfaces(
+      tissue.mesh = surfaces_text(
         SurfaceMesh(scene.tissue.surface_mesh.path(), scene.tissue.surface_mesh)
-          .triangles()));
+          .triangles());
     const auto of_pieces = describe_pieces(model, tissue, comm);
     tissue.warnings      = scene_warnings(
       model, tissue.founders, tissue.surface, tissue.counts, comm);

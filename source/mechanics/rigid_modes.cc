@@ -127,48 +127,51 @@ namespace Morula
       std::array<double, BSpline<dim>::n>                  volume{};
       std::array<std::array<double, BSpline<dim>::n>, dim> first{};
     };
-  } // namespace
 
-  template <int dim>
-  std::vector<typename RigidModes<dim>::Mode>
-  RigidModes<dim>::free_motions(const double *S, const double length)
-  {
-    // The eigenvectors with next to no eigenvalue are motions that nothing
-    // holds; they are combined from the elementary ones. The largest diagonal
-    // entry is the scale of S: a piece without supports has 0 here, and keeps
-    // all its motions.
-    constexpr int            n = n_modes;
-    LAPACKFullMatrix<double> stiffness(n);
-    double                   largest = 0.;
-    for (unsigned int k = 0; k < n; ++k)
-      {
-        for (unsigned int l = 0; l < n; ++l)
-          stiffness(k, l) = S[k * n + l];
-        largest = std::max(largest, stiffness(k, k));
-      }
-    Vector<double>     eigenvalues;
-    FullMatrix<double> eigenvectors;
-    // LAPACK finds eigenvalues within bounds only. S is semidefinite, so the
-    // lower bound is far below all; 1e-300 keeps 0 inside where S vanishes.
-    stiffness.compute_eigenvalues_symmetric(-1. - largest,
-                                            support_tolerance * largest +
-                                              1e-300,
-                                            0.,
-                                            eigenvalues,
-                                            eigenvectors);
-    std::vector<Mode> free;
-    for (unsigned int v = 0; v < eigenvalues.size(); ++v)
-      {
-        free.emplace_back();
-        for (unsigned int k = 0; k < n; ++k)
-          {
-            const Mode part = elementary_mode(k, length);
-            free.back().a += eigenvectors(k, v) * part.a;
-            free.back().B += eigenvectors(k, v) * part.B;
-          }
-      }
-    return free;
-  }
+    /** A basis of the motions that next to nothing of S holds, doc/theory.md
+     *  (4.9). @param S   row by row, n_modes² numbers
+     *  @param length as in elementary_mode(), µm */
+    template <int dim>
+    std::vector<typename FreeMotions<dim>::Mode>
+    free_motions(const double *S, const double length)
+    {
+      // The eigenvectors with next to no eigenvalue are motions that nothing
+      // holds; they are combined from the elementary ones. The largest diagonal
+      // entry is the scale of S: a piece without supports has 0 here, and keeps
+      // all its motions.
+      constexpr int            n = FreeMotions<dim>::n_modes;
+      LAPACKFullMatrix<double> stiffness(n);
+      double                   largest = 0.;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          for (unsigned int l = 0; l < n; ++l)
+            stiffness(k, l) = S[k * n + l];
+          largest = std::max(largest, stiffness(k, k));
+        }
+      Vector<double>     eigenvalues;
+      FullMatrix<double> eigenvectors;
+      // LAPACK finds eigenvalues within bounds only. S is semidefinite, so the
+      // lower bound is far below all; 1e-300 keeps 0 inside where S vanishes.
+      stiffness.compute_eigenvalues_symmetric(-1. - largest,
+                                              support_tolerance * largest +
+                                                1e-300,
+                                              0.,
+                                              eigenvalues,
+                                              eigenvectors);
+      std::vector<typename FreeMotions<dim>::Mode> free;
+      for (unsigned int v = 0; v < eigenvalues.size(); ++v)
+        {
+          free.emplace_back();
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              const auto part = FreeMotions<dim>::elementary_mode(k, length);
+              free.back().a += eigenvectors(k, v) * part.a;
+              free.back().B += eigenvectors(k, v) * part.B;
+            }
+        }
+      return free;
+    }
+  } // namespace
 
   template <int dim>
   Tensor<2, dim>
@@ -181,7 +184,8 @@ namespace Morula
 
   template <int dim>
   void
-  RigidModes<dim>::find_centers(const std::vector<Mass> &masses)
+  FreeMotions<dim>::find_centers(const std::vector<Mass> &masses,
+                                 const MPI_Comm           comm)
   {
     // Sums of V⁰ and V⁰ x by piece. Every rank has all pieces, as pieces may
     // run through several ranks.
@@ -207,15 +211,16 @@ namespace Morula
 
   template <int dim>
   void
-  RigidModes<dim>::find_free_modes(const std::vector<Support> &supports)
+  FreeMotions<dim>::find_free_modes(const std::vector<Support> &supports,
+                                    const double                length,
+                                    const MPI_Comm              comm)
   {
     // The first loop sums the matrix S of doc/theory.md (4.9) over this rank's
     // supports, for all pieces at once, and one reduction adds up all ranks':
     // pieces may run through several. Then every rank finds the same free
     // motions of all pieces. The length makes translations and rotations
     // comparable in S.
-    const double        length = space.box().spacing();
-    constexpr int       n      = n_modes;
+    constexpr int       n = n_modes;
     std::vector<double> sums(pieces.size() * n * n, 0.);
     for (const Support &support : supports)
       {
@@ -235,7 +240,7 @@ namespace Morula
     Utilities::MPI::sum(sums, comm, sums);
 
     for (unsigned int p = 0; p < pieces.size(); ++p)
-      pieces[p].free = free_motions(&sums[p * n * n], length);
+      pieces[p].free = free_motions<dim>(&sums[p * n * n], length);
   }
 
 
@@ -310,6 +315,8 @@ namespace Morula
     return basis;
   }
 
+  template class FreeMotions<2>;
+  template class FreeMotions<3>;
   template class RigidModes<2>;
   template class RigidModes<3>;
 } // namespace Morula

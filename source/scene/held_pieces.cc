@@ -7,13 +7,19 @@
 #include <morula/mechanics/point_term.h>
 #include <morula/mechanics/rigid_modes.h>
 #include <morula/scene/seeded_tissue.h>
-#include <morula/seeding/pieces_at_start.h>
+#include <morula/seeding/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/utilities.h>
+
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 
 namespace Morula
@@ -31,6 +37,90 @@ namespace Morula
     /** So many pieces are described one by one. */
     constexpr std::size_t most_listed = 8;
 
+    /** To which piece of the tissue founders and patches of this rank belong at
+     *  t = 0. A piece is a group of grid cells that touch and hold founders or
+     *  boundary points; bodies that have contact are pieces of their own. */
+    struct PiecesAtStart
+    {
+      /** Number of pieces, over all ranks. */
+      unsigned int              n = 0;
+      std::vector<unsigned int> of_founders, of_patches;
+    };
+
+    /** A grid cell by its place, and the body in it. */
+    template <int dim>
+    using GridPlace = std::array<int, dim + 1>;
+
+    /** The places of points, in their order. */
+    template <int dim>
+    std::vector<GridPlace<dim>>
+    places_of(const GridParameters            &grid,
+              const std::vector<Point<dim>>   &points,
+              const std::vector<unsigned int> &bodies)
+    {
+      const std::vector<double>   offset = grid.offset;
+      std::vector<GridPlace<dim>> places(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            places[i][d] = static_cast<int>(
+              std::floor((points[i][d] - offset[d]) / grid.spacing));
+          places[i][dim] = bodies.empty() ? 0 : bodies[i];
+        }
+      return places;
+    }
+
+    /** Finds the pieces, the same on all ranks. Collective. */
+    template <int dim>
+    PiecesAtStart
+    pieces_at_start(const GridParameters      &grid,
+                    const Founders<dim>       &founders,
+                    const SurfacePatches<dim> &surface,
+                    const MPI_Comm             comm)
+    {
+      // Every rank gets all occupied grid cells, far fewer than founders, and
+      // joins those that touch by Boost's disjoint sets, in the same order. A
+      // piece gets its number when the first of its grid cells comes along.
+      const auto of_founders =
+        places_of<dim>(grid, founders.positions, founders.bodies);
+      const auto of_patches =
+        places_of<dim>(grid, surface.positions, surface.bodies);
+      std::set<GridPlace<dim>> mine(of_founders.begin(), of_founders.end());
+      mine.insert(of_patches.begin(), of_patches.end());
+      std::map<GridPlace<dim>, unsigned int> numbers;
+      for (const auto &place :
+           of_all_ranks(std::vector<GridPlace<dim>>(mine.begin(), mine.end()),
+                        comm))
+        numbers[place] = 0;
+      unsigned int n = 0;
+      for (auto &entry : numbers)
+        entry.second = n++;
+      boost::disjoint_sets_with_storage<> sets(numbers.size());
+      for (const auto &[place, number] : numbers)
+        for (int k = 0; k < Utilities::pow(3, dim); ++k)
+          {
+            GridPlace<dim> other = place;
+            for (int d = 0, rest = k; d < dim; ++d, rest /= 3)
+              other[d] += rest % 3 - 1;
+            if (const auto found = numbers.find(other); found != numbers.end())
+              sets.union_set(number, found->second);
+          }
+
+      PiecesAtStart                        pieces;
+      std::map<unsigned int, unsigned int> of_set;
+      std::vector<unsigned int>            of_number;
+      for (unsigned int number = 0; number < numbers.size(); ++number)
+        of_number.push_back(
+          of_set.emplace(sets.find_set(number), of_set.size()).first->second);
+      pieces.n = of_set.size();
+      for (const GridPlace<dim> &place : of_founders)
+        pieces.of_founders.push_back(of_number[numbers.at(place)]);
+      for (const GridPlace<dim> &place : of_patches)
+        pieces.of_patches.push_back(of_number[numbers.at(place)]);
+      return pieces;
+    }
+
+
     /** What holds a piece of the tissue at t = 0, and which load is left to its
      *  unsupported rigid motions, over all ranks. */
     template <int dim>
@@ -45,183 +135,29 @@ namespace Morula
       bool has_friction = false;
       /** Number of rigid motions that nothing holds, doc/theory.md (4.9). */
       unsigned int free_motions = 0;
-      /** Sum of its loads at the end of the run on the configuration of t = 0,
-       *  kPa µm^(dim-1), and their moment about the centre, kPa µm^dim; in 2-D
-       *  the third component. */
-      Tensor<1, dim> force;
-      Tensor<1, 3>   moment;
-      /** Whether a part of the loads acts along a free motion. */
+      /** Its loads at the end of the run on the configuration of t = 0. */
+      std::string load;
+      /** Whether a part of them acts along a free motion. */
       bool is_unbalanced = false;
     };
 
-    /** What ranks add up of a piece. */
+    /** What is there, holds and loads on this rank, with the pieces. */
     template <int dim>
-    struct PieceSums
+    struct OnPieces
     {
-      static constexpr unsigned int n     = RigidModes<dim>::n_modes;
-      double                        cells = 0., volume = 0.;
-      Tensor<1, dim>                first; // Σ V⁰ x
-      double                        held = 0., friction = 0.;
-      std::vector<double>           S = std::vector<double>(n * n, 0.);
-      std::vector<double>           load =
-        std::vector<double>(n, 0.); // by elementary motion
-      std::vector<double> magnitude = std::vector<double>(n, 0.);
-      double              area      = 0.;
-    };
-
-    template <int dim>
-    class Pieces
-    {
-    public:
-      using Modes                     = RigidModes<dim>;
-      static constexpr unsigned int n = Modes::n_modes;
-
-      Pieces(const unsigned int n_pieces, const double h, const MPI_Comm comm)
-        : sums(n_pieces)
-        , h(h)
-        , comm(comm)
-      {}
-
-      void
-      add_cell(const unsigned int piece, const Point<dim> &X, const double V)
+      struct Load
       {
-        sums[piece].cells += 1.;
-        sums[piece].volume += V;
-        sums[piece].first += V * Tensor<1, dim>(X);
-      }
+        unsigned int   piece;
+        Point<dim>     x;
+        Tensor<1, dim> force; // kPa µm^(dim-1)
+        double         area;  // of the surface, µm^(dim-1); 0 in the body
+      };
 
-      /** Adds the cells of all ranks. */
-      void
-      find_centers()
-      {
-        for (PieceSums<dim> &one : sums)
-          {
-            one.cells  = Utilities::MPI::sum(one.cells, comm);
-            one.volume = Utilities::MPI::sum(one.volume, comm);
-            one.first  = Utilities::MPI::sum(one.first, comm);
-          }
-      }
-
-      Point<dim>
-      center(const unsigned int piece) const
-      {
-        const PieceSums<dim> &of = sums[piece];
-        return of.volume > 0. ? Point<dim>(of.first / of.volume) : Point<dim>();
-      }
-
-      /** Adds a support: doc/theory.md (4.9). */
-      void
-      add_support(const unsigned int    piece,
-                  const Point<dim>     &x,
-                  const Tensor<2, dim> &held,
-                  const double          weight,
-                  const bool            is_friction)
-      {
-        ++(is_friction ? sums[piece].friction : sums[piece].held);
-        std::array<Tensor<1, dim>, n> motion;
-        for (unsigned int k = 0; k < n; ++k)
-          motion[k] = held * velocity(k, x - center(piece));
-        for (unsigned int k = 0; k < n; ++k)
-          for (unsigned int l = 0; l < n; ++l)
-            sums[piece].S[k * n + l] += weight * (motion[k] * motion[l]);
-      }
-
-      /** @param area of the surface, µm^(dim-1); 0 in the body */
-      void
-      add_load(const unsigned int    piece,
-               const Point<dim>     &x,
-               const Tensor<1, dim> &force,
-               const double          area)
-      {
-        PieceSums<dim> &of = sums[piece];
-        for (unsigned int k = 0; k < n; ++k)
-          {
-            const auto v = velocity(k, x - center(piece));
-            of.load[k] += force * v;
-            of.magnitude[k] += force.norm() * v.norm();
-          }
-        of.area += area;
-      }
-
-      /** The pieces that hold cells. Collective. */
-      std::vector<HeldPiece<dim>>
-      result()
-      {
-        std::vector<HeldPiece<dim>> list;
-        for (unsigned int p = 0; p < sums.size(); ++p)
-          {
-            PieceSums<dim> &of = sums[p];
-            of.held            = Utilities::MPI::sum(of.held, comm);
-            of.friction        = Utilities::MPI::sum(of.friction, comm);
-            of.area            = Utilities::MPI::sum(of.area, comm);
-            Utilities::MPI::sum(of.S, comm, of.S);
-            Utilities::MPI::sum(of.load, comm, of.load);
-            Utilities::MPI::sum(of.magnitude, comm, of.magnitude);
-            if (of.cells > 0.)
-              list.push_back(piece(p));
-          }
-        std::stable_sort(list.begin(),
-                         list.end(),
-                         [](const HeldPiece<dim> &a, const HeldPiece<dim> &b) {
-                           return a.cells > b.cells;
-                         });
-        return list;
-      }
-
-    private:
-      /** An elementary motion at @p z from the centre. */
-      Tensor<1, dim>
-      velocity(const unsigned int k, const Tensor<1, dim> &z) const
-      {
-        const auto mode = Modes::elementary_mode(k, h);
-        return mode.a + mode.B * z;
-      }
-
-      HeldPiece<dim>
-      piece(const unsigned int p) const
-      {
-        // A free motion is a combination of the elementary ones: its load is
-        // that of them, and so is the scale that this is compared with.
-        const PieceSums<dim> &of = sums[p];
-        HeldPiece<dim>        result;
-        result.cells        = std::llround(of.cells);
-        result.held_points  = std::llround(of.held);
-        result.has_friction = of.friction > 0.;
-        const auto free     = Modes::free_motions(of.S.data(), h);
-        result.free_motions = free.size();
-        // Sums that cancel leave rounding.
-        const auto load = [&of](const unsigned int k) {
-          return std::abs(of.load[k]) > 1e-9 * of.magnitude[k] ? of.load[k] :
-                                                                 0.;
-        };
-        result.center = center(p);
-        for (unsigned int d = 0; d < dim; ++d)
-          result.force[d] = load(d);
-        for (unsigned int k = dim; k < n; ++k)
-          // The motion k turns the plane of two axes by -1/h about the third.
-          result.moment[dim == 2 ? 2 : (k - dim + 2) % 3] = 0. - h * load(k);
-        for (const auto &motion : free)
-          {
-            double sum = 0., scale = 0.;
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                const auto   part = Modes::elementary_mode(k, h);
-                const double c =
-                  k < dim ? part.a * motion.a :
-                            h * h / 2. * scalar_product(part.B, motion.B);
-                sum += c * of.load[k];
-                scale += std::abs(c) * std::max(largest_rest * of.magnitude[k],
-                                                rounding_stress * of.area);
-              }
-            result.is_unbalanced =
-              result.is_unbalanced || std::abs(sum) > scale;
-          }
-        return result;
-      }
-
-      std::vector<PieceSums<dim>> sums;
-      const double                h;
-      const MPI_Comm              comm;
+      std::vector<typename FreeMotions<dim>::Mass>    cells;
+      std::vector<typename FreeMotions<dim>::Support> supports;
+      /** The first of the supports that are friction. */
+      std::size_t       n_held = 0;
+      std::vector<Load> loads;
     };
 
     /** Adds what fixed and slip points hold, and what conditions load. */
@@ -230,7 +166,7 @@ namespace Morula
     add_surface(const TissueModel<dim>          &model,
                 const SurfacePatches<dim>       &surface,
                 const std::vector<unsigned int> &piece,
-                Pieces<dim>                     &pieces)
+                OnPieces<dim>                   &mine)
     {
       // Fixed points hold all directions, slip points that of their normal,
       // both by their area. Then the forces of all loads are added to the
@@ -244,16 +180,14 @@ namespace Morula
           const Point<dim>      &X    = surface.positions[i];
           const Tensor<1, dim>  &N    = surface.normals[i];
           const SurfaceCondition kind = conditions.condition(X, N);
-          if (!is_held(kind))
-            continue;
-          pieces.add_support(piece[i],
-                             X,
-                             kind == SurfaceCondition::fixed ?
-                               all :
-                               outer_product(N, N),
-                             surface.areas[i],
-                             false);
+          if (is_held(kind))
+            mine.supports.push_back(
+              {piece[i],
+               X,
+               kind == SurfaceCondition::fixed ? all : outer_product(N, N),
+               surface.areas[i]});
         }
+      mine.n_held = mine.supports.size();
       std::vector<std::size_t> patches;
       const LoadedPoints<dim>  loaded =
         loaded_at_start(model, surface, &patches);
@@ -262,24 +196,20 @@ namespace Morula
                                                 loaded,
                                                 model.scene.time.end_time))
           for (std::size_t l = 0; l < forces->size(); ++l)
-            {
-              const std::size_t i = patches[l];
-              pieces.add_load(piece[i],
-                              surface.positions[i],
-                              (*forces)[l],
-                              (*forces)[l].norm() > 0. ? surface.areas[i] : 0.);
-            }
+            if (const std::size_t i = patches[l]; (*forces)[l].norm() > 0.)
+              mine.loads.push_back({piece[i],
+                                    surface.positions[i],
+                                    (*forces)[l],
+                                    surface.areas[i]});
     }
 
     /** Adds body forces and friction of a founder in its state at t = 0. */
     template <int dim>
     void
-    add_body(const TissueModel<dim> &model,
-             const PresentCell<dim> &cell,
-             const Point<dim>       &X,
-             const double            V,
-             const unsigned int      piece,
-             Pieces<dim>            &pieces)
+    add_body(const TissueModel<dim>                &model,
+             const PresentCell<dim>                &cell,
+             const typename FreeMotions<dim>::Mass &founder,
+             OnPieces<dim>                         &mine)
     {
       // A force that depends on the present place is no support in a step
       // either: its value at t = 0 counts. Friction counts where it does in a
@@ -289,35 +219,116 @@ namespace Morula
       for (const auto &[name, force] : model.forces)
         {
           if (const auto load = force->load_of(cell, scene.time.end_time))
-            pieces.add_load(piece, X, V * *load, 0.);
+            mine.loads.push_back(
+              {founder.piece, founder.x, founder.V0 * *load, 0.});
           const double strength =
             force->friction_of(cell, 0.).value_or(0.) * h * h /
             (scene.time.step * youngs_modulus(cell.lame()));
-          if (strength < Drag<dim>::least)
-            continue;
-          pieces.add_support(piece,
-                             X,
-                             Tensor<2, dim>(unit_symmetric_tensor<dim>()),
-                             strength * V / h,
-                             true);
+          if (!(strength < Drag<dim>::least))
+            mine.supports.push_back(
+              {founder.piece,
+               founder.x,
+               Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+               strength * founder.V0 / h});
         }
     }
 
-    /** "a force of (1 0) kPa um and a moment of 3 kPa um^2". */
+    /** "a force of (1 0) kPa um and a moment of 3 kPa um^2".
+     *  @param force, moment and what they would be if no parts cancelled */
     template <int dim>
     std::string
-    load_text(const HeldPiece<dim> &piece)
+    load_text(const double *force, const double *moment, const double *size)
     {
-      const double       zero = 1e-9 * piece.force.norm();
+      // Sums that cancel leave rounding. The moment is about the centre; in 2-D
+      // it has the third component alone.
+      Tensor<1, dim> sum;
+      Tensor<1, 3>   turn;
+      for (unsigned int d = 0; d < dim; ++d)
+        sum[d] = force[d];
+      for (unsigned int d = 0; d < 3; ++d)
+        turn[d] = std::abs(moment[d]) > 1e-9 * size[1] ? moment[d] : 0.;
       std::ostringstream text;
       text.precision(4);
-      text << "a force of " << vector_text(piece.force, zero) << " kPa um"
+      text << "a force of " << vector_text(sum, 1e-9 * size[0]) << " kPa um"
            << (dim == 3 ? "^2" : "") << " and a moment of ";
       if (dim == 3)
-        text << vector_text(piece.moment, 0.) << " kPa um^3";
+        text << vector_text(turn, 0.) << " kPa um^3";
       else
-        text << piece.moment[2] << " kPa um^2";
+        text << turn[2] << " kPa um^2";
       return text.str();
+    }
+
+    /** The pieces that hold cells, largest first, by what all ranks have.
+     *  Collective. */
+    template <int dim>
+    std::vector<HeldPiece<dim>>
+    sums_of(const OnPieces<dim> &mine,
+            const unsigned int   n_pieces,
+            const double         h,
+            const MPI_Comm       comm)
+    {
+      // Of each piece there are numbers of cells, held points and cells with
+      // friction; then force, moment, and what they would be if no parts
+      // cancelled; then for each free motion the power of the loads in it, what
+      // that would be, and what rounding makes of their area.
+      using Motions                = FreeMotions<dim>;
+      constexpr unsigned int force = 3, moment = force + dim, size = moment + 3,
+                             power = size + 2, n = power + 3 * Motions::n_modes;
+      const Motions       motions(n_pieces, h, mine.cells, mine.supports, comm);
+      std::vector<double> sums(n * n_pieces, 0.);
+      for (const auto &cell : mine.cells)
+        ++sums[n * cell.piece];
+      for (std::size_t i = 0; i < mine.supports.size(); ++i)
+        ++sums[n * mine.supports[i].piece + (i < mine.n_held ? 1 : 2)];
+      for (const auto &load : mine.loads)
+        {
+          double *const        sum   = &sums[n * load.piece];
+          const auto          &piece = motions.of_piece(load.piece);
+          const Tensor<1, dim> z = load.x - piece.center, &f = load.force;
+          for (unsigned int d = 0; d < dim; ++d)
+            sum[force + d] += f[d];
+          for (unsigned int k = 0; k < Motions::n_rotations; ++k)
+            sum[moment + (k + 2) % 3] +=
+              z[k] * f[(k + 1) % dim] - z[(k + 1) % dim] * f[k];
+          sum[size] += f.norm();
+          sum[size + 1] += f.norm() * z.norm();
+          for (std::size_t k = 0; k < piece.free.size(); ++k)
+            {
+              const Tensor<1, dim> v = piece.free[k].a + piece.free[k].B * z;
+              sum[power + 3 * k] += f * v;
+              sum[power + 3 * k + 1] += f.norm() * v.norm();
+              sum[power + 3 * k + 2] += load.area * v.norm();
+            }
+        }
+      Utilities::MPI::sum(sums, comm, sums);
+
+      std::vector<HeldPiece<dim>> list;
+      for (unsigned int p = 0; p < n_pieces; ++p)
+        {
+          const double *const sum   = &sums[n * p];
+          const auto         &piece = motions.of_piece(p);
+          if (sum[0] == 0.)
+            continue;
+          bool is_unbalanced = false;
+          for (std::size_t k = power; k < power + 3 * piece.free.size(); k += 3)
+            is_unbalanced =
+              is_unbalanced ||
+              std::abs(sum[k]) > std::max(largest_rest * sum[k + 1],
+                                          rounding_stress * sum[k + 2]);
+          list.push_back({std::uint64_t(std::llround(sum[0])),
+                          piece.center,
+                          std::uint64_t(std::llround(sum[1])),
+                          sum[2] > 0.,
+                          unsigned(piece.free.size()),
+                          load_text<dim>(sum + force, sum + moment, sum + size),
+                          is_unbalanced});
+        }
+      std::stable_sort(list.begin(),
+                       list.end(),
+                       [](const HeldPiece<dim> &a, const HeldPiece<dim> &b) {
+                         return a.cells > b.cells;
+                       });
+      return list;
     }
 
     /** The pieces that hold cells, largest first. Collective. */
@@ -326,21 +337,17 @@ namespace Morula
     held_pieces(const TissueModel<dim>    &model,
                 const Founders<dim>       &founders,
                 const SurfacePatches<dim> &surface,
+                const PiecesAtStart       &at,
                 const MPI_Comm             comm)
     {
-      // First the centres of all pieces, as motions are about them; then what
-      // each rank has of supports and loads; then the sums over all ranks. An
-      // expression may have no value on one rank only.
-      const PiecesAtStart at =
-        pieces_at_start(model.scene.grid, founders, surface, comm);
-      Pieces<dim> pieces(at.n, model.scene.grid.spacing, comm);
+      // Each rank lists what it has of cells, supports and loads. An expression
+      // may have no value on one rank only.
+      OnPieces<dim> mine;
       for (std::size_t i = 0; i < founders.positions.size(); ++i)
-        pieces.add_cell(at.of_founders[i],
-                        founders.positions[i],
-                        founders.volumes[i]);
-      pieces.find_centers();
+        mine.cells.push_back(
+          {at.of_founders[i], founders.positions[i], founders.volumes[i]});
       everywhere(comm,
-                 [&]() { add_surface(model, surface, at.of_patches, pieces); });
+                 [&]() { add_surface(model, surface, at.of_patches, mine); });
       if (!model.forces.empty())
         for_first_cells<dim>(model,
                              founders,
@@ -350,14 +357,9 @@ namespace Morula
                              [&](const std::size_t i,
                                  std::vector<double> &,
                                  const PresentCell<dim> &cell) {
-                               add_body(model,
-                                        cell,
-                                        founders.positions[i],
-                                        founders.volumes[i],
-                                        at.of_founders[i],
-                                        pieces);
+                               add_body(model, cell, mine.cells[i], mine);
                              });
-      return pieces.result();
+      return sums_of(mine, at.n, model.scene.grid.spacing, comm);
     }
 
     /** E.g. "100 cells around (0 0) um, not supported", one for each of the
@@ -369,7 +371,7 @@ namespace Morula
       // The largest pieces have a line each: where it is, what holds it, which
       // motions nothing holds, and its loads along these. The rest is counted.
       std::vector<std::string> texts;
-      const unsigned int       all = RigidModes<dim>::n_modes;
+      const unsigned int       all = FreeMotions<dim>::n_modes;
       for (std::size_t p = 0; p < pieces.size() && p < most_listed; ++p)
         {
           const HeldPiece<dim> &piece = pieces[p];
@@ -391,7 +393,7 @@ namespace Morula
                      << " rigid motions";
             }
           if (piece.is_unbalanced)
-            text << "; loads add up to " << load_text(piece);
+            text << "; loads add up to " << piece.load;
           texts.push_back(text.str());
         }
       if (pieces.size() > most_listed)
@@ -400,20 +402,51 @@ namespace Morula
       return texts;
     }
 
+    /** Warns of bodies that stick together from the start, as they are within a
+     *  grid spacing of each other. Collective. */
     template <int dim>
-    std::vector<std::string>
-    review_held(const Scene &scene, const std::vector<HeldPiece<dim>> &pieces)
+    void
+    review_bodies(const Scene         &scene,
+                  const Founders<dim> &founders,
+                  const unsigned int   n_pieces,
+                  const MPI_Comm       comm,
+                  Review              &review)
+    {
+      // A shape is one body. The run says when bodies come to stick later. A
+      // gap of two of the longest cells counts, one of a single cell does not.
+      if (!scene.tissue.is_from_file())
+        return;
+      Founders<dim> apart(founders);
+      apart.volumes.assign(founders.volumes.size(),
+                           std::pow(longest_length(founders, comm), dim));
+      apart.bodies                = bodies_apart(apart, comm, 2.5);
+      const unsigned int n_bodies = number_of_bodies(apart, comm);
+      const Key<double> &h        = scene.grid.spacing;
+      if (n_bodies > n_pieces)
+        review.warn(h.path(),
+                    as_text(h) + " um",
+                    "the tissue is " + std::to_string(n_bodies) +
+                      " bodies, of which the grid makes " +
+                      std::to_string(n_pieces) +
+                      ": those closer than a grid spacing stick together from "
+                      "the start.",
+                    "Set Contact/Between = bodies, or Grid/Spacing to less "
+                    "than half the gap between them.");
+    }
+
+    template <int dim>
+    void
+    review_held(const std::vector<HeldPiece<dim>> &pieces, Review &review)
     {
       // The first unbalanced piece is told of, with the number of others: all
       // of them stand in the list of pieces.
-      Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
       const auto is_unbalanced = [](const HeldPiece<dim> &piece) {
         return piece.is_unbalanced;
       };
       const auto first =
         std::find_if(pieces.begin(), pieces.end(), is_unbalanced);
       if (first == pieces.end())
-        return {};
+        return;
       const auto n = std::count_if(pieces.begin(), pieces.end(), is_unbalanced);
       std::ostringstream piece;
       piece.precision(4);
@@ -426,13 +459,12 @@ namespace Morula
       review.warn(
         "Boundary conditions",
         first->held_points > 0 ? "supported in part" : "no support",
-        "the loads add up to " + load_text(*first) +
+        "the loads add up to " + first->load +
           " at the end, and nothing holds " + piece.str() +
           " against them: inertia balances them, as in free fall, or "
           "beside obstacles a weak drag (doc/theory.md, section 4.4).",
         "Hold a part of its surface by Fixed where or Slip where, or "
         "balance the loads.");
-      return review.warnings;
     }
   } // namespace
 
@@ -443,11 +475,18 @@ namespace Morula
                   SeededTissue<dim>      &tissue,
                   const MPI_Comm          comm)
   {
+    const Scene        &scene = model.scene;
+    const PiecesAtStart at =
+      pieces_at_start(scene.grid, tissue.founders, tissue.surface, comm);
     const std::vector<HeldPiece<dim>> pieces =
-      held_pieces(model, tissue.founders, tissue.surface, comm);
+      held_pieces(model, tissue.founders, tissue.surface, at, comm);
     tissue.n_pieces = pieces.size();
     tissue.pieces   = texts_of(pieces);
-    return review_held(model.scene, pieces);
+    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    if (!model.interaction)
+      review_bodies(scene, tissue.founders, at.n, comm, review);
+    review_held(pieces, review);
+    return review.warnings;
   }
 
 

@@ -8,7 +8,6 @@
 #include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/bodies.h>
 #include <morula/seeding/closed_surface.h>
-#include <morula/seeding/pieces_at_start.h>
 #include <morula/seeding/seeding.h>
 
 #include <deal.II/base/tensor.h>

@@ -17,15 +17,9 @@
 
 namespace Morula
 {
-  /**
-   * The unsupported rigid motions of the tissue's pieces (grid cells joined by
-   * shared splines), and what keeps a step free of them: Σ V⁰ m·u = 0 for every
-   * unsupported rigid motion m(x) of every piece. A body on one slip plane
-   * keeps three rigid motions, a free one six, and so does each detached
-   * fragment.
-   */
+  /** The unsupported rigid motions of bodies, of each by itself. */
   template <int dim>
-  class RigidModes
+  class FreeMotions
   {
   public:
     /** A particle, with its weight in the mean motion. */
@@ -36,7 +30,7 @@ namespace Morula
       double       V0; // V⁰, µm^dim
     };
 
-    /** A fixed or slip boundary point. */
+    /** A fixed or slip boundary point, or what else holds a place. */
     struct Support
     {
       unsigned int   piece;
@@ -44,6 +38,102 @@ namespace Morula
       Tensor<2, dim> projection; // onto the held directions
       double         area;       // µm^(dim-1)
     };
+
+    static constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
+    static constexpr unsigned int n_modes     = dim + n_rotations;
+
+    /** The field a + B (x - center), B skew. */
+    struct Mode
+    {
+      Tensor<1, dim> a;
+      Tensor<2, dim> B; // 1/µm
+    };
+
+    struct Piece
+    {
+      double            volume = 0.; // Σ V⁰
+      Point<dim>        center;      // of Σ V⁰
+      std::vector<Mode> free;        // unsupported motions, a basis
+    };
+
+    /** Collective. @param length see elementary_mode(), µm
+     *  @param as_one see RigidModes */
+    FreeMotions(const unsigned int          n_pieces,
+                const double                length,
+                const std::vector<Mass>    &masses,
+                const std::vector<Support> &supports,
+                const MPI_Comm              comm,
+                const bool                  as_one = false)
+      : as_one(as_one)
+      , pieces(as_one ? 1 : n_pieces)
+    {
+      find_centers(masses, comm);
+      find_free_modes(supports, length, comm);
+    }
+
+    /** The piece of this number. */
+    const Piece &
+    of_piece(const unsigned int piece) const
+    {
+      return pieces[entry(piece)];
+    }
+
+    /** The @p k th translation or rotation; it moves points at the distance
+     *  @p length (µm) from the axis by 1 µm. */
+    static Mode
+    elementary_mode(const unsigned int k, const double length)
+    {
+      Mode mode;
+      if (k < dim)
+        mode.a[k] = 1.;
+      else
+        {
+          // Rotations act in the planes (0,1), (1,2), (2,0); in 2-D there is
+          // only the first.
+          const unsigned int i = (k - dim) % dim, j = (i + 1) % dim;
+          mode.B[i][j] = 1. / length;
+          mode.B[j][i] = -1. / length;
+        }
+      return mode;
+    }
+
+  protected:
+    /** The entry of @p pieces for a piece. */
+    unsigned int
+    entry(const unsigned int piece) const
+    {
+      return as_one ? 0 : piece;
+    }
+
+    const bool         as_one;
+    std::vector<Piece> pieces;
+
+  private:
+    void
+    find_centers(const std::vector<Mass> &masses, const MPI_Comm comm);
+
+    /** Finds the motions that the supports do not hold: doc/theory.md (4.9). */
+    void
+    find_free_modes(const std::vector<Support> &supports,
+                    const double                length,
+                    const MPI_Comm              comm);
+  };
+
+  /**
+   * The unsupported rigid motions of the tissue's pieces (grid cells joined by
+   * shared splines), and what keeps a step free of them: Σ V⁰ m·u = 0 for every
+   * unsupported rigid motion m(x) of every piece. A body on one slip plane
+   * keeps three rigid motions, a free one six, and so does each detached
+   * fragment.
+   */
+  template <int dim>
+  class RigidModes : public FreeMotions<dim>
+  {
+  public:
+    using typename FreeMotions<dim>::Mass;
+    using typename FreeMotions<dim>::Support;
+    using typename FreeMotions<dim>::Mode;
+    using typename FreeMotions<dim>::Piece;
 
     /** Collective. @param as_one whether all pieces together are one body, as
      *         they may touch: then only motions are free that all of them make
@@ -53,14 +143,15 @@ namespace Morula
                const std::vector<Support> &supports,
                const MPI_Comm              comm,
                const bool                  as_one = false)
-      : space(space)
+      : FreeMotions<dim>(space.n_pieces(),
+                         space.box().spacing(),
+                         masses,
+                         supports,
+                         comm,
+                         as_one)
+      , space(space)
       , comm(comm)
-      , as_one(as_one)
-      , pieces(as_one ? 1 : space.n_pieces())
-    {
-      find_centers(masses);
-      find_free_modes(supports);
-    }
+    {}
 
     /** Whether any piece has an unsupported rigid motion. */
     bool
@@ -97,71 +188,17 @@ namespace Morula
       return !pieces[piece].free.empty();
     }
 
-    static constexpr unsigned int n_rotations = dim * (dim - 1) / 2;
-    static constexpr unsigned int n_modes     = dim + n_rotations;
-
-    /** The field a + B (x - center), B skew. */
-    struct Mode
-    {
-      Tensor<1, dim> a;
-      Tensor<2, dim> B; // 1/µm
-    };
-
-    /** The @p k th translation or rotation; it moves points at the distance
-     *  @p length (µm) from the axis by 1 µm. */
-    static Mode
-    elementary_mode(const unsigned int k, const double length)
-    {
-      Mode mode;
-      if (k < dim)
-        mode.a[k] = 1.;
-      else
-        {
-          // Rotations act in the planes (0,1), (1,2), (2,0); in 2-D there is
-          // only the first.
-          const unsigned int i = (k - dim) % dim, j = (i + 1) % dim;
-          mode.B[i][j] = 1. / length;
-          mode.B[j][i] = -1. / length;
-        }
-      return mode;
-    }
-
-    /** A basis of the motions that next to nothing of S holds, doc/theory.md
-     *  (4.9). @param S   row by row, n_modes² numbers
-     *  @param length as in elementary_mode(), µm */
-    static std::vector<Mode>
-    free_motions(const double *S, const double length);
-
     /** A rotation about the axis of the skew @p B: Cayley's transform. */
     static Tensor<2, dim>
     rotation(const Tensor<2, dim> &B);
 
   private:
-    struct Piece
-    {
-      double            volume = 0.; // Σ V⁰
-      Point<dim>        center;      // of Σ V⁰
-      std::vector<Mode> free;        // unsupported motions, a basis
-    };
-
-    void
-    find_centers(const std::vector<Mass> &masses);
-
-    /** Finds the motions that the supports do not hold: doc/theory.md (4.9). */
-    void
-    find_free_modes(const std::vector<Support> &supports);
-
-    /** The entry of @p pieces for a piece of the space. */
-    unsigned int
-    entry(const unsigned int piece) const
-    {
-      return as_one ? 0 : piece;
-    }
+    using FreeMotions<dim>::as_one;
+    using FreeMotions<dim>::entry;
+    using FreeMotions<dim>::pieces;
 
     const SplineSpace<dim> &space;
     const MPI_Comm          comm;
-    const bool              as_one;
-    std::vector<Piece>      pieces;
   };
 
   /** A fixed or slip point: where it is, and where it is held at the beginning

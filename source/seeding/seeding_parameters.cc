@@ -35,7 +35,7 @@ namespace Morula
     void
     require_positive(const AnyKey &key, const double value)
     {
-      if (!(value > 0. && std::isfinite(value)))
+      if (!(value > 0.))
         throw InputError(key.path(),
                          Patterns::Tools::to_string(value),
                          "a length above 0 um",
@@ -46,33 +46,11 @@ namespace Morula
     check_vector(const Key<std::vector<double>> &numbers,
                  const unsigned int              dim)
     {
-      // A NaN fails as well, as it is not above 0.
       if (numbers->size() < dim || numbers->size() > 3)
         numbers.refuse(dim == 3 ?
                          "a list of 3 numbers in um" :
                          "a list of 2 or 3 numbers in um (2-D uses two)",
                        "Give one number for each direction.");
-      for (const double number : numbers.value())
-        if (!std::isfinite(number))
-          numbers.refuse("a list of finite numbers in um",
-                         "Give one length in um for each direction.");
-    }
-
-    void
-    check_shape(const Key<std::string> &shape, const unsigned int dim)
-    {
-      const std::vector<std::string> allowed =
-        dim == 3 ?
-          std::vector<std::string>{
-            "sphere", "box", "ellipsoid", "cylinder", "mesh", "points"} :
-          std::vector<std::string>{"sphere", "box", "ellipsoid", "points"};
-      if (std::find(allowed.begin(), allowed.end(), shape.value()) ==
-          allowed.end())
-        shape.refuse(dim == 3 ?
-                       "sphere, box, ellipsoid, cylinder, mesh or points" :
-                       "sphere, box, ellipsoid or points in 2-D",
-                     dim == 3 ? "Choose one of them." :
-                                "Choose one of them, or set Dimension = 3.");
     }
 
     void
@@ -192,14 +170,16 @@ namespace Morula
     // keys demand of each other. All of it is independent of cells and files:
     // those that the scene names are opened here, but read later. So a bad
     // scene is refused before any work.
-    check_shape(shape, dim);
+    if (dim == 2 && (shape == "cylinder" || is_mesh()))
+      shape.refuse("sphere, box, ellipsoid or points in 2-D",
+                   "Choose one of them, or set Dimension = 3.");
     check_vector(center, dim);
     check_vector(lattice_offset, dim);
     require_positive(cell_spacing, cell_spacing);
     check_file(surface_mesh, "mesh", shape);
     check_file(points_file, "points", shape);
 
-    if (has_radius())
+    if (shape == "sphere" || shape == "cylinder")
       require_positive(radius, radius);
     if (shape == "sphere" && !(inner_radius >= 0. && inner_radius < radius))
       inner_radius.refuse("a length >= 0 um and less than " + radius.path(),
@@ -210,18 +190,20 @@ namespace Morula
       inner_radius.refuse("0 for no cavity, or a length in um of at least 1e-3 "
                           "of Tissue/Cell spacing",
                           "No cell could notice such a cavity.");
-    if (has_size(dim - 1))
-      check_vector(size, dim);
-    for (unsigned int d = 0; d < dim; ++d)
-      if (has_size(d))
-        require_positive(size, size.value()[d]);
+    // Of a cylinder Size has the height alone.
+    const bool has_size = shape == "box" || shape == "ellipsoid";
+    if (has_size || shape == "cylinder")
+      {
+        check_vector(size, dim);
+        for (unsigned int d = has_size ? 0 : 2; d < dim; ++d)
+          require_positive(size, size.value()[d]);
+      }
     if (is_mesh())
       check_ending(surface_mesh,
                    3,
                    "",
                    "Convert the surface to one of these formats.");
     check_surface(*this, dim);
-    // Their files are judged when they are read.
     if (is_from_file())
       return; // their files are judged when they are read
     if (dim == 2)

@@ -377,10 +377,7 @@ namespace Morula
         if (shape == "mesh")
           return make_mesh_shape(parameters);
       }
-    parameters.shape.refuse(dim == 3 ?
-                              "sphere, box, ellipsoid, cylinder or mesh" :
-                              "sphere, box or ellipsoid in 2-D",
-                            "Choose a shape that has an inside.");
+    parameters.shape.refuse("a shape that has an inside", "Choose another.");
   }
 
   template class Shape<2>;

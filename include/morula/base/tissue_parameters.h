@@ -186,21 +186,6 @@ namespace Morula
     void
     check(const unsigned int dim) const;
 
-    /** Whether the shape has a Radius. */
-    bool
-    has_radius() const
-    {
-      return shape == "sphere" || shape == "cylinder";
-    }
-
-    /** Whether Size is an extent of the shape in direction @p d. */
-    bool
-    has_size(const unsigned int d) const
-    {
-      return shape == "box" || shape == "ellipsoid" ||
-             (shape == "cylinder" && d == 2); // its axis
-    }
-
     /** Whether the cells fill a closed surface from a file. */
     bool
     is_mesh() const

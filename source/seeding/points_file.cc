@@ -25,10 +25,6 @@ namespace Morula
 {
   namespace
   {
-    /** Longest line, in characters. A few numbers and their names are far
-     *  shorter; a file without line ends could fill the memory. */
-    constexpr std::size_t longest_line = 10000;
-
     /** Cells nearer than this fraction of their length coincide. Division could
      *  not tell their regions apart: see daughter_distances(). */
     constexpr double contact = 1e-3;
@@ -53,12 +49,9 @@ namespace Morula
       bool
       next()
       {
-        std::vector<char> line(longest_line + 1);
-        while (stream.getline(line.data(), line.size()))
+        while (std::getline(stream, text))
           {
             ++number;
-            // The line's end counts as read, and may be a null byte's.
-            text.assign(line.data(), stream.gcount() - (stream.eof() ? 0 : 1));
             if (number == 1 && boost::starts_with(text, "\xEF\xBB\xBF"))
               text.erase(0, 3); // spreadsheets mark UTF-8 so
             boost::trim(text);
@@ -68,14 +61,6 @@ namespace Morula
             for (std::string &entry : entries)
               boost::trim(entry);
             return true;
-          }
-        if (stream.gcount() > 0)
-          {
-            ++number;
-            refuse(0,
-                   line.data(),
-                   "lines of at most 10000 characters",
-                   "Correct the line.");
           }
         return false;
       }

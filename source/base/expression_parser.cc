@@ -118,49 +118,27 @@ namespace Morula
      * ||: deal.II adds the operators & and | to muParser's own, which then
      * reads the
      * || of X<1||Y<1 as | and |Y. It removes blanks between a function and its
-     * parenthesis, since muParser allows none there. It writes normal(noise, a,
-     * b) for normal(a, b).
+     * parenthesis, since muParser allows none there.
      */
     Readable
     make_readable(const std::string &component)
     {
-      // muParser wants no blank between a function's name and its parenthesis,
-      // and reads the || of X<1||Y<1 as | and |Y, so it gets a blank behind.
-      // normal() gets the cell's own number as its first argument. What is
-      // changed is noted by position, so that messages can name the character
-      // in the user's text.
-      static const std::regex normal("normal *\\(");
-      Readable                result;
-      const auto append = [&](const std::string &text, const std::size_t i) {
-        result.text += text;
-        result.positions.resize(result.text.size(), i);
+      // What is changed is noted by position, so that messages can name the
+      // character in the user's text.
+      Readable   result;
+      const auto append = [&](const char c, const std::size_t i) {
+        result.text += c;
+        result.positions.push_back(i);
       };
       for (std::size_t i = 0; i < component.size(); ++i)
         {
-          const bool begins_name =
-            // A call is looked for only where a name begins, so that
-            // abnormal(...) is none.
-            is_of_name(component[i]) &&
-            (i == 0 || !is_of_name(component[i - 1]));
-          std::smatch call;
-          if (begins_name &&
-              std::regex_search(component.begin() + i,
-                                component.end(),
-                                call,
-                                normal,
-                                std::regex_constants::match_continuous))
-            {
-              append("normal(noise, ", i);
-              i += call.length() - 1;
-              continue;
-            }
           if (component[i] == ' ' && ends_name_of_call(component, i))
             continue;
-          append({component[i]}, i);
+          append(component[i], i);
           // && or || ends here.
           if (i > 0 && component[i] == component[i - 1] &&
               (component[i] == '&' || component[i] == '|'))
-            append(" ", i + 1);
+            append(' ', i + 1);
         }
       result.positions.push_back(component.size());
       return result;
@@ -247,17 +225,19 @@ namespace Morula
     }
 
     /** The value of a normally distributed number whose distribution function
-     *  is @p noise there. */
+     *  is there the cell's own number, to which @p noise points. */
     double
-    normal(const double noise, const double mean, const double deviation)
+    normal(void *const noise, const double mean, const double deviation)
     {
       // What is no number is refused where expressions are evaluated, so Boost
       // need not throw.
       using namespace boost::math::policies;
       using Silent =
         policy<domain_error<ignore_error>, overflow_error<ignore_error>>;
-      return mean + deviation * std::sqrt(2.) *
-                      boost::math::erf_inv(2. * noise - 1., Silent());
+      return mean +
+             deviation * std::sqrt(2.) *
+               boost::math::erf_inv(2. * *static_cast<double *>(noise) - 1.,
+                                    Silent());
     }
 
     /** Adds what deal.II's FunctionParser has besides muParser's own. */
@@ -374,7 +354,11 @@ namespace Morula
         parser.DefineVar(vocabulary.name_of(variable), place);
         // normal(mean, deviation) takes the cell's own number.
         if (variable == Variable::noise)
-          parser.DefineFun("normal", normal);
+          {
+            parser.DefineFunUserData("normal", normal, place, false);
+            if (ExpressionSyntax::uses(text, "normal"))
+              used_.push_back(variable);
+          }
       }
     for (const auto &[name, value] : vocabulary.constants)
       parser.DefineConst(name, value);
@@ -410,6 +394,7 @@ namespace Morula
           message + "." + guess(parser, error.GetToken()));
       }
     std::sort(used_.begin(), used_.end());
+    used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
   }
 
 

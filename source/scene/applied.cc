@@ -244,12 +244,11 @@ namespace Morula
     {
       // A component of the force counts as zero if it is small beside the sum
       // of magnitudes.
-      const bool         space = scene.dimension == 3;
       std::ostringstream text;
       text.precision(4);
       text << applied.points
            << (applied.points == 1 ? " boundary point, " : " boundary points, ")
-           << applied.area << (space ? " um^2" : " um");
+           << applied.area << (dim == 3 ? " um^2" : " um");
       if (applied.points > 0)
         text << ", from " << vector_text(applied.lower, 0.) << " to "
              << vector_text(applied.upper, 0.) << " um";
@@ -259,7 +258,7 @@ namespace Morula
       if (applied.has_force)
         text << "; force "
              << vector_text(applied.force, 1e-9 * applied.magnitude)
-             << (space ? " kPa um^2" : " kPa um") << " in sum, "
+             << (dim == 3 ? " kPa um^2" : " kPa um") << " in sum, "
              << applied.magnitude
              << " in magnitudes, at t = " << scene.time.end_time
              << " day on the surface of t = 0";
@@ -268,55 +267,6 @@ namespace Morula
 
     /** With fewer patches a condition's area is not known to a tenth. */
     constexpr std::uint64_t fewest_points = 10;
-
-    /** Conditions that another one keeps from acting. */
-    template <int dim>
-    void
-    review_place(const AppliedCondition<dim> &one,
-                 const AnyKey                &where,
-                 Review                      &review)
-    {
-      if (one.points == 0 && one.chosen > 0)
-        review.warn(where.path(),
-                    where.text(),
-                    "it acts nowhere: at all " + std::to_string(one.chosen) +
-                      " boundary points that it chooses another condition wins "
-                      "(fixed over slip, slip over loads).",
-                    "Choose places that differ.");
-    }
-
-    template <int dim>
-    void
-    review_points(const Scene                 &scene,
-                  const AppliedCondition<dim> &one,
-                  const AnyKey                &where,
-                  Review                      &review)
-    {
-      if (one.points > 0 && one.points < fewest_points)
-        review.warn(where.path(),
-                    where.text(),
-                    "it acts on " + std::to_string(one.points) +
-                      " boundary points, whose area is " + as_text(one.area) +
-                      (scene.dimension == 3 ? " um^2" : " um") +
-                      ": with so few, what it covers jumps by a whole patch, "
-                      "and so does its force.",
-                    "Choose a larger place, or a smaller Tissue/Cell spacing.");
-    }
-
-    /** Calls @p action for each condition and the key that says where it acts,
-     *  which warnings name; conditions without one are passed over. */
-    template <int dim, typename Action>
-    void
-    for_placed(const Scene                              &scene,
-               const std::vector<AppliedCondition<dim>> &applied,
-               const Action                             &action)
-    {
-      for (const auto &one : applied)
-        if (const auto *const choice =
-              find_choice(scene.catalogue.boundary_conditions, one.name))
-          if (const AnyKey *const where = choice->keys().facts().switch_key)
-            action(one, *where);
-    }
   } // namespace
 
 
@@ -326,18 +276,36 @@ namespace Morula
                       SeededTissue<dim>      &tissue,
                       const MPI_Comm          comm)
   {
-    const Scene &scene   = model.scene;
-    const auto   applied = applied_conditions(model, tissue.surface, comm);
-    for (const auto &one : applied)
-      if (one.points > 0)
-        tissue.applied.emplace_back(one.name, text_of(scene, one));
-    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
-    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
-      review_points(scene, one, where, review);
-    });
-    for_placed(scene, applied, [&](const auto &one, const AnyKey &where) {
-      review_place(one, where, review);
-    });
+    const Scene &scene = model.scene;
+    Review       review;
+    for (const auto &one : applied_conditions(model, tissue.surface, comm))
+      {
+        if (one.points > 0)
+          tissue.applied.emplace_back(one.name, text_of(scene, one));
+        const auto *const choice =
+          find_choice(scene.catalogue.boundary_conditions, one.name);
+        const AnyKey *const where =
+          choice == nullptr ? nullptr : choice->keys().facts().switch_key;
+        if (where == nullptr)
+          continue;
+        if (one.points > 0 && one.points < fewest_points)
+          review.warn(where->path(),
+                      where->text(),
+                      "it acts on " + std::to_string(one.points) +
+                        " boundary points, whose area is " + as_text(one.area) +
+                        (dim == 3 ? " um^2" : " um") +
+                        ": with so few, what it covers jumps by a whole "
+                        "patch, and so does its force.",
+                      "Choose a larger place, or a smaller Tissue/Cell "
+                      "spacing.");
+        if (one.points == 0 && one.chosen > 0)
+          review.warn(where->path(),
+                      where->text(),
+                      "it acts nowhere: at all " + std::to_string(one.chosen) +
+                        " boundary points that it chooses another condition "
+                        "wins (fixed over slip, slip over loads).",
+                      "Choose places that differ.");
+      }
     return review.warnings;
   }
 

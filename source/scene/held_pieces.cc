@@ -482,7 +482,7 @@ namespace Morula
       held_pieces(model, tissue.founders, tissue.surface, at, comm);
     tissue.n_pieces = pieces.size();
     tissue.pieces   = texts_of(pieces);
-    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    Review review;
     if (!model.interaction)
       review_bodies(scene, tissue.founders, at.n, comm, review);
     review_held(pieces, review);

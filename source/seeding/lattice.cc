@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace Morula
 {
@@ -218,43 +219,6 @@ namespace Morula
       const double      side;
       std::vector<bool> inside;
     };
-
-    /** A site and its position: computed once, as many samples ask for it. */
-    template <int dim>
-    struct Site
-    {
-      std::uint64_t number;
-      Point<dim>    x;
-    };
-
-    /** The occupied ones of @p sites, ascending. */
-    template <int dim>
-    std::vector<Site<dim>>
-    occupied(const Lattice<dim>               &lattice,
-             const Shape<dim>                 &shape,
-             const std::vector<std::uint64_t> &sites)
-    {
-      std::vector<Site<dim>> result;
-      for (const std::uint64_t site : sites)
-        if (const Point<dim> x = lattice.position(site);
-            lattice.is_occupied(shape, x))
-          result.push_back({site, x});
-      return result;
-    }
-
-    template <int dim>
-    std::uint64_t
-    nearest(const std::vector<Site<dim>> &sites, const Point<dim> &x)
-    {
-      // Few sites are near, so a plain search will do.
-      return std::min_element(sites.begin(),
-                              sites.end(),
-                              [&](const Site<dim> &a, const Site<dim> &b) {
-                                return a.x.distance_square(x) <
-                                       b.x.distance_square(x);
-                              })
-        ->number;
-    }
   } // namespace
 
   template <int dim>
@@ -298,10 +262,23 @@ namespace Morula
 
     for (const std::uint64_t box : empty)
       {
-        const auto owners = occupied(lattice, shape, lattice.neighbors(box));
+        // Few sites are near, so a plain search will do; their places are
+        // computed once, as many samples ask for them.
+        std::vector<std::pair<std::uint64_t, Point<dim>>> owners;
+        for (const std::uint64_t site : lattice.neighbors(box))
+          if (const Point<dim> x = lattice.position(site);
+              lattice.is_occupied(shape, x))
+            owners.emplace_back(site, x);
         SamplesInside<dim>(shape, lattice.position(box), side)
           .visit([&](const Point<dim> &y) {
-            const auto owner = nearest(owners, y);
+            const std::uint64_t owner =
+              std::min_element(owners.begin(),
+                               owners.end(),
+                               [&](const auto &a, const auto &b) {
+                                 return a.second.distance_square(y) <
+                                        b.second.distance_square(y);
+                               })
+                ->first;
             const auto mine =
               std::lower_bound(sites.begin(), sites.end(), owner);
             // Any other owner is another rank's.

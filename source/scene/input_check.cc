@@ -98,12 +98,6 @@ namespace Morula
         }
     }
 
-    void
-    check_material(const MaterialParameters &material, const unsigned int dim)
-    {
-      material.check_each(dim);
-    }
-
     /** Checks an effect's keys and makes it, for what it refuses. */
     template <int dim, template <int> class Interface>
     void
@@ -143,20 +137,20 @@ namespace Morula
     void
     check_switched(const Scene &scene, const Choices<Interface> &choices)
     {
-      // An effect that is on is made. One that is off must not have values that
-      // do nothing: first each is checked for itself, so that a mistake in it
-      // is reported as what it is. Both are checked with the rest of the scene.
+      // What keys contradict is said before an effect that is on is made. One
+      // that is off must not have values that do nothing: first each is checked
+      // for itself, so that a mistake in it is reported as what it is. Both are
+      // checked with the rest of the scene.
       for (const auto &choice : choices)
         {
           const EffectKeys   &keys       = choice.keys();
           const AnyKey *const switch_key = keys.facts().switch_key;
+          for (const AnyKey *key : keys.list())
+            if (keys.is_on() || !key->is_default())
+              key->check(dim);
+          check_with(scene, keys);
           if (keys.is_on())
             try_effect<dim>(scene, choice);
-          else
-            for (const AnyKey *key : keys.list())
-              if (!key->is_default())
-                key->check(dim);
-          check_with(scene, keys);
           if (!keys.is_on() && switch_key != nullptr)
             refuse_forgotten(scene,
                              *switch_key,
@@ -227,18 +221,6 @@ namespace Morula
                        division.axis,
                        scene.division_axes());
     }
-
-    /** Refuses equations that contradict themselves. */
-    template <int dim>
-    void
-    check_equations(const Scene &scene)
-    {
-      // What the keys of an equation contradict is said before it is made.
-      for (const auto &choice : scene.catalogue.equations)
-        check_with(scene, choice.keys());
-      check_switched<dim>(scene, scene.catalogue.equations);
-    }
-
 
     /** Refuses names of the scene's own that other columns of cells have. */
     template <int dim>
@@ -326,7 +308,7 @@ namespace Morula
           "cell deforms as a whole.");
       scene.tissue.check(dim);
       refuse_far_away(scene.tissue.center, scene.grid.spacing);
-      check_material(scene.material, dim);
+      scene.material.check_each(dim);
       check_with(scene, scene.cell_types);
       check_named<dim>(scene,
                        scene.catalogue.growth_laws,
@@ -336,7 +318,7 @@ namespace Morula
       check_switched<dim>(scene, scene.catalogue.growth_factors);
       check_switched<dim>(scene, scene.catalogue.flows);
       check_switched<dim>(scene, scene.catalogue.fates);
-      check_equations<dim>(scene);
+      check_switched<dim>(scene, scene.catalogue.equations);
       check_switched<dim>(scene, scene.catalogue.traits);
       check_columns<dim>(scene);
       check_switched<dim>(scene, scene.catalogue.step_effects);

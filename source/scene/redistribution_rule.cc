@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/base/expression_key.h>
-#include <morula/scene/redistribution_rule.h>
+#include <morula/scene/tissue_model.h>
 
 #include <algorithm>
 

@@ -8,7 +8,6 @@
 #include <morula/effects/surface/boundary_conditions.h>
 #include <morula/mechanics/material.h>
 #include <morula/particles/tissue.h>
-#include <morula/scene/redistribution_rule.h>
 #include <morula/scene/scene.h>
 
 #include <mpi.h>
@@ -21,6 +20,22 @@
 
 namespace Morula
 {
+  /** Which laws keep places and volumes of cells together: doc/theory.md,
+   *  section 6.11. */
+  struct Redistribution
+  {
+    /** Cells that come too near to each other move apart. */
+    bool places = false;
+    /** Volumes follow the space that cells have. */
+    bool volumes = false;
+    /** All tissue flows, not only that which relaxes. */
+    bool all_flows = false;
+  };
+
+  /** What Tissue/Redistribution means in a scene. */
+  Redistribution
+  redistribution_of(const Scene &scene);
+
   /** An effect of a scene, and what it is called. @tparam Kind Force<3>, ... */
   template <typename Kind>
   struct NamedEffect

@@ -101,19 +101,12 @@ namespace Morula
         add_choice(rows, choice);
     }
 
-    /** The effects of a scene.
-     *  @param counts  of boundary points
-     *  @param applied what the conditions act on: names and texts
-     *  @param n_founders, n_proliferating on all ranks
-     *  @param remakes whether some surface is made from the cells */
+    /** The effects of a scene, and what they act on. */
+    template <int dim>
     EffectRows
-    effect_rows(const Scene                              &scene,
-                const ConditionCounts                    &counts,
-                const std::map<std::string, std::string> &applied,
-                const types::particle_index               n_founders,
-                const types::particle_index               n_proliferating,
-                const bool                                remakes)
+    effect_rows(const TissueModel<dim> &model, const SeededTissue<dim> &tissue)
     {
+      const Scene              &scene     = model.scene;
       const Catalogue          &catalogue = scene.catalogue;
       const DivisionParameters &division  = scene.division;
 
@@ -131,7 +124,9 @@ namespace Morula
           if (choice.keys().facts().grows_cells == that_grow)
             add_choice(out,
                        choice,
-                       of_founders(n_proliferating, n_founders, choice.keys()));
+                       of_founders(tissue.n_proliferating,
+                                   tissue.founders.n_global,
+                                   choice.keys()));
       };
       add_fates(true);
       if (scene.cells_divide())
@@ -149,23 +144,26 @@ namespace Morula
       for (const auto &choice : catalogue.boundary_conditions)
         // A condition is on if it acts somewhere: its expression may be true at
         // no boundary point.
-        if (const types::particle_index n = counts.acting.at(choice.name()))
+        if (const types::particle_index n =
+              tissue.counts.acting.at(choice.name()))
           {
             const AnyKey *const where = choice.keys().facts().switch_key;
+            std::string         further;
+            for (const auto &[name, text] : tissue.applied)
+              if (name == choice.name())
+                further = "    " + text + '\n';
             out.push_back({topic_of(choice),
                            "at " + std::to_string(n) + " boundary points" +
                              (where == nullptr || where->is_default() ?
                                 "" :
                                 ", where " + where->text()) +
                              choice.keys().details(),
-                           applied.count(choice.name()) == 0 ?
-                             "" :
-                             "    " + applied.at(choice.name()) + '\n'});
+                           further});
           }
       add_effects(out, catalogue.forces);
       out.push_back({"material", material_text(scene)});
       add_effects(out, catalogue.flows);
-      if (remakes)
+      if (has_surface(model) && model.any_surface(true))
         out.push_back({"surface",
                        "made from the cells in each step; Fixed where and Slip "
                        "where hold places, whichever cells are there"});
@@ -219,28 +217,6 @@ namespace Morula
       EffectRows                         effects;
     };
 
-    /** The bodies that interact, and how. */
-    template <int dim>
-    void
-    add_interaction(EffectRows                          &rows,
-                    const NamedEffect<Interaction<dim>> &interaction,
-                    const double                         h,
-                    const std::vector<BodyMeasures>     &bodies)
-    {
-      std::ostringstream text;
-      text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
-           << (interaction.effect->acts_within_bodies() ?
-                 "; folds have " + interaction.name + ", too" :
-                 "");
-      for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed; ++b)
-        text << "; body " << b << ": " << bodies[b].cells << " cells, "
-             << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
-             << ", surface " << bodies[b].area << (dim == 3 ? " um^2" : " um");
-      rows.push_back({"bodies", text.str()});
-      rows.push_back(
-        {interaction.name, interaction.effect->details_of_bodies(bodies, h)});
-    }
-
     /** Which bodies interact, and which surfaces a mesh has. */
     template <int dim>
     void
@@ -249,10 +225,25 @@ namespace Morula
                const SeededTissue<dim> &tissue)
     {
       if (model.interaction)
-        add_interaction(rows,
-                        *model.interaction,
-                        model.scene.grid.spacing,
-                        tissue.measures);
+        {
+          const auto &[name, effect]              = *model.interaction;
+          const std::vector<BodyMeasures> &bodies = tissue.measures;
+          std::ostringstream               text;
+          text << bodies.size() << (bodies.size() == 1 ? " body" : " bodies")
+               << (effect->acts_within_bodies() ?
+                     "; folds have " + name + ", too" :
+                     "");
+          for (std::size_t b = 0; b < bodies.size() && b < most_bodies_listed;
+               ++b)
+            text << "; body " << b << ": " << bodies[b].cells << " cells, "
+                 << bodies[b].volume << (dim == 3 ? " um^3" : " um^2")
+                 << ", surface " << bodies[b].area
+                 << (dim == 3 ? " um^2" : " um");
+          rows.push_back({"bodies", text.str()});
+          rows.push_back(
+            {name,
+             effect->details_of_bodies(bodies, model.scene.grid.spacing)});
+        }
       if (!tissue.mesh.empty())
         rows.push_back({"surface mesh", tissue.mesh});
       if (!tissue.cuts.empty())
@@ -319,13 +310,7 @@ namespace Morula
                                             tissue.founders.positions,
                                             comm,
                                             tissue.founders.types);
-      result.effects =
-        effect_rows(scene,
-                    tissue.counts,
-                    {tissue.applied.begin(), tissue.applied.end()},
-                    tissue.founders.n_global,
-                    tissue.n_proliferating,
-                    has_surface(model) && model.any_surface(true));
+      result.effects    = effect_rows(model, tissue);
       add_bodies(result.effects, model, tissue);
       if (scene.material.volumetric_form() == VolumetricStrain::pooled)
         add_pools(result.effects, simulation.mixed_share());
@@ -422,12 +407,10 @@ namespace Morula
       const Explanation<dim> found = explanation_of<dim>(scene, comm);
       if (Utilities::MPI::this_mpi_process(comm) != 0)
         return;
-      std::ostringstream text;
       if (json)
-        print_json(text, scene, found);
+        print_json(out, scene, found);
       else
-        print_text(text, scene, found);
-      out << text.str();
+        print_text(out, scene, found);
     }
   } // namespace
 

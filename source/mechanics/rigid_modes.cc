@@ -183,12 +183,17 @@ namespace Morula
   }
 
   template <int dim>
-  void
-  FreeMotions<dim>::find_centers(const std::vector<Mass> &masses,
-                                 const MPI_Comm           comm)
+  FreeMotions<dim>::FreeMotions(const unsigned int          n_pieces,
+                                const double                length,
+                                const std::vector<Mass>    &masses,
+                                const std::vector<Support> &supports,
+                                const MPI_Comm              comm,
+                                const bool                  as_one)
+    : as_one(as_one)
+    , pieces(as_one ? 1 : n_pieces)
   {
-    // Sums of V⁰ and V⁰ x by piece. Every rank has all pieces, as pieces may
-    // run through several ranks.
+    // First come sums of V⁰ and V⁰ x by piece. Every rank has all pieces, as
+    // pieces may run through several ranks.
     std::vector<double> sums(pieces.size() * (dim + 1), 0.);
     for (const Mass &mass : masses)
       {
@@ -207,21 +212,13 @@ namespace Morula
           for (unsigned int d = 0; d < dim; ++d)
             pieces[p].center[d] = sums[p * (dim + 1) + d] / pieces[p].volume;
       }
-  }
 
-  template <int dim>
-  void
-  FreeMotions<dim>::find_free_modes(const std::vector<Support> &supports,
-                                    const double                length,
-                                    const MPI_Comm              comm)
-  {
-    // The first loop sums the matrix S of doc/theory.md (4.9) over this rank's
-    // supports, for all pieces at once, and one reduction adds up all ranks':
-    // pieces may run through several. Then every rank finds the same free
-    // motions of all pieces. The length makes translations and rotations
-    // comparable in S.
-    constexpr int       n = n_modes;
-    std::vector<double> sums(pieces.size() * n * n, 0.);
+    // Then the matrix S of doc/theory.md (4.9) is summed over this rank's
+    // supports, for all pieces at once, and one reduction adds up all ranks'.
+    // So every rank finds the same free motions of all pieces. The length makes
+    // translations and rotations comparable in S.
+    constexpr int n = n_modes;
+    sums.assign(pieces.size() * n * n, 0.);
     for (const Support &support : supports)
       {
         const unsigned int   p = entry(support.piece);
@@ -238,7 +235,6 @@ namespace Morula
             sums[(p * n + k) * n + l] += support.area * (held[k] * held[l]);
       }
     Utilities::MPI::sum(sums, comm, sums);
-
     for (unsigned int p = 0; p < pieces.size(); ++p)
       pieces[p].free = free_motions<dim>(&sums[p * n * n], length);
   }

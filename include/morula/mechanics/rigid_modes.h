@@ -63,13 +63,7 @@ namespace Morula
                 const std::vector<Mass>    &masses,
                 const std::vector<Support> &supports,
                 const MPI_Comm              comm,
-                const bool                  as_one = false)
-      : as_one(as_one)
-      , pieces(as_one ? 1 : n_pieces)
-    {
-      find_centers(masses, comm);
-      find_free_modes(supports, length, comm);
-    }
+                const bool                  as_one = false);
 
     /** The piece of this number. */
     const Piece &
@@ -107,16 +101,6 @@ namespace Morula
 
     const bool         as_one;
     std::vector<Piece> pieces;
-
-  private:
-    void
-    find_centers(const std::vector<Mass> &masses, const MPI_Comm comm);
-
-    /** Finds the motions that the supports do not hold: doc/theory.md (4.9). */
-    void
-    find_free_modes(const std::vector<Support> &supports,
-                    const double                length,
-                    const MPI_Comm              comm);
   };
 
   /**

@@ -19,7 +19,6 @@ HELD = {**BOX, FIXED: "X < -49.9"}
 PULLED = {**HELD, TRACTION + " where": "X > 49.9"}
 PULL = {**PULLED, TRACTION: "0.01*t; 0"}
 TYPES = {**BOX, "Cell types/Names": "a, b"}
-CYCLE = {**BOX, "Proliferation/Law": "cell cycle"}
 RATE = {**BOX, "Growth/Law": "rate"}
 LEAVES = {**BOX, "Death/Shrinking time": 0}
 # A box of 80 um, of 12 triangles.
@@ -140,7 +139,7 @@ def test_points_in_metres(runs, scale):
 
 NOWHERE = "it acts nowhere: at all 10"
 ALONE = "it does nothing without "
-EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
+EMPTY = "it is 0 everywhere"
 
 
 @pytest.mark.parametrize("keys, word", [
@@ -155,8 +154,6 @@ EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
     (TYPES, "no founder is of this type"),
     ({**TYPES, "Cell types/b/Where": "X > 0", "Cell types/a/Daughter types": "a, b"},
      "no cell divides"),
-    ({**CYCLE, "Proliferation/Cell cycle/G0 exit rate": 0}, "none ever leaves it"),
-    ({**CYCLE, "Proliferation/Cell cycle/Size checkpoint": 1.5}, "only stretched cells enter S"),
     ({**RATE, "Growth/Rate/Rate": 0.1, "Division by size/Volume": 50}, "divide at once"),
     (field(Diffusion=100, Consumption=1, Initial=5), EMPTY),
     (field(Diffusion=100, Consumption=1, Transfer=0, Value=1), EMPTY),
@@ -167,8 +164,6 @@ EMPTY, NOBODY = "it is 0 everywhere", "no cell dies by it"
      "the field reaches only 0.1 um"),
     ({**BOX, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": 1.5},
      "by a factor of up to 1.5"),
-    (RATE, "no cell grows: it"), ({**LEAVES, "Death/When": "X > 500"}, NOBODY),
-    ({**LEAVES, "Death/When": "t > 5"}, NOBODY),
     ({**BOX, "Tissue/Cell spacing": 7, "Tissue/Surface cells": "whole"}, "the lattice does not fit the shape")])
 def test_words(runs, keys, word):
     assert word in runs.run("words", keys).said

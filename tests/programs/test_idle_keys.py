@@ -10,7 +10,6 @@ BOX = {"Dimension": 2, "Tissue/Shape": "box", "Tissue/Size": "100, 100",
        "Tissue/Cell spacing": 10, "Grid/Spacing": 40, "Time/End time": 0.2,
        "Time/Step": 0.1, "Output/Formats": "none"}
 TYPES = {**BOX, "Cell types/Names": "a, b", "Cell types/b/Where": "X > 0"}
-CYCLE = {**TYPES, "Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/Duration": 0.2}
 GROWS = {**TYPES, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.1*t"}
 RATE = {**TYPES, "Growth/Law": "rate", "Growth/Rate/Rate": 0.1}
 MOVES = {**TYPES, "Rearrangement/Diffusion": 10}
@@ -19,35 +18,6 @@ FIELD = {**BOX, "Fields/Names": "u", "Fields/u/Diffusion": 100, "Fields/u/Consum
 
 POINTS = {**{key: value for key, value in BOX.items() if key not
              in ("Tissue/Size", "Tissue/Cell spacing")}, "Tissue/Shape": "points"}
-
-# Effects that are asked for and happen to nobody: what is said, and a scene of
-# the same kind in which something happens.
-LEAVES = {**BOX, "Death/Shrinking time": 0}
-CYCLE_WAIT = "Proliferation/Cell cycle/G0 exit rate"
-NOBODY = (
-    (RATE, {"Growth/Rate/Rate": "0*X"}, {"Growth/Rate/Rate": "X > 40"},
-     "no cell grows: "),
-    (RATE, {"Growth/Rate/Rate": "t > 3"}, {"Growth/Rate/Rate": "t > 0.1"},
-     "no cell grows: "),
-    (RATE, {"Growth/Rate/Rate": 0, "Cell types/b/Growth/Rate/Rate": "0*t"},
-     {"Growth/Rate/Rate": 0, "Cell types/b/Growth/Rate/Rate": 1},
-     "no cell grows: "),
-    (RATE, {"Growth/Rate/Rate": 0}, {"Growth/Rate/Rate": "0*pressure"},
-     "no cell grows: "),
-    (GROWS, {"Growth/Isotropic/Stretch": "1 + (X > 90)"}, {},
-     "no cell grows: "),
-    (LEAVES, {"Death/Rate": "0.1*(X > 500)"}, {"Death/Rate": "0.1*(X > 40)"},
-     "no cell dies by it."),
-    (LEAVES, {"Death/When": "X > 500"}, {"Death/When": "X > 40"},
-     "no cell dies by it."),
-    (BOX, {"Extrusion/Rate": "0*t"}, {"Extrusion/Rate": 0.1},
-     "no cell leaves by it."),
-    (MOVES, {"Rearrangement/Diffusion": "10*(t > 9)"}, {},
-     "no cell changes its place by it."),
-    (TYPES, {"Cell types/a/Transitions/To b": "0*X"},
-     {"Cell types/a/Transitions/To b": "X < 0"},
-     "no cell changes its type by it."),
-    (CYCLE, {CYCLE_WAIT: "0*X"}, {CYCLE_WAIT: "X > 0"}, "no cell divides."))
 
 IDLE = (
     ("Tension/Force", "false", TYPES),
@@ -92,12 +62,6 @@ def points(runs, columns):
 def test_columns_that_nothing_reads(runs):
     said = runs.explain(POINTS, points(runs, {"phase": 1, "id": 7}))
     assert "its columns 'id' are not known, and are skipped." in said
-
-
-@pytest.mark.parametrize("keys, idle, acts, word", NOBODY)
-def test_what_happens_to_nobody(runs, keys, idle, acts, word):
-    assert word in runs.explain(keys, idle)
-    assert word not in runs.explain(keys, acts)
 
 
 def test_key_twice(runs):

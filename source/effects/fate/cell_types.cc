@@ -154,11 +154,7 @@ namespace Morula
               };
             for (auto &ways : this->hazards_of_types)
               if (k < ways.size())
-                ways[k] = {ways[k].rate,
-                           integrals[k],
-                           expected,
-                           threshold,
-                           "no cell changes its type by it."};
+                ways[k] = {ways[k].rate, integrals[k], expected, threshold};
           }
       }
 

@@ -130,8 +130,7 @@ namespace Morula
                          Random::death_threshold,
                          "death",
                          "when the cell died; -1: it lives",
-                         true,
-                         "no cell dies by it.")
+                         true)
         , when(setting.state.use(parameters.when))
         , shrinking_time(setting.state.use(parameters.shrinking_time))
         , final_volume(setting.state.use(parameters.final_volume))
@@ -254,22 +253,6 @@ namespace Morula
         for (const Expression *expression :
              {&when, &shrinking_time, &final_volume, &keep_debris})
           founder.value(*expression, 0.);
-      }
-
-      void
-      review(const Preview<dim> &scene, Review &review) const override
-      {
-        Fate<dim>::review(scene, review);
-        if (has_condition && never_acts<dim>(
-                               when,
-                               [](const double value) { return value > 0.; },
-                               AskedAt::ends_of_steps,
-                               scene))
-          review.warn(when.key(),
-                      when.text(),
-                      "it holds for no founder at the beginning or end of any "
-                      "step: no cell dies by it.",
-                      "Correct it, or remove it.");
       }
 
     private:

@@ -90,8 +90,7 @@ namespace Morula
            [seed = setting.random_seed](const PresentCell<dim> &cell,
                                         const CellView<dim, const double> &) {
              return Random::threshold_of("division", seed, cell.lineage_key());
-           },
-           "no cell divides by it."});
+           }});
         this->declare_event(setting.columns);
       }
     };

@@ -69,8 +69,7 @@ namespace Morula
             },
             "extrusion",
             "when the cell leaves; -1: not yet",
-            false,
-            "no cell leaves by it.")
+            false)
       {}
 
       LifeAfter

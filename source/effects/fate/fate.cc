@@ -155,17 +155,6 @@ namespace Morula
 
   template <int dim>
   void
-  Fate<dim>::review(const Preview<dim> &scene, Review &review) const
-  {
-    for (const auto &of_type : hazards_of_types)
-      for (const CellHazard<dim> &hazard : of_type)
-        if (!hazard.nobody.empty())
-          review_rate(hazard.rate, hazard.nobody, scene, review);
-  }
-
-
-  template <int dim>
-  void
   Fates<dim>::add(std::unique_ptr<const Fate<dim>> fate)
   {
     // A scene has at most one fate that divides cells: a cell cycle refuses

@@ -20,9 +20,7 @@ namespace Morula
                                    setting.state),
                     setting.columns,
                     setting.random_seed)
-  {
-    this->parameters = parameters;
-  }
+  {}
 
 
   template <int dim>
@@ -71,7 +69,7 @@ namespace Morula
                  !std::isfinite(cell.get(event_time));
         };
         this->hazards_of_types[0].push_back(
-          {cycle_.rate_of_exit(), hazard, exit_rate, {}, {}, runs});
+          {cycle_.rate_of_exit(), hazard, exit_rate, {}, runs});
       }
     if (cycle_.has_checkpoint())
       J_e_before = columns.template add<double>(
@@ -111,47 +109,13 @@ namespace Morula
   void
   Proliferation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    // Rules come first, then cells that never enter S. Then the shortest cycle
-    // of all founders that proliferate is compared with the step. A duration
-    // that depends on the state or the time is left to the run. All ranks
-    // return there together, as the expression is the same on all, so the
-    // minimum is reached by all or none.
+    // Rules come first. Then the shortest cycle of all founders that
+    // proliferate is compared with the step. A duration that depends on the
+    // state or the time is left to the run.
     if (this->axes)
       this->axes->review(scene, review);
-    if (!parameters)
-      return;
-    const Expression &exit_rate = parameters->exit_rate.expression(dim);
-    if (parameters->start == "waiting" &&
-        never_acts<dim>(
-          exit_rate,
-          [](const double rate) { return rate > 0.; },
-          AskedAt::all_moments,
-          scene))
-      review.warn(exit_rate.key(),
-                  exit_rate.text(),
-                  "all cells wait in G0 at t = 0, and none ever leaves it: "
-                  "no cell divides.",
-                  "Set a rate > 0, or " + parameters->start.path() +
-                    " = together.");
-    const Expression &checkpoint = parameters->size_checkpoint.expression(dim);
-    if (checkpoint.is_constant() && *checkpoint.number() >= 1.)
-      review.warn(checkpoint.key(),
-                  checkpoint.text(),
-                  "cells at rest have J_e = 1, which is not above it: only "
-                  "stretched cells enter S.",
-                  "Choose a number below 1.");
-
-    const Expression &duration = parameters->duration.expression(dim);
-    const Expression &where    = parameters->where.expression(dim);
-    if (depends_on_more_than_place(duration))
-      return;
-    double shortest = std::numeric_limits<double>::max();
-    for (const Point<dim> &X : scene.founders)
-      if (where.value(X, 0.) > 0.)
-        shortest = std::min(shortest, duration.value(X, 0.));
-    shortest = Utilities::MPI::min(shortest, scene.comm);
-    // Without any proliferating founder the minimum is huge and nothing is
-    // said.
+    const double shortest =
+      Utilities::MPI::min(cycle_.shortest(scene.founders), scene.comm);
     if (scene.keys.time.step > (0.25 + 1e-9) * shortest)
       review.warn(TimeParameters::step_path,
                   as_text(scene.keys.time.step) + " day",

@@ -126,16 +126,6 @@ namespace Morula
               }
           }
         largest = Utilities::MPI::max(largest, scene.comm);
-        if (never_acts<dim>(
-              stretch,
-              [](const double gamma) { return gamma != 1.; },
-              AskedAt::all_moments,
-              scene))
-          review.warn(
-            stretch.key(),
-            stretch.text(),
-            "it is 1 at all founders in all steps: no cell contracts.",
-            "Correct it, or remove it.");
         // A change by 0.1 deforms like growth by the factor 1.1, the step that
         // is enough beside a clamp. The slack admits rounding in the
         // differences.

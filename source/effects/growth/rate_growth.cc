@@ -413,10 +413,6 @@ namespace Morula
   {
     if (is_known_before())
       GrowthLaw<dim>::review(scene, review);
-    std::vector<const Expression *> rates = {&rate};
-    if (homeostasis)
-      rates.push_back(&*homeostasis);
-    review_growth(rates, 0., scene, review);
   }
 
 

@@ -180,14 +180,6 @@ namespace Morula
         founder.vector(drive, 0.);
       }
       void
-      review(const Preview<dim> &scene, Review &review) const override
-      {
-        review_rate(diffusion,
-                    "no cell changes its place by it.",
-                    scene,
-                    review);
-      }
-      void
       settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
       {
         std::vector<Occupant> cells;

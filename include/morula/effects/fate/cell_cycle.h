@@ -286,11 +286,19 @@ namespace Morula
     void
     check(const std::vector<Point<dim>> &founders, const double step) const
     {
-      double shortest = std::numeric_limits<double>::infinity();
+      check_step(shortest(founders), step);
+    }
+
+    /** The smallest T of those of these founders that proliferate, as far as
+     *  place tells it, day; infinity: it tells none. @throws InputError */
+    double
+    shortest(const std::vector<Point<dim>> &founders) const
+    {
+      double T = std::numeric_limits<double>::infinity();
       for (const Point<dim> &X : founders)
         if (where.value(X, 0.) > 0.)
-          shortest = std::min(shortest, checked_duration(X, false));
-      check_step(shortest, step);
+          T = std::min(T, checked_duration(X, false));
+      return T;
     }
 
     /**

@@ -82,7 +82,6 @@ namespace Morula
     void
     review(const Preview<dim> &scene, Review &review) const override
     {
-      Fate<dim>::review(scene, review);
       if (this->axes)
         this->axes->review(scene, review);
     }

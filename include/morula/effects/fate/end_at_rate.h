@@ -59,8 +59,7 @@ namespace Morula
               const Threshold           threshold,
               const std::string        &name,
               const std::string        &meaning,
-              const bool                in_tables,
-              const std::string        &nobody)
+              const bool                in_tables)
     {
       // The rate is announced first, as it decides which columns the state
       // has. A rate that does not follow the state misses nothing.
@@ -91,8 +90,7 @@ namespace Morula
               seed = setting.random_seed](const PresentCell<dim> &cell,
                                           const CellView<dim, const double> &) {
                return threshold(seed, cell.lineage_key());
-             },
-             nobody});
+             }});
         }
       time = add(name + "_time", "day", meaning, never, reset, in_tables);
     }

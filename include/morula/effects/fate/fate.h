@@ -82,9 +82,6 @@ namespace Morula
     std::function<double(const PresentCell<dim> &,
                          const CellView<dim, const double> &)>
       threshold = {};
-    /** What no cell does by a rate that is 0 everywhere, a sentence; empty: no
-     *  warning. */
-    std::string nobody = {};
     /** Whether the integral of a cell runs; null: always. */
     std::function<bool(const CellView<dim, const double> &)> runs = {};
 
@@ -214,9 +211,6 @@ namespace Morula
     void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override;
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override;
 
   protected:
     /** Which of its hazards brings the event of next(). */

@@ -249,8 +249,6 @@ namespace Morula
     /** What only some cycles need; see CycleState and ElasticSize. */
     Column<double> duration, hazard, exit_rate, J_e_before;
     std::uint64_t  random_seed;
-    /** The keys, in a scene. */
-    std::optional<Parameters> parameters;
   };
 } // namespace Morula
 

@@ -55,13 +55,6 @@ namespace Morula
            const double            t0,
            const double            t1) const override;
 
-    void
-    review(const Preview<dim> &scene, Review &review) const override
-    {
-      GrowthLaw<dim>::review(scene, review);
-      review_growth({&theta}, 1., scene, review);
-    }
-
   private:
     Expression theta;
   };

@@ -345,6 +345,10 @@ namespace Morula
     for (const auto &fate : development.fates.list)
       if (fate.get() != development.types)
         list.push_back(fate.get());
+    if (const Divides<dim> *const divides = development.fates.dividing;
+        divides != nullptr && divides->axes)
+      for (const auto &rule : divides->axes->rules)
+        list.push_back(rule.get());
     if (development.law)
       list.push_back(development.law.get());
     for (const auto &factor : development.factors)

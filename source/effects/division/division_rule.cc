@@ -29,12 +29,12 @@ namespace Morula
     const std::uint64_t                           seed,
     Rules                                         rules,
     const std::vector<const DivisionRule<dim> *> &of_type)
-    : follow_rotation(keys.axis_follows_rotation)
+    : rules(std::move(rules))
+    , follow_rotation(keys.axis_follows_rotation)
     , stay_inside(keys.stay_inside)
     , spread(state.use(keys.axis_spread))
     , least_anisotropy(state.use(keys.least_anisotropy))
     , seed(seed)
-    , rules(std::move(rules))
     , of_type(of_type)
   {}
 

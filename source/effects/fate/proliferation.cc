@@ -99,8 +99,6 @@ namespace Morula
   void
   Proliferation<dim>::check(const Preview<dim> &scene) const
   {
-    if (this->axes)
-      this->axes->check(scene);
     cycle_.check(scene.founders, scene.keys.time.step);
   }
 
@@ -109,11 +107,9 @@ namespace Morula
   void
   Proliferation<dim>::review(const Preview<dim> &scene, Review &review) const
   {
-    // Rules come first. Then the shortest cycle of all founders that
-    // proliferate is compared with the step. A duration that depends on the
-    // state or the time is left to the run.
-    if (this->axes)
-      this->axes->review(scene, review);
+    // The shortest cycle of all founders that proliferate is compared with the
+    // step. A duration that depends on the state or the time is left to the
+    // run.
     const double shortest =
       Utilities::MPI::min(cycle_.shortest(scene.founders), scene.comm);
     if (scene.keys.time.step > (0.25 + 1e-9) * shortest)

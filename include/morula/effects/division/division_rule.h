@@ -192,21 +192,6 @@ namespace Morula
       return rules.empty() ? nullptr : rules.front().get();
     }
 
-    /** Refuses what the rules cannot do at the founders. @throws InputError */
-    void
-    check(const Preview<dim> &scene) const
-    {
-      for (const auto &rule : rules)
-        rule->check(scene);
-    }
-
-    void
-    review(const Preview<dim> &scene, Review &review) const
-    {
-      for (const auto &rule : rules)
-        rule->review(scene, review);
-    }
-
     /** Evaluates the expressions and the rule of a founder in its state. */
     void
     check_cell(const PresentCell<dim> &founder, const double step) const
@@ -252,6 +237,7 @@ namespace Morula
       return now / now.norm();
     }
 
+    const Rules rules;
     /** Whether an axis of the reference configuration is placed along F_e n_s,
      *  not n_s. */
     const bool follow_rotation;
@@ -263,7 +249,6 @@ namespace Morula
     Expression                             spread; // κ of (6.3d); 0: none
     Expression                             least_anisotropy;
     std::uint64_t                          seed;
-    Rules                                  rules;
     std::vector<const DivisionRule<dim> *> of_type;
   };
 } // namespace Morula

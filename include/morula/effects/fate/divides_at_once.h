@@ -63,13 +63,6 @@ namespace Morula
     }
 
     void
-    check(const Preview<dim> &scene) const override
-    {
-      if (this->axes)
-        this->axes->check(scene);
-    }
-
-    void
     check_cell(const PresentCell<dim> &founder,
                const double            step) const override
     {
@@ -77,13 +70,6 @@ namespace Morula
       if (this->axes)
         if (const auto *const rule = this->axes->rule(founder.type()))
           rule->check_cell(founder, step);
-    }
-
-    void
-    review(const Preview<dim> &scene, Review &review) const override
-    {
-      if (this->axes)
-        this->axes->review(scene, review);
     }
 
   protected:

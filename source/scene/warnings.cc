@@ -272,7 +272,6 @@ namespace Morula
     for (const auto &[name, equation] : model.equations)
       equation->review(at, review);
     review_idle_keys(scene, review);
-    review_types(scene.cell_types, at, !founders.types.empty(), review);
     scene.material.review(review);
     for (const auto &[name, condition] : conditions.list())
       condition->review(at, review);

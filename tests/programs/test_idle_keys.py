@@ -71,11 +71,3 @@ def test_key_twice(runs):
     said = runs.explain(scene, {key: BOX[key] for key in BOX if key != "Grid/Spacing"})
     assert re.search("twice.prm:3: the key 'Grid/Spacing' is set to '40', which counts; "
                      ".*twice.prm:1: it was set to '30'", said)
-
-
-@pytest.mark.parametrize("where, is_said", [("X < -20", True), ("X <= 20", False), ("1", False)])
-def test_founders_that_no_type_wants(runs, where, is_said):
-    """The first type is that of all others, whatever its Where says."""
-    said = runs.explain(TYPES, {"Cell types/b/Where": "X > 20", "Cell types/a/Where": where})
-    assert ("it does not hold at 40 founders" in said) == is_said
-    assert ("they are of this type all the same" in said) == is_said

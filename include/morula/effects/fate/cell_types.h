@@ -129,16 +129,6 @@ namespace Morula
     list() override;
   };
 
-  /** Warns of types that no cell has and none can get, of daughters where no
-   *  cell divides, and of a first type that takes what no other one does.
-   *  Collective. @param of_file whether a file says the founders' types */
-  template <int dim>
-  void
-  review_types(const CellTypesParameters &parameters,
-               const Preview<dim>        &scene,
-               const bool                 of_file,
-               Review                    &review);
-
   /** The fate by which cells change their types. The scene must have at least
    *  one. @throws InputError */
   template <int dim>

@@ -68,7 +68,7 @@ namespace Morula
     check_with(const Scene &scene, const EffectKeys &keys)
     {
       // Warnings come later, when the scene has passed all checks.
-      Review none{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+      Review none;
       keys.check(scene, none);
     }
 
@@ -350,10 +350,10 @@ namespace Morula
     /** The value of a key that is to be warned of, if it does nothing: the
      *  scene's for all cells, and those of types. */
     std::vector<const AnyKey *>
-    given(const Scene &scene, const AnyKey &key, const Review &review)
+    given(const Scene &scene, const AnyKey &key)
     {
       std::vector<const AnyKey *> list;
-      if (review.is_given(key))
+      if (scene.has_set(key) && !key.is_default())
         list.push_back(&key);
       for (const ExpressionKey *own : scene.cell_types.own_values_of(key))
         list.push_back(own);
@@ -380,7 +380,7 @@ namespace Morula
                 is_met || (other != keys.end() && other->second->is_changed());
               missing += (missing.empty() ? "" : " and ") + path;
             }
-          const auto values = given(scene, *key, review);
+          const auto values = given(scene, *key);
           if (is_met || values.empty())
             continue;
           review.warn(values.front()->path(),

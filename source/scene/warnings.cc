@@ -244,7 +244,7 @@ namespace Morula
     // them, with the same list of effects.
     const Scene                   &scene      = model.scene;
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    Review review{[&scene](const AnyKey &key) { return scene.has_set(key); }};
+    Review                         review;
     for (const std::string &text : scene.renamed)
       review.warnings.push_back("Warning: " + text + '.');
     review_units(scene.tissue, founders, surface, comm, review);
@@ -259,12 +259,6 @@ namespace Morula
     const double V =
       std::accumulate(founders.volumes.begin(), founders.volumes.end(), 0.);
     at.mean_volume = Utilities::MPI::sum(V, comm) / founders.n_global;
-    at.largest_volume =
-      Utilities::MPI::max(founders.volumes.empty() ?
-                            0. :
-                            *std::max_element(founders.volumes.begin(),
-                                              founders.volumes.end()),
-                          comm);
     for (const Effect<dim> *const effect : model.all_effects)
       effect->review(at, review);
     for (const EffectKeys *const keys : scene.keys_in_use())
@@ -276,8 +270,7 @@ namespace Morula
     for (const auto &[name, condition] : conditions.list())
       condition->review(at, review);
     if (conditions.has_dirichlet())
-      scene.nitsche.review(scene.material,
-                           counts.points > 0 && counts.fixed == counts.points,
+      scene.nitsche.review(counts.points > 0 && counts.fixed == counts.points,
                            review);
     return review.warnings;
   }

@@ -139,7 +139,6 @@ def test_points_in_metres(runs, scale):
 
 NOWHERE = "it acts nowhere: at all 10"
 ALONE = "it does nothing without "
-EMPTY = "it is 0 everywhere"
 
 
 @pytest.mark.parametrize("keys, word", [
@@ -151,11 +150,6 @@ EMPTY = "it is 0 everywhere"
     ({**BOX, "Boundary conditions/Surface tension where": "X > 0"}, ALONE),
     ({**BOX, "Contact/Friction": 0.1}, ALONE),
     ({**BOX, "Boundary conditions/Nitsche penalty": 50}, ALONE),
-    ({**RATE, "Growth/Rate/Rate": 0.1, "Division by size/Volume": 50}, "divide at once"),
-    (field(Diffusion=100, Consumption=1, Initial=5), EMPTY),
-    (field(Diffusion=100, Consumption=1, Transfer=0, Value=1), EMPTY),
-    (field(Diffusion=1e4, Consumption=1, Fixed_where=1, Value=1, Transfer=5),
-     "Fixed where holds at all"),
     (field(Diffusion=1e4, Consumption=1, Value=1, Fixed_where="X + Y > 90"), "by a whole patch"),
     (field(Diffusion=100, Consumption=1e4, Value=1, Fixed_where=1),
      "the field reaches only 0.1 um"),

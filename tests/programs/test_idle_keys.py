@@ -23,7 +23,6 @@ IDLE = (
     ("Tension/Force", "false", TYPES),
     ("Tension/Force", "false", {**TYPES, "Cell types/a/Tension/With b": 1}),
     ("Solver/Largest gap", 0.1, BOX),
-    ("Fields/u/Dilution", "false", FIELD),
     ("Cell types/b/Material/Yield stress", 0.3, TYPES),
     ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE))
 

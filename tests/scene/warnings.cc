@@ -182,24 +182,6 @@ TEST(SceneWarnings, OfTheMaterial)
 }
 
 
-TEST(SceneWarnings, OfAPenaltyBelowTheFloor)
-{
-  // 20 (1 - nu) / ((1 + nu) (1 - 2 nu)) = 42.857 at nu = 0.4
-  Scene scene                      = good_scene();
-  scene.material.volumetric_strain = "pointwise";
-  scene.nitsche.form               = "symmetric";
-  scene.nitsche.penalty            = 42.;
-  EXPECT_TRUE(warnings_of<3>(scene).empty()); // the default's value: not chosen
-  scene.as_written["Boundary conditions/Nitsche penalty"] = "42";
-  expect_warning(scene, "42.8571 E/h");
-  scene.nitsche.penalty = 43.;
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-  scene.nitsche.penalty = 20.;
-  scene.nitsche.form    = "unsymmetric";
-  EXPECT_TRUE(warnings_of<3>(scene).empty());
-}
-
-
 TEST(SceneWarnings, OfAClampAllAroundThatGivesWay)
 {
   Scene scene           = good_scene();

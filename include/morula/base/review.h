@@ -6,7 +6,6 @@
 
 #include <morula/base/key.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,9 +14,6 @@ namespace Morula
   /** What is legal in a scene but unwise, the same on all ranks. */
   struct Review
   {
-    /** Whether the scene itself has set a key. */
-    std::function<bool(const AnyKey &)> has_set;
-
     /** A line each. */
     std::vector<std::string> warnings = {};
 
@@ -37,28 +33,6 @@ namespace Morula
     {
       warnings.push_back("Warning: " + key + " = '" + value + "': " + why +
                          ' ' + remedy);
-    }
-
-    /** Whether the scene itself gives the key a value that is not the default.
-     */
-    bool
-    is_given(const AnyKey &key) const
-    {
-      return has_set(key) && !key.is_default();
-    }
-
-    /** Warns of a key that does nothing, if is_given().
-     *  @param why half a sentence */
-    void
-    warn_of_idle(const AnyKey      &key,
-                 const std::string &why,
-                 const std::string &remedy)
-    {
-      if (is_given(key))
-        warn(key.path(),
-             key.text(),
-             "it does nothing here: " + why + '.',
-             remedy);
     }
   };
 } // namespace Morula

@@ -207,8 +207,8 @@ namespace Morula
     /** Whether some boundary points are fixed. */
     bool     is_clamped;
     MPI_Comm comm;
-    /** Initial volumes of the founders of all ranks, µm^dim. */
-    double mean_volume = 0., largest_volume = 0.;
+    /** Mean initial volume of the founders of all ranks, µm^dim. */
+    double mean_volume = 0.;
     /** Initial volumes of this rank's founders, µm^dim. */
     std::vector<double> volumes = {};
     /** Their types by number; empty without types. */

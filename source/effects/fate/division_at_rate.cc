@@ -37,18 +37,6 @@ namespace Morula
         return facts;
       }
 
-      void
-      check(const SceneKeys &scene, Review &review) const override
-      {
-        if (is_on() && !scene.has_growth())
-          review.warn(rate.path(),
-                      rate.text(),
-                      "no cell grows, so that each division halves cells for "
-                      "good.",
-                      "Set Growth/Law, unless the tissue is an embryo that "
-                      "cleaves.");
-      }
-
       std::string
       details() const override
       {

@@ -220,26 +220,6 @@ namespace Morula
         DividesAtOnce<dim>::check_cell(founder, step);
       }
 
-      void
-      review(const Preview<dim> &scene, Review &review) const override
-      {
-        // Where types have numbers of their own the largest counts: some
-        // founders may then be too large, but not all of them.
-        DividesAtOnce<dim>::review(scene, review);
-        double mean = volume.number().value_or(0.);
-        for (const auto &[type, own] : volume.types())
-          mean = std::max(mean, own.number().value_or(0.));
-        if (mean > 0. && mean <= (1. + 1e-9) * scene.largest_volume)
-          review.warn(
-            volume.key(),
-            volume.text(),
-            "founders have up to " + as_text(scene.largest_volume) +
-              (dim == 3 ? " um^3" : " um^2") +
-              " and divide at once, until they are smaller.",
-            "Choose a volume above that of the founders, such as twice "
-            "as much.");
-      }
-
     private:
       /** The grown volume at which a cell divides, µm^dim; infinity: it does
        * not divide. @throws InputError */

@@ -200,7 +200,7 @@ namespace Morula
      *  a flux at. */
     struct PointsOfField
     {
-      double all = 0., fixed = 0., flux = 0.;
+      double fixed = 0., flux = 0.;
     };
 
     template <int dim>
@@ -214,59 +214,19 @@ namespace Morula
       for (const Point<dim> &X : scene.boundary_points)
         {
           const bool fixed = holds(field.fixed_where, X);
-          points.all += 1.;
           points.fixed += fixed;
           points.flux += !fixed && holds(field.flux_where, X);
         }
-      return {Utilities::MPI::sum(points.all, scene.comm),
-              Utilities::MPI::sum(points.fixed, scene.comm),
+      return {Utilities::MPI::sum(points.fixed, scene.comm),
               Utilities::MPI::sum(points.flux, scene.comm)};
     }
 
-    bool
-    is_zero(const ExpressionKey &key, const unsigned int dim)
-    {
-      return key.empty() ||
-             (!key.differs_by_type() && key.expression(dim).is_always(0.));
-    }
-
-    /** Fields that nothing makes, and keys that nothing reads. */
-    template <int dim>
+    /** Few points carry a value or a flux: what they cover jumps by patches. */
     void
-    review_sources(const FieldKeys     &field,
-                   const PointsOfField &points,
-                   Review              &review)
+    review_places(const FieldKeys     &field,
+                  const PointsOfField &points,
+                  Review              &review)
     {
-      const bool steady = field.is_steady();
-      if (steady)
-        review.warn_of_idle(field.dilution,
-                            "a steady field is not diluted",
-                            "Set " + field.time.path() +
-                              " = transient, or remove this key.");
-      const bool reads_value = points.fixed > 0. || !field.transfer.empty();
-      if (is_zero(field.production, dim) &&
-          (!reads_value || is_zero(field.value, dim) ||
-           (points.fixed == 0. && is_zero(field.transfer, dim))) &&
-          (points.flux == 0. || is_zero(field.flux, dim)) &&
-          (steady || is_zero(field.initial, dim)))
-        review.warn("Fields/" + field.name,
-                    steady ? "steady" : "transient",
-                    "it is 0 everywhere: no cell makes it, and nothing comes "
-                    "in through the surface" +
-                      std::string(steady && !is_zero(field.initial, dim) ?
-                                    "; Initial is only where the steady "
-                                    "state is sought first." :
-                                    "."),
-                    "Set its Production, or its Value at the surface, or its "
-                    "Flux.");
-      if (points.all > 0. && points.fixed == points.all &&
-          !field.transfer.empty())
-        review.warn(field.transfer.path(),
-                    field.transfer.text(),
-                    "it does nothing, as Fixed where holds at all boundary "
-                    "points.",
-                    "Remove one of them.");
-      // Few points carry a value or a flux: what they cover jumps by patches.
       for (const auto &[key, number] :
            {std::make_pair(&field.fixed_where, points.fixed),
             std::make_pair(&field.flux_where, points.flux)})
@@ -359,7 +319,7 @@ namespace Morula
     for (const FieldKeys &field : parameters.fields)
       {
         const PointsOfField points = points_of(field, scene);
-        review_sources<dim>(field, points, review);
+        review_places(field, points, review);
         review_reach(field, points, scene, review);
       }
   }

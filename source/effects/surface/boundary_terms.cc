@@ -376,25 +376,8 @@ namespace Morula
 
 
   void
-  NitscheParameters::review(const MaterialParameters &material,
-                            const bool                all_is_fixed,
-                            Review                   &review) const
+  NitscheParameters::review(const bool all_is_fixed, Review &review) const
   {
-    // The warnings concern values that do nothing, or that hold tissue too
-    // softly.
-    const Lame unit =
-      lame(1., material.poissons_ratio.largest_number(3).value_or(0.));
-    const double least = least_penalty * (unit.lambda + 2. * unit.mu);
-    if (material.volumetric_form() == VolumetricStrain::pointwise &&
-        form == "symmetric" && review.has_set(penalty) && penalty < least)
-      review.warn(penalty.path(),
-                  as_text(penalty) + " E/h",
-                  "the symmetric form never uses less than " +
-                    as_text(least_penalty) + " (lambda + 2 mu)/h, here " +
-                    as_text(least) +
-                    " E/h, so that this value has no effect "
-                    "(doc/theory.md, section 4.2).",
-                  "Raise it, or set " + form.path() + " = unsymmetric.");
     // A small penalty gives way under pressure, as where tissue grows between
     // its clamps.
     if (all_is_fixed && form == "unsymmetric" && penalty < 100.)

@@ -214,12 +214,10 @@ namespace Morula
               "Boundary conditions/Slip where"};
     }
 
-    /** Warns of penalties that have no effect, or that are too low if
-     *  @p all_is_fixed (all of the surface). For scenes that hold points. */
+    /** Warns of penalties that are too low if @p all_is_fixed (all of the
+     *  surface). For scenes that hold points. */
     void
-    review(const MaterialParameters &material,
-           const bool                all_is_fixed,
-           Review                   &review) const;
+    review(const bool all_is_fixed, Review &review) const;
   };
 } // namespace Morula
 

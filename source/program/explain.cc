@@ -12,6 +12,7 @@
 
 #include <boost/algorithm/string.hpp>
 
+#include <algorithm>
 #include <iomanip>
 #include <map>
 #include <ostream>
@@ -57,13 +58,44 @@ namespace Morula
                  " founders, where " + where->text();
     }
 
+    /** ", Key = value unit" for each key of an effect. */
+    std::string
+    details_of(const EffectKeys &keys)
+    {
+      // The section that all keys have in common is left out. So are defaults
+      // that switch something off or on, unless there is nothing else.
+      const auto  list    = keys.list();
+      std::string section = list.empty() ? "" : list.front()->path();
+      bool        all     = true;
+      for (const AnyKey *const key : list)
+        {
+          const std::string &path = key->path();
+          section.erase(std::mismatch(section.begin(),
+                                      section.end(),
+                                      path.begin(),
+                                      path.end())
+                          .first,
+                        section.end());
+          all = all && key->is_default();
+        }
+      section.resize(section.rfind('/') + 1);
+      std::string text;
+      for (const AnyKey *const key : list)
+        if (const std::string value = key->text();
+            !value.empty() &&
+            (all || !key->is_default() || (value != "0" && value != "true")))
+          text += ", " + key->path().substr(section.size()) + " = " + value +
+                  (key->unit().empty() ? "" : " " + key->unit());
+      return text;
+    }
+
     /** What the chosen effect's keys say, if it is one of the catalogue. */
     template <template <int> class Interface>
     std::string
     details_of(const Choices<Interface> &choices, const std::string &chosen)
     {
       const auto *choice = find_choice(choices, chosen);
-      return choice == nullptr ? "" : choice->keys().details();
+      return choice == nullptr ? "" : details_of(choice->keys());
     }
 
     /** What a condition or force is called. */
@@ -88,7 +120,7 @@ namespace Morula
       if (!keys.list().empty() && keys.is_on())
         rows.push_back(
           {topic_of(choice),
-           boost::trim_left_copy_if(keys.details(), boost::is_any_of(",; ")) +
+           boost::trim_left_copy_if(details_of(keys), boost::is_any_of(", ")) +
              more});
     }
 
@@ -147,17 +179,13 @@ namespace Morula
         if (const types::particle_index n =
               tissue.counts.acting.at(choice.name()))
           {
-            const AnyKey *const where = choice.keys().facts().switch_key;
-            std::string         further;
+            std::string further;
             for (const auto &[name, text] : tissue.applied)
               if (name == choice.name())
                 further = "    " + text + '\n';
             out.push_back({topic_of(choice),
                            "at " + std::to_string(n) + " boundary points" +
-                             (where == nullptr || where->is_default() ?
-                                "" :
-                                ", where " + where->text()) +
-                             choice.keys().details(),
+                             details_of(choice.keys()),
                            further});
           }
       add_effects(out, catalogue.forces);

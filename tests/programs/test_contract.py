@@ -212,7 +212,7 @@ def test_information(runs):
 def test_explain_counts_founders(runs, where, said):
     """Those that proliferate, and where."""
     text = runs.explain(CUBE, {"Proliferation/Cell cycle/Where": where})
-    assert f" day, G0 exit rate 2 /day, {said}" in text
+    assert f"G0 exit rate = 2 1/day, Cell cycle/Where = {where}, {said}" in text
 
 
 def test_condition_estimate(cube):

@@ -74,8 +74,9 @@ def test_no_steady_state_in_mid_run(runs, consumption, code, word):
 
 def test_explained(runs):
     text = runs.explain(SCENE, FIELDS)
-    for words in ("fields                  oxygen, signal", "steady, diffusion 1e5 um^2/day",
-                  "100 - 40*t on the surface where Z > 59", "transfer 20*(X > 29) um/day to 0"):
+    for words in ("fields                  Names = oxygen, signal",
+                  "oxygen/Time = steady, oxygen/Diffusion = 1e5 um^2/day",
+                  "Fixed where = Z > 59", "Value = 100 - 40*t", "Transfer = 20*(X > 29) um/day"):
         assert words in text
 
 

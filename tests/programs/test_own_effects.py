@@ -140,7 +140,7 @@ def test_explained(own):
                  "Record = true, Pace = 1 + generation", "Density = 0; 1e-4*t*volume/100",
                  "Stretch = 1 + 0.04*t", "When = t > 0.7",
                  "Where = X > 40 && Y > -40, After = 0.3", "Rate = 2", "Take = true",
-                 "at 10 boundary points, where Y > 49"):
+                 "at 10 boundary points, Where = Y > 49"):
         assert line in text
 
 

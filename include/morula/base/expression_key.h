@@ -68,14 +68,6 @@ namespace Morula
                   const Evaluated     evaluated,
                   const Rule<double> &rule);
 
-    /** Names the symbol that --explain uses. */
-    ExpressionKey &
-    symbol(const std::string &symbol)
-    {
-      symbol_ = symbol;
-      return *this;
-    }
-
     /** Also accepts plain numbers separated by commas: the key was a list
      *  before it became an expression. */
     void

@@ -122,13 +122,6 @@ namespace Morula
     std::string
     unit() const;
 
-    /** What --explain calls the key: its symbol, or its name. */
-    std::string
-    short_name() const
-    {
-      return symbol_.empty() ? path_.substr(path_.rfind('/') + 1) : symbol_;
-    }
-
     /** The texts that the key gets from values of `Method`, by these values. */
     const std::map<std::string, std::string> &
     texts_by_method() const
@@ -257,7 +250,6 @@ namespace Morula
     AnyKey &
     operator=(const AnyKey &) = default;
 
-    std::string                        symbol_;
     std::map<std::string, std::string> with_method;
     std::vector<std::string>           former_paths_;
     bool                               names_file_ = false;

@@ -132,10 +132,6 @@ namespace Morula
     virtual void
     check(const SceneKeys &, Review &) const
     {}
-
-    /** What --explain says of its values: ", Key = value" for each. */
-    virtual std::string
-    details() const;
   };
 
   template <int dim>

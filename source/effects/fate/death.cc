@@ -101,14 +101,6 @@ namespace Morula
             "may also go at once: " +
               shrinking_time.path() + " = 0.");
       }
-
-      std::string
-      details() const override
-      {
-        return "rate = " + rate.text() + " /day" +
-               (when.is_default() ? "" : ", when " + when.text()) +
-               ", shrinking time = " + shrinking_time.text() + " day";
-      }
     };
 
     /**

@@ -36,12 +36,6 @@ namespace Morula
         facts.divides_cells = true;
         return facts;
       }
-
-      std::string
-      details() const override
-      {
-        return "rate = " + rate.text() + " /day";
-      }
     };
 
 

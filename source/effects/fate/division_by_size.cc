@@ -63,13 +63,6 @@ namespace Morula
           volume.refuse("its default, as no cell grows",
                         "Set Growth/Law, or remove this key.");
       }
-
-      std::string
-      details() const override
-      {
-        return "volume = " + volume.text() +
-               " um^3 (2-D: um^2), noise = " + noise.text();
-      }
     };
 
     /** A cell that is due for more generations at once has a volume that is a

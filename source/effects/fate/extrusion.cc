@@ -39,12 +39,6 @@ namespace Morula
       {
         return true;
       }
-
-      std::string
-      details() const override
-      {
-        return "rate = " + rate.text() + " /day";
-      }
     };
 
     /**

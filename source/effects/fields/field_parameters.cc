@@ -12,9 +12,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 namespace Morula
 {
@@ -83,25 +81,6 @@ namespace Morula
   }
 
 
-  std::string
-  FieldKeys::details() const
-  {
-    const auto at = [](const ExpressionKey &where) {
-      return where.text() == "1" ? std::string(" on the whole surface") :
-                                   " on the surface where " + where.text();
-    };
-    std::string text = time + ", diffusion " + diffusion.text() +
-                       " um^2/day, production " + production.text() +
-                       " /day, consumption " + consumption.text() + " /day";
-    if (!fixed_where.empty())
-      text += ", " + value.text() + at(fixed_where);
-    if (!transfer.empty())
-      text += ", transfer " + transfer.text() + " um/day to " + value.text();
-    if (!flux_where.empty())
-      text += ", flux " + flux.text() + " um/day in" + at(flux_where);
-    return text;
-  }
-
   EffectFacts
   FieldsParameters::facts() const
   {
@@ -130,18 +109,6 @@ namespace Morula
                      scene.tissue.points_surface.path() + " = none",
                    "Remove their Fixed where, Transfer and Flux where, or set "
                    "Points surface = automatic.");
-  }
-
-
-  std::string
-  FieldsParameters::details() const
-  {
-    std::ostringstream out;
-    out << names.value();
-    for (const FieldKeys &field : fields)
-      out << "\n    " << std::left << std::setw(22) << field.name
-          << field.details();
-    return out.str();
   }
 
 

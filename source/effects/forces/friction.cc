@@ -44,11 +44,6 @@ namespace Morula
         // scene's at its default.
         return coefficient.is_changed();
       }
-      std::string
-      details() const override
-      {
-        return "coefficient " + coefficient.text() + " kPa day/um^2";
-      }
     };
 
     /** Friction of cells with surroundings that stand still: doc/theory.md

@@ -13,12 +13,6 @@
 
 namespace Morula
 {
-  ContractionParameters::ContractionParameters()
-  {
-    stretch.symbol("gamma");
-  }
-
-
   template <int dim>
   Tensor<2, dim>
   active_strain(const Tensor<1, dim> &a,

@@ -9,12 +9,6 @@
 
 namespace Morula
 {
-  IsotropicGrowthParameters::IsotropicGrowthParameters()
-  {
-    stretch.symbol("theta");
-  }
-
-
   template <int dim>
   IsotropicGrowth<dim>::IsotropicGrowth(
     const IsotropicGrowthParameters &parameters)

@@ -75,7 +75,6 @@ namespace Morula
     // The rate itself may be negative, as cells may wither; a negative
     // coefficient of homeostasis would drive the stress away from its target
     // and is refused. Expressions are evaluated once in each step.
-    rate.symbol("k");
     homeostatic_stress.needs({homeostasis.path()});
     share_along.needs({direction.path()});
     direction.needs({share_along.path()});

@@ -34,15 +34,6 @@ namespace Morula
       {
         return !obstacles.empty();
       }
-      std::string
-      details() const override
-      {
-        std::string text;
-        for (const ObstacleKeys &obstacle : obstacles)
-          text += "; " + obstacle.name + ": " + obstacle.shape.value() +
-                  ", tissue " + obstacle.side.value();
-        return text;
-      }
       EffectFacts
       facts() const override
       {

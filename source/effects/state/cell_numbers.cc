@@ -135,18 +135,6 @@ namespace Morula
           }
       }
 
-      std::string
-      details() const override
-      {
-        std::string text = names;
-        for (const CellNumberKeys &keys : numbers)
-          text += "\n    " + keys.name + ": initial " + keys.initial.text() +
-                  ", rate " + keys.rate.text() + " /day, " +
-                  keys.at_division.value() + " at division" +
-                  (keys.clamp->empty() ? "" : ", within " + keys.clamp.text());
-        return text;
-      }
-
       using Keys::list;
       KeyList
       list() override

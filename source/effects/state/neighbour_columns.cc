@@ -126,17 +126,6 @@ namespace Morula
   }
 
 
-  std::string
-  NeighbourParameters::details() const
-  {
-    std::string names;
-    for (const NeighbourVariable &told : variables)
-      names += (names.empty() ? "" : ", ") + told.name;
-    return names + ", found by " + found_by.value() + ", reach " +
-           as_text(search().reach);
-  }
-
-
   void
   NeighbourParameters::see(const SceneKeys                    &scene,
                            const std::vector<ExpressionKey *> &keys)

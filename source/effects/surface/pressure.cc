@@ -23,11 +23,6 @@ namespace Morula
                              "Pressure that follows the surface, a function of "
                              "X, Y, Z, t; positive pushes inward. Units: kPa.",
                              Evaluated::place};
-      std::string
-      details() const override
-      {
-        return "; " + pressure.text() + " kPa";
-      }
     };
 
     /** Pressure that follows the surface: doc/theory.md (4.8). */

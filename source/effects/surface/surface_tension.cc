@@ -47,11 +47,6 @@ namespace Morula
             "its default, as types of cells have tensions with the surface",
             "Remove this key, or each type's Tension/With surface.");
       }
-      std::string
-      details() const override
-      {
-        return "; " + tension.text() + " kPa um";
-      }
     };
 
     /** Tension of the surface, which squeezes a ball by Laplace's pressure:

@@ -34,12 +34,6 @@ namespace Morula
             "A traction is a force per area of t = 0, which a surface that is "
             "made anew does not know.");
       }
-
-      std::string
-      details() const override
-      {
-        return "; " + traction.text() + " kPa";
-      }
     };
 
     /** Dead traction: doc/theory.md (4.7). */

@@ -13,8 +13,10 @@ namespace
   {
     ObstacleKeys keys("wall");
     for (AnyKey *key : keys.list())
-      if (values.count(key->short_name()) > 0)
-        key->assign(values.at(key->short_name()));
+      if (const auto value =
+            values.find(key->path().substr(key->path().rfind('/') + 1));
+          value != values.end())
+        key->assign(value->second);
     return keys;
   }
 

@@ -102,16 +102,6 @@ namespace Morula
     see(const SceneKeys                    &scene,
         const std::vector<ExpressionKey *> &of_cells) override;
 
-    std::string
-    details() const override
-    {
-      return "cell cycle, duration T = " + duration.text() +
-             " day, G0 exit rate " + exit_rate.text() + " /day" +
-             (size_checkpoint.is_default() ?
-                "" :
-                ", size checkpoint J_th = " + size_checkpoint.text());
-    }
-
   private:
     bool is_law_of_types = false; // of some
   };

@@ -140,10 +140,6 @@ namespace Morula
       return has_value() || !flux_where.empty();
     }
 
-    /** What --explain says of it. */
-    std::string
-    details() const;
-
     /**
      * Refuses what contradicts itself.
      * @throws InputError
@@ -172,8 +168,6 @@ namespace Morula
     check(const SceneKeys &scene, Review &review) const override;
     EffectFacts
     facts() const override;
-    std::string
-    details() const override;
     /** Refuses names that expressions or tables cannot have, or that are given
      *  twice, as well. */
     void

@@ -25,11 +25,6 @@ namespace Morula
     {
       return force_density.is_changed();
     }
-    std::string
-    details() const override
-    {
-      return force_density.text() + " kPa/um";
-    }
   };
 } // namespace Morula
 

@@ -88,17 +88,6 @@ namespace Morula
       facts.topic = "tension between types";
       return facts;
     }
-    std::string
-    details() const override
-    {
-      std::string text;
-      for (unsigned int a = 0; a < types.size(); ++a)
-        for (unsigned int b = 0; b < types.size(); ++b)
-          if (a != b && !key(a, b).is_default())
-            text += (text.empty() ? "" : ", ") + types[a] + " with " +
-                    types[b] + " " + key(a, b).text() + " kPa um";
-      return text + "; domains count from 2 h on";
-    }
     void
     declare_sections(const std::string &,
                      const std::vector<std::string> &names) override
@@ -155,14 +144,6 @@ namespace Morula
       EffectFacts facts;
       facts.topic = "surfaces of types";
       return facts;
-    }
-    std::string
-    details() const override
-    {
-      std::string text;
-      for (unsigned int a = 0; a < tensions.size(); ++a)
-        text += "; " + types[a] + " " + tensions[a].text() + " kPa um";
-      return text;
     }
     void
     declare_sections(const std::string &,

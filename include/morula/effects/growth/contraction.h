@@ -16,8 +16,6 @@ namespace Morula
   /** Section "Contraction". */
   struct ContractionParameters : public EffectKeys
   {
-    ContractionParameters();
-
     ExpressionKey stretch{
       {this, "Contraction/Stretch"},
       "1",
@@ -55,13 +53,6 @@ namespace Morula
     facts() const override
     {
       return {&stretch};
-    }
-
-    std::string
-    details() const override
-    {
-      return "gamma = " + stretch.text() + ", along " + direction.text() +
-             (keep_volume ? ", keeps volume" : "");
     }
   };
 

@@ -12,8 +12,6 @@ namespace Morula
   /** Section "Growth/Isotropic". */
   struct IsotropicGrowthParameters : public EffectKeys
   {
-    IsotropicGrowthParameters();
-
     ExpressionKey stretch{
       {this, "Growth/Isotropic/Stretch"},
       "1",

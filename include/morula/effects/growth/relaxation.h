@@ -51,15 +51,6 @@ namespace Morula
       // fluid.
       return !time.expression(3).is_always(0.);
     }
-
-    std::string
-    details() const override
-    {
-      return "viscoelastic, tau = " + time.text() + " day" +
-             (yield_stress.is_default() ?
-                "" :
-                ", yield stress = " + yield_stress.text() + " kPa");
-    }
   };
 
   /** What cells whose stiffness changes give up of their elastic strain,

@@ -150,9 +150,6 @@ namespace Morula
                            return told.kind != NeighbourVariable::slope;
                          });
     }
-
-    std::string
-    details() const override;
     /**
      * Looks for names of such variables in the texts of keys, and lets the keys
      * use them besides the fields.

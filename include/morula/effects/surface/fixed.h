@@ -31,11 +31,6 @@ namespace Morula
       facts.topic       = "fixed points (Nitsche)";
       return facts;
     }
-    std::string
-    details() const override
-    {
-      return "; displacement " + displacement.text() + " um";
-    }
   };
 } // namespace Morula
 

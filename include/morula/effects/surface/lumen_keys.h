@@ -62,17 +62,6 @@ namespace Morula
       return {&volume, &pressure, &secretion};
     }
 
-    std::string
-    details() const
-    {
-      return "; " + (name.empty() ? "" : name + ": ") +
-             (!secretion.empty() ?
-                "secretion " + secretion.text() + " um/day" :
-              volume.empty() ?
-                "gas, " + pressure.text() + " kPa at the volume of t = 0" :
-                "volume " + volume.text() + " times that at t = 0");
-    }
-
   private:
     std::string
     path(std::string key) const
@@ -113,14 +102,6 @@ namespace Morula
     is_on() const override
     {
       return !all().empty();
-    }
-    std::string
-    details() const override
-    {
-      std::string text;
-      for (const LumenKeys *const lumen : all())
-        text += lumen->details();
-      return text;
     }
     EffectFacts
     facts() const override

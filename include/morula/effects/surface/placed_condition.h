@@ -39,11 +39,6 @@ namespace Morula
     {
       return {&where};
     }
-    std::string
-    details() const override
-    {
-      return "";
-    }
   };
 
   /** A condition that acts where an expression of the place is positive. */

@@ -12,13 +12,41 @@
 #include <boost/math/special_functions/erf.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace Morula::Random
 {
   using namespace dealii;
+
+  std::array<std::uint64_t, 2>
+  bits(const std::uint64_t key, const std::uint64_t a, const std::uint64_t b)
+  {
+    // A generator by counters has no state: the same numbers come from the
+    // same arguments, on any rank, in any order and after a restart.
+    const auto low = [](const std::uint64_t x) {
+      return static_cast<std::uint32_t>(x);
+    };
+    const auto high = [](const std::uint64_t x) {
+      return static_cast<std::uint32_t>(x >> 32);
+    };
+    const auto join = [](const std::uint32_t low, const std::uint32_t high) {
+      return low | (static_cast<std::uint64_t>(high) << 32);
+    };
+
+    const r123::Philox4x32::ctr_type counter = {
+      {low(a), high(a), low(b), high(b)}};
+    const auto words = r123::Philox4x32()(counter, {{low(key), high(key)}});
+    return {{join(words[0], words[1]), join(words[2], words[3])}};
+  }
+
+
+  double
+  uniform(const std::uint64_t random_bits)
+  {
+    return std::ldexp(static_cast<double>((random_bits >> 11) + 1), -53);
+  }
+
 
   namespace
   {
@@ -48,47 +76,21 @@ namespace Morula::Random
       founder
     };
 
-    /**
-     * 128 random bits. Philox key: the two halves of the seed; counter: the two
-     * halves of @p number, @p draw, @p domain.
-     */
     std::array<std::uint64_t, 2>
     bits(const std::uint64_t seed,
          const std::uint64_t number,
          const std::uint32_t draw,
          const Domain        domain)
     {
-      // A generator by counters has no state: the same numbers come from the
-      // same arguments, on any rank, in any order and after a restart.
-      const auto low = [](const std::uint64_t x) {
-        return static_cast<std::uint32_t>(x);
-      };
-      const auto high = [](const std::uint64_t x) {
-        return static_cast<std::uint32_t>(x >> 32);
-      };
-      const auto join = [](const std::uint32_t low, const std::uint32_t high) {
-        return low | (static_cast<std::uint64_t>(high) << 32);
-      };
-
-      r123::Philox4x32::ctr_type counter = {
-        {low(number), high(number), draw, static_cast<std::uint32_t>(domain)}};
-      r123::Philox4x32::key_type key = {{low(seed), high(seed)}};
-
-      const auto words = r123::Philox4x32()(counter, key);
-      return {{join(words[0], words[1]), join(words[2], words[3])}};
+      return Random::bits(seed,
+                          number,
+                          draw | static_cast<std::uint64_t>(domain) << 32);
     }
 
     std::array<std::uint64_t, 2>
     bits(const std::uint64_t seed, const std::uint64_t key, const Draw draw)
     {
       return bits(seed, key, static_cast<std::uint32_t>(draw), Domain::lineage);
-    }
-
-    /** The upper 53 bits as (k + 1) 2^-53, k = 0...2^53 - 1: in (0, 1]. */
-    double
-    uniform(const std::uint64_t random_bits)
-    {
-      return std::ldexp(static_cast<double>((random_bits >> 11) + 1), -53);
     }
 
     /** Exponentially distributed with mean 1. */

@@ -3,12 +3,11 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/send_records.h>
+#include <morula/effects/fate/random.h>
 #include <morula/effects/rearrangement/rearrangement.h>
 #include <morula/particles/point_exchange.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <Random123/philox.h>
 
 #include <algorithm>
 #include <array>
@@ -23,39 +22,7 @@ namespace Morula
 {
   namespace
   {
-    using Philox = r123::Philox4x32;
-
-    std::uint32_t
-    low(const std::uint64_t x)
-    {
-      return static_cast<std::uint32_t>(x);
-    }
-
-    std::uint32_t
-    high(const std::uint64_t x)
-    {
-      return static_cast<std::uint32_t>(x >> 32);
-    }
-
-    /** 128 random bits of a key and a counter. */
-    std::array<std::uint64_t, 2>
-    bits(const std::uint64_t key, const std::uint64_t a, const std::uint64_t b)
-    {
-      const auto words =
-        Philox()(Philox::ctr_type{{low(a), high(a), low(b), high(b)}},
-                 Philox::key_type{{low(key), high(key)}});
-      const auto join = [](const std::uint32_t x, const std::uint32_t y) {
-        return x | (static_cast<std::uint64_t>(y) << 32);
-      };
-      return {{join(words[0], words[1]), join(words[2], words[3])}};
-    }
-
-    /** In (0, 1]. */
-    double
-    uniform(const std::uint64_t random_bits)
-    {
-      return std::ldexp(static_cast<double>((random_bits >> 11) + 1), -53);
-    }
+    using Random::bits, Random::uniform;
 
     /** Of a pair of cells in a step: the same for any order of evaluation. */
     std::uint64_t

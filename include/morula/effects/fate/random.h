@@ -6,6 +6,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -16,6 +17,15 @@
  */
 namespace Morula::Random
 {
+  /** 128 random bits. Philox key: the two halves of @p key; counter: those of
+   *  @p a and @p b. */
+  std::array<std::uint64_t, 2>
+  bits(const std::uint64_t key, const std::uint64_t a, const std::uint64_t b);
+
+  /** The upper 53 bits as (k + 1) 2^-53, k = 0...2^53 - 1: in (0, 1]. */
+  double
+  uniform(const std::uint64_t random_bits);
+
   /** Key of founder number @p id. */
   std::uint64_t
   founder_key(const std::uint64_t seed, const std::uint64_t id);

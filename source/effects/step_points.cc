@@ -40,19 +40,6 @@ namespace Morula
                 (material.per_grown_volume() ? determinant(F_g) : 1.)};
     }
 
-    /** λ and μ of cell number @p i in the order of Tissue::cells(). */
-    template <int dim>
-    Lame
-    lame_of(const Tissue<dim>            &tissue,
-            const unsigned int            i,
-            const DevelopmentOfStep<dim> &growth,
-            const TissueMaterial         &material)
-    {
-      return growth.lame.empty() ?
-               material.lame_at(tissue.cells()[i].founder_position()) :
-               growth.lame[i];
-    }
-
     /** The data of the cell's quadrature points without λ and μ, which need not
      *  be known for each cell where they are uniform. */
     template <int dim>
@@ -62,21 +49,16 @@ namespace Morula
             const DevelopmentOfStep<dim> &growth,
             const TissueMaterial         &material)
     {
-      const auto     cell = tissue.cells()[i];
-      PointData<dim> data{};
+      const auto           cell = tissue.cells()[i];
+      PointData<dim>       data{};
+      const Tensor<2, dim> before = growth.growth_before(tissue, i),
+                           after  = growth.growth_after(tissue, i);
+      data.current                = elastic_state(cell, after, material);
       if (growth.present)
-        {
-          data.current  = elastic_state(cell, growth.current[i], material);
-          data.previous = elastic_state(cell, growth.previous[i], material);
-        }
-      else
-        data.current = elastic_state(cell, cell.growth(), material);
+        data.previous = elastic_state(cell, before, material);
       const double V0 = cell.initial_volume();
       data.carried    = cell.carried_volume();
-      data.grown = growth.present ? Grown{V0 * determinant(growth.previous[i]),
-                                          V0 * determinant(growth.current[i])} :
-                                    Grown{V0 * determinant(cell.growth()),
-                                          V0 * determinant(cell.growth())};
+      data.grown      = {V0 * determinant(before), V0 * determinant(after)};
       return data;
     }
 
@@ -178,7 +160,7 @@ namespace Morula
       for (unsigned int i = 0; i < tissue.cells().size(); ++i)
         {
           const PointData<dim>      data = data_of(tissue, i, growth, material);
-          const Lame                lame = lame_of(tissue, i, growth, material);
+          const Lame                lame = growth.lame_of(tissue, i, material);
           const ParticleDomain<dim> domain = tissue.domain(i);
           const unsigned int        body   = tissue.cells().body(i);
           const auto                id     = tissue.cells().id(i);
@@ -277,7 +259,7 @@ namespace Morula
     double                             largest[3] = {0., 0., 0.};
     for (unsigned int i = 0; i < n; ++i)
       {
-        const Lame lame = lame_of(tissue, i, growth, material);
+        const Lame lame = growth.lame_of(tissue, i, material);
         values[i]       = {
           {lame.mu,
                  material.material().bulk_modulus(lame.lambda, lame.mu),
@@ -345,7 +327,7 @@ namespace Morula
           {
             PointData<dim> data = data_of(tissue, i, growth, material);
             if (!material.is_uniform() || i == 0)
-              data.lame = lame_of(tissue, i, growth, material);
+              data.lame = growth.lame_of(tissue, i, material);
             append(data, growth.present, material, points);
           }
       }

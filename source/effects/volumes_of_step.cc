@@ -402,13 +402,9 @@ namespace Morula
       {
         const auto   cell = tissue.cells()[p];
         const double V0 = cell.initial_volume(), c = cell.carried_volume();
-        const double before =
-                       V0 * determinant(growth.present ? growth.previous[p] :
-                                                         cell.growth()),
-                     after =
-                       V0 * determinant(growth.present ? growth.current[p] :
-                                                         cell.growth());
-        double smoothed = 0.;
+        const double before = V0 * determinant(growth.growth_before(tissue, p)),
+                     after  = V0 * determinant(growth.growth_after(tissue, p));
+        double smoothed     = 0.;
         // Where bodies are parted cell by cell, one space has all of them.
         pools[space.n_bodies() > 1 ? tissue.cells().body(p) : 0].for_each_point(
           tissue.domain(p),

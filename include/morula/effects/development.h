@@ -47,6 +47,31 @@ namespace Morula
     /** |missed| of the step before, by cell, if growth follows the state; else
      *  empty. */
     std::vector<double> missed_growth = {};
+
+    /** F_g of cell number @p p at t. */
+    Tensor<2, dim>
+    growth_before(const Tissue<dim> &tissue, const unsigned int p) const
+    {
+      return present ? previous[p] : tissue.cells()[p].growth();
+    }
+
+    /** F_g of cell number @p p at t + dt. */
+    Tensor<2, dim>
+    growth_after(const Tissue<dim> &tissue, const unsigned int p) const
+    {
+      return present ? current[p] : tissue.cells()[p].growth();
+    }
+
+    /** λ and μ of cell number @p p at t + dt. */
+    Lame
+    lame_of(const Tissue<dim>    &tissue,
+            const unsigned int    p,
+            const TissueMaterial &material) const
+    {
+      return lame.empty() ?
+               material.lame_at(tissue.cells().founder_position(p)) :
+               lame[p];
+    }
   };
 
   /** What the points file may say of a founder. */

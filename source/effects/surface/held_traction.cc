@@ -111,18 +111,6 @@ namespace Morula
      *  move held points by less than a millionth of a grid spacing. */
     constexpr double least_traction = 1e-4;
 
-    /** λ and μ of cell number @p p. */
-    template <int dim>
-    Lame
-    lame_of(const AttemptAtStep<dim>          &attempt,
-            const CellView<dim, const double> &cell,
-            const unsigned int                 p)
-    {
-      return attempt.growth.lame.empty() ?
-               attempt.material.lame_at(cell.founder_position()) :
-               attempt.growth.lame[p];
-    }
-
     /** W / V_t of a cell. */
     template <int dim>
     double
@@ -292,17 +280,17 @@ namespace Morula
         // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t +
         // dt.
         const auto P = surroundings.values([&](const unsigned int p) {
-          const auto           cell = tissue.cells()[p];
-          const Tensor<2, dim> F_g =
-            attempt.growth.present ? attempt.growth.current[p] : cell.growth();
-          const Tensor<2, dim> &f   = motions[p].f;
-          const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
+          const auto            cell = tissue.cells()[p];
+          const Tensor<2, dim>  F_g  = attempt.growth.growth_after(tissue, p);
+          const Tensor<2, dim> &f    = motions[p].f;
+          const Tensor<2, dim>  F_e  = f * cell.F() * invert(F_g);
           const double          theta =
             std::log(volumes.empty() ? determinant(F_e) : volumes[p].J_e);
-          const ElasticPoint<dim> point(F_e,
-                                        lame_of(attempt, cell, p),
-                                        attempt.material.material(),
-                                        &theta);
+          const ElasticPoint<dim> point(
+            F_e,
+            attempt.growth.lame_of(tissue, p, attempt.material),
+            attempt.material.material(),
+            &theta);
           return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
                                 Tensor<2, dim>(point.kirchhoff_stress()) *
                                 transpose(invert(f)));
@@ -325,14 +313,14 @@ namespace Morula
         // that is not exact but an upper bound, which only makes the penalty
         // larger. The growth is that at t, as F is.
         const auto          K = surroundings.values([&](const unsigned int p) {
-          const auto           cell = tissue.cells()[p];
-          const Tensor<2, dim> F_g =
-            attempt.growth.present ? attempt.growth.previous[p] : cell.growth();
-          const ElasticPoint<dim> point(cell.F() * invert(F_g),
-                                        lame_of(attempt, cell, p),
-                                        attempt.material.material());
-          const auto             &r = point.response();
-          const Tensor<2, dim>    b(point.b()), I(unit_symmetric_tensor<dim>());
+          const auto              cell = tissue.cells()[p];
+          const Tensor<2, dim>    F_g = attempt.growth.growth_before(tissue, p);
+          const ElasticPoint<dim> point(
+            cell.F() * invert(F_g),
+            attempt.growth.lame_of(tissue, p, attempt.material),
+            attempt.material.material());
+          const auto          &r = point.response();
+          const Tensor<2, dim> b(point.b()), I(unit_symmetric_tensor<dim>());
           return Tensor<2, dim>(energy_volume(attempt, cell, F_g) *
                                 ((r.total_A() + r.alpha - r.total_gamma()) * I +
                                  (r.alpha + 2. * r.B) * b + r.C * (b * b)));

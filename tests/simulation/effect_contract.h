@@ -134,10 +134,12 @@ namespace Morula
       return true;
     }
 
-    std::unique_ptr<PartOfStep<dim>>
-    part_of_step(const AttemptAtStep<dim> &) const override
+    std::vector<std::unique_ptr<PartOfStep<dim>>>
+    parts_of_step(const AttemptAtStep<dim> &) const override
     {
-      return std::make_unique<DerivativesOfStep<dim>>();
+      std::vector<std::unique_ptr<PartOfStep<dim>>> list;
+      list.push_back(std::make_unique<DerivativesOfStep<dim>>());
+      return list;
     }
   };
 

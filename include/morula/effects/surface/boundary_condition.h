@@ -119,13 +119,13 @@ namespace Morula
       return list;
     }
 
-    /** The part that the condition as a whole has in an attempt at a step
-     *  besides its terms, which may keep a reference to @p attempt; null: none.
+    /** The parts that the condition as a whole has in an attempt at a step
+     *  besides its terms, which may keep a reference to @p attempt.
      *  Collective. */
-    virtual std::unique_ptr<PartOfStep<dim>>
-    part_of_step(const AttemptAtStep<dim> & /*attempt*/) const
+    virtual std::vector<std::unique_ptr<PartOfStep<dim>>>
+    parts_of_step(const AttemptAtStep<dim> & /*attempt*/) const
     {
-      return nullptr;
+      return {};
     }
 
     /** Refuses a surface at t = 0 on which it cannot act. The areas are those
@@ -173,16 +173,6 @@ namespace Morula
       // A load moves tissue from rest; what holds points does so only if it is
       // prescribed to move.
       return kind() == SurfaceCondition::loaded;
-    }
-
-    /** All parts of this kind: several, of a condition that has them. */
-    virtual std::vector<std::unique_ptr<PartOfStep<dim>>>
-    parts_of_step(const AttemptAtStep<dim> &attempt) const
-    {
-      std::vector<std::unique_ptr<PartOfStep<dim>>> list;
-      if (auto part = part_of_step(attempt))
-        list.push_back(std::move(part));
-      return list;
     }
   };
 } // namespace Morula

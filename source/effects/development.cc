@@ -119,6 +119,10 @@ namespace Morula
     // Without a step only the row is wanted, for example for an estimate.
     if (!(step > 0.))
       return;
+    const PresentCell<dim> whole(cell, id, X, reader);
+    for (const auto &[expression, n_components] : state_.expressions())
+      for (unsigned int c = 0; c < n_components; ++c)
+        whole.value(expression, 0.5 * step, c);
     for (const auto &fate : effects.fates.list)
       fate->check_cell(founder, step);
     if (effects.law)

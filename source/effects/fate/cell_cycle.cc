@@ -83,9 +83,9 @@ namespace Morula
                             const std::uint64_t        seed,
                             const double               slack,
                             StateColumns<dim>         &state)
-    : duration(state.use(parameters.duration))
-    , exit_rate(state.use(parameters.exit_rate))
-    , size_checkpoint(state.use(parameters.size_checkpoint))
+    : duration(state.use(parameters.duration, false))
+    , exit_rate(state.use(parameters.exit_rate, false))
+    , size_checkpoint(state.use(parameters.size_checkpoint, false))
     , where(parameters.where.expression(dim))
     , start_together(parameters.start == "together")
     , seed(seed)

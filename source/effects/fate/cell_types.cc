@@ -46,7 +46,7 @@ namespace Morula
                   // The list of a type leaves the type itself out.
                   targets[type].push_back(k < type ? k : k + 1);
                   this->hazards_of_types[type].push_back(
-                    {setting.state.use(keys.transitions[k]), {}, {}});
+                    {setting.state.use(keys.transitions[k], false), {}, {}});
                 }
             most = std::max(most, targets[type].size());
           }

@@ -237,16 +237,6 @@ namespace Morula
         EndAtRate<dim>::declare(tables);
       }
 
-      void
-      check_cell(const PresentCell<dim> &founder,
-                 const double            step) const override
-      {
-        Fate<dim>::check_cell(founder, step);
-        for (const Expression *expression :
-             {&when, &shrinking_time, &final_volume, &keep_debris})
-          founder.value(*expression, 0.);
-      }
-
     private:
       /** What becomes of a cell that dies at @p t (day) is evaluated then.
        *  @throws InputError */

@@ -193,8 +193,7 @@ namespace Morula
                  const double            step) const override
       {
         const double mean = founder.value(volume, 0.);
-        founder.value(noise, 0.);
-        const double V0 = founder.cell().initial_volume();
+        const double V0   = founder.cell().initial_volume();
         if (mean > 0. && V0 > 2. * mean)
           {
             std::ostringstream allowed;

@@ -289,22 +289,6 @@ namespace Morula
           }
       }
 
-      /** Refuses expressions that a founder has no values for. */
-      void
-      check_cell(const PresentCell<dim> &founder, const double) const override
-      {
-        for (unsigned int k = 0; k < fields.size(); ++k)
-          {
-            // Each expression is evaluated once, so that a bad one is refused
-            // before the run begins. The uptake sets the field, so it gets a
-            // cell of its own.
-            PresentCell<dim> cell(founder);
-            cell.value(fields[k].diffusion, 0.);
-            cell.value(fields[k].production, 0.);
-            fields[k].uptake(cell, 0., founder.cell().get(columns[k]), 1.);
-          }
-      }
-
       /** Refuses values for the surface that it cannot have at t = 0, and
        *  conditions that hold nowhere. */
       void

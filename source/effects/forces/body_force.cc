@@ -162,7 +162,7 @@ namespace Morula
       check(const Preview<dim> &scene) const override
       {
         // An expression of the cells' state has no value before there are
-        // cells; check_cell() evaluates it for each founder.
+        // cells; it is tried at each founder.
         if (density.depends_on_state())
           return;
         for (const Point<dim> &X : scene.founders)
@@ -170,12 +170,6 @@ namespace Morula
           // run, or throws here.
           for (const double t : {0., scene.keys.time.end_time.value()})
             density.vector(X, t);
-      }
-
-      void
-      check_cell(const PresentCell<dim> &founder, const double) const override
-      {
-        founder.vector(density, 0.);
       }
 
       void

@@ -113,12 +113,6 @@ namespace Morula
           coefficient.value(X, scene.keys.time.end_time);
       }
 
-      void
-      check_cell(const PresentCell<dim> &founder, const double) const override
-      {
-        founder.value(coefficient, 0.);
-      }
-
     private:
       const Expression coefficient;
       const bool       per_current_volume;

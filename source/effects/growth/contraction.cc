@@ -80,8 +80,6 @@ namespace Morula
       check_cell(const PresentCell<dim> &founder,
                  const double            step) const override
       {
-        // Both expressions are evaluated once, for the errors that they throw.
-        founder.value(stretch, step);
         direction.of(founder, step);
       }
 

@@ -159,14 +159,6 @@ namespace Morula
         return deviator(U - forecast(cell, past, dt)).norm();
       }
 
-      void
-      check_cell(const PresentCell<dim> &founder,
-                 const double            step) const override
-      {
-        founder.value(time, 0.5 * step);
-        founder.value(yield_stress, 0.5 * step);
-      }
-
     private:
       /** U* of doc/theory.md (8.3b): the stretch of a step of length @p dt
        * (day) if the tissue goes on as in the step @p past. */

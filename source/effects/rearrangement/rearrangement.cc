@@ -174,12 +174,6 @@ namespace Morula
         tables.add_number("unlike_share");
       }
       void
-      check_cell(const PresentCell<dim> &founder, const double) const override
-      {
-        founder.value(diffusion, 0.);
-        founder.vector(drive, 0.);
-      }
-      void
       settle(Tissue<dim> &tissue, const MomentOfRun<dim> &moment) const override
       {
         std::vector<Occupant> cells;

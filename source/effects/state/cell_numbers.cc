@@ -204,13 +204,6 @@ namespace Morula
       }
 
       void
-      check_cell(const PresentCell<dim> &founder, const double) const override
-      {
-        for (const Number &number : numbers)
-          founder.value(number.rate, 0.);
-      }
-
-      void
       advance(const PresentCell<dim>      &before,
               const CellView<dim, double> &after,
               const double                 t0,

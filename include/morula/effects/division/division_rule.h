@@ -192,16 +192,6 @@ namespace Morula
       return rules.empty() ? nullptr : rules.front().get();
     }
 
-    /** Evaluates the expressions and the rule of a founder in its state. */
-    void
-    check_cell(const PresentCell<dim> &founder, const double step) const
-    {
-      founder.value(spread, 0.);
-      founder.value(least_anisotropy, 0.);
-      if (const DivisionRule<dim> *const rule = this->rule(founder.type()))
-        rule->check_cell(founder, step);
-    }
-
     /**
      * The direction of a cell of which there is a rule, of any length but zero,
      * in the rule's configuration: the rule's, and the spread around it,

@@ -214,8 +214,8 @@ namespace Morula
     {
       if (clock(founder.cell()).phase == CyclePhase::never)
         return;
-      if (this->axes)
-        this->axes->check_cell(founder, step);
+      if (const auto *const rule = this->rule(founder.type()))
+        rule->check_cell(founder, step);
     }
 
   private:

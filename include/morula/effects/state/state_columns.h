@@ -84,15 +84,18 @@ namespace Morula
       const std::vector<NeighbourVariable> &neighbours = {});
 
     /** The key's expression, whose variables cells will have. An effect takes
-     *  all its expressions of cells from here. @throws InputError */
+     *  all its expressions of cells from here. @param by_all whether any cell
+     *  may evaluate it: it is tried at all founders. @throws InputError */
     Expression
-    use(const ExpressionKey &key)
+    use(const ExpressionKey &key, const bool by_all = true)
     {
       // The list stays sorted, as uses() searches it by halves and any_in_use()
       // looks at its last entry.
       const Expression &expression = key.expression(dim);
       for (const Variable variable : expression.used())
         need(variable);
+      if (by_all)
+        of_all.emplace_back(expression, std::min(key.components(), 1u * dim));
       return expression;
     }
 
@@ -186,6 +189,14 @@ namespace Morula
       return !types.empty() || (!used.empty() && used.back() > Variable::t);
     }
 
+    /** The expressions that any cell may evaluate, and how many components they
+     *  have. */
+    const std::vector<std::pair<Expression, unsigned int>> &
+    expressions() const
+    {
+      return of_all;
+    }
+
     /** Names of the types in the order of their numbers. */
     const std::vector<std::string> &
     type_names() const
@@ -258,8 +269,9 @@ namespace Morula
     std::vector<std::string>       names_of_fields, names_of_numbers;
     std::vector<NeighbourVariable> of_neighbours;
     std::vector<bool>              needs_gradient; // by field
-    std::vector<Variable>          used;           // sorted
-    bool                           needs_normal = false;
+    std::vector<std::pair<Expression, unsigned int>> of_all;
+    std::vector<Variable>                            used; // sorted
+    bool                                             needs_normal = false;
   };
 
   /** The surface near a place. */

@@ -282,17 +282,6 @@ namespace Morula
       return list;
     }
 
-    /** The name and the Choice::example() of each effect, kind by kind. */
-    std::vector<std::pair<std::string, Settings>>
-    examples() const
-    {
-      std::vector<std::pair<std::string, Settings>> list;
-      for_each(*this, [&list](const auto &choice) {
-        list.emplace_back(choice.name(), choice.example());
-      });
-      return list;
-    }
-
     /** The tensions of the cells' types. @throws InputError if keys contradict
      *  each other */
     TypeTensions

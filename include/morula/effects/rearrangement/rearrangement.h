@@ -213,8 +213,6 @@ namespace Morula
     }
 
   private:
-    bool
-    is_before(const Attempt &a, const Attempt &b) const;
     /** The first attempt that is left at a place, or null. */
     const Attempt *
     first_at(const unsigned int place)

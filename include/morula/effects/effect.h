@@ -50,6 +50,10 @@ namespace Morula
     bool divides_cells = false;
     /** Whether cells grow by the effect, besides the law of growth. */
     bool grows_cells = false;
+    /** Whether cells exchange places by the effect, if it is on. */
+    bool exchanges_places = false;
+    /** Whether all tissue flows by the effect, besides what relaxes. */
+    bool releases_shear = false;
     /** The key whose value names sections of the effect, or null. */
     const AnyKey *names_key = nullptr;
     /** The condition that chooses founders on which the effect acts, or null:
@@ -91,20 +95,6 @@ namespace Morula
      *  know the names of the scene. */
     virtual bool
     loses_cells() const
-    {
-      return false;
-    }
-
-    /** Whether cells exchange places by the effect. */
-    virtual bool
-    exchanges_places() const
-    {
-      return false;
-    }
-
-    /** Whether all tissue flows by the effect, besides what relaxes. */
-    virtual bool
-    releases_shear() const
     {
       return false;
     }

@@ -69,20 +69,13 @@ namespace Morula
       {
         return !diffusion.is_default() || diffusion.differs_by_type();
       }
-      bool
-      exchanges_places() const override
-      {
-        return is_on();
-      }
-      bool
-      releases_shear() const override
-      {
-        return is_on() && shear_released > 0.;
-      }
       EffectFacts
       facts() const override
       {
-        return {&diffusion};
+        EffectFacts facts{&diffusion};
+        facts.exchanges_places = diffusion.is_changed();
+        facts.releases_shear = facts.exchanges_places && shear_released > 0.;
+        return facts;
       }
       void
       check(const SceneKeys &scene, Review &review) const override

@@ -41,7 +41,7 @@ namespace Morula
         bool flows = scene.flows(), loses = false;
         for (const EffectKeys *const keys : scene.keys_in_use())
           {
-            flows = flows || keys->releases_shear();
+            flows = flows || keys->facts().releases_shear;
             loses = loses || keys->loses_cells();
           }
         if (is_on() && scene.has_active_tissue() && flows && loses)

@@ -50,8 +50,9 @@ namespace Morula
     bool           exchanges = false;
     for (const auto &choice : scene.catalogue.step_effects)
       {
-        result.all_flows = result.all_flows || choice.keys().facts().releases_shear;
-        exchanges        = exchanges || choice.keys().facts().exchanges_places;
+        result.all_flows =
+          result.all_flows || choice.keys().facts().releases_shear;
+        exchanges = exchanges || choice.keys().facts().exchanges_places;
       }
     const bool flows = scene.flows() || result.all_flows;
     result.places    = scene.tissue.redistribution == "true" || exchanges ||

@@ -78,11 +78,13 @@ namespace Morula
    */
   struct EffectKeys : public Keys
   {
-    /** Whether the scene has the effect. */
+    /** Whether the scene has the effect: without a switch_key it has, else if
+     *  the key does not have its default. */
     virtual bool
     is_on() const
     {
-      return true;
+      const AnyKey *const key = facts().switch_key;
+      return key == nullptr || key->is_changed();
     }
 
     virtual EffectFacts

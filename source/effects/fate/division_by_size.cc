@@ -41,12 +41,6 @@ namespace Morula
          "It is the standard deviation of the volume at division over "
          "its mean; cells of tissues have about 0.1."}};
 
-      bool
-      is_on() const override
-      {
-        return !volume.expression(3).is_always(0.);
-      }
-
       EffectFacts
       facts() const override
       {

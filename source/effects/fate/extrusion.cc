@@ -22,12 +22,6 @@ namespace Morula
         Evaluated::step,
         not_negative("1/day", "0 keeps cells in.")};
 
-      bool
-      is_on() const override
-      {
-        return !rate.expression(3).is_always(0.);
-      }
-
       EffectFacts
       facts() const override
       {

@@ -64,17 +64,12 @@ namespace Morula
         Evaluated::step,
         3};
 
-      bool
-      is_on() const override
-      {
-        return !diffusion.is_default() || diffusion.differs_by_type();
-      }
       EffectFacts
       facts() const override
       {
         EffectFacts facts{&diffusion};
         facts.exchanges_places = diffusion.is_changed();
-        facts.releases_shear = facts.exchanges_places && shear_released > 0.;
+        facts.releases_shear   = facts.exchanges_places && shear_released > 0.;
         return facts;
       }
       void

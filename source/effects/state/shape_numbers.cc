@@ -23,11 +23,6 @@ namespace Morula
         "radii of gyration, spread of the radius, lobes, area, and with types "
         "the share of contacts between unlike ones."};
 
-      bool
-      is_on() const override
-      {
-        return numbers;
-      }
       EffectFacts
       facts() const override
       {

@@ -40,15 +40,6 @@ namespace Morula
       "or radial (from Tissue/Center), or surface normal (of the "
       "surface near the founder), or gradient of NAME (a field)."};
 
-    bool
-    is_on() const override
-    {
-      // The keys have no switch of their own: contraction is on if the stretch
-      // may ever differ from 1. Dimension 3 admits all variables, and only the
-      // text counts here.
-      return !stretch.expression(3).is_always(1.);
-    }
-
     EffectFacts
     facts() const override
     {

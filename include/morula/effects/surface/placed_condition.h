@@ -29,11 +29,6 @@ namespace Morula
 
     ExpressionKey where;
 
-    bool
-    is_on() const override
-    {
-      return !where.empty();
-    }
     EffectFacts
     facts() const override
     {

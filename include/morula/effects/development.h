@@ -48,14 +48,13 @@ namespace Morula
      *  empty. */
     std::vector<double> missed_growth = {};
 
-    /** F_g of cell number @p p at t. */
+    /** F_g of cell number @p p at t, and at t + dt. */
     Tensor<2, dim>
     growth_before(const Tissue<dim> &tissue, const unsigned int p) const
     {
       return present ? previous[p] : tissue.cells()[p].growth();
     }
 
-    /** F_g of cell number @p p at t + dt. */
     Tensor<2, dim>
     growth_after(const Tissue<dim> &tissue, const unsigned int p) const
     {

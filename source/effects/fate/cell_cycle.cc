@@ -94,7 +94,6 @@ namespace Morula
     // an expression needs the state decides which columns the cycle has.
     , own_duration(depends_on_more_than_place(duration))
     , own_hazard(depends_on_more_than_place(exit_rate))
-    , exit_rate_follows_state(exit_rate.follows_state())
   {}
 
 

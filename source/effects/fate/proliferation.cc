@@ -54,7 +54,7 @@ namespace Morula
     if (cycle_.has_own_hazard())
       hazard = columns.template add<double>(
         {"wait_hazard", "", "rate of leaving G0, integrated over the wait"});
-    if (cycle_.keeps_exit_rate())
+    if (cycle_.rate_of_exit().follows_state())
       {
         exit_rate = columns.template add<double>(
           {"wait_rate",

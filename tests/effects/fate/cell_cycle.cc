@@ -370,7 +370,7 @@ TEST(CellCycle, WaitSeesTheMiddleOfTheStep)
   CellCycleParameters parameters;
   parameters.exit_rate = "2*t";
   const CellCycle<2> cycle(parameters, seed, slack);
-  EXPECT_FALSE(cycle.keeps_exit_rate());
+  EXPECT_FALSE(cycle.rate_of_exit().follows_state());
   LoneCell<2> scene;
   scene.place(Point<2>());
   const auto    present = scene.present();

@@ -243,14 +243,6 @@ namespace Morula
       return own_hazard;
     }
 
-    /** Whether that rate follows the state, so that cells keep what the last
-     *  step saw of it. */
-    bool
-    keeps_exit_rate() const
-    {
-      return exit_rate_follows_state;
-    }
-
     /** The rate of leaving G0, 1/day. */
     const Expression &
     rate_of_exit() const
@@ -457,7 +449,7 @@ namespace Morula
     bool          start_together;
     std::uint64_t seed;
     double        slack;
-    bool          own_duration, own_hazard, exit_rate_follows_state;
+    bool          own_duration, own_hazard;
   };
 } // namespace Morula
 

@@ -228,14 +228,6 @@ namespace Morula
     bool
     is_held(const PresentCell<dim> &cell, const double t) const;
 
-    /** Sets a cell's clock. Only with a cycle. */
-    void
-    set_clock(const CellView<dim, double> &cell,
-              const CycleState<dim>       &state) const
-    {
-      effects.proliferation->set_clock(cell, state);
-    }
-
     /**
      * Sets a founder's columns at t = 0, and refuses a founder that some effect
      * cannot handle. Called again when the steady fields are known.

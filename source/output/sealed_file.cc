@@ -8,79 +8,12 @@
 
 #include <boost/algorithm/string.hpp>
 
-#include <array>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
 namespace Morula
 {
-  namespace
-  {
-    /** The generator without its highest term. As in a digest, the highest bit
-     *  is the coefficient of x^0. */
-    constexpr std::uint64_t generator = 0xc96c5795d7870f42u;
-
-    /** Tables[k][b]: the remainder of byte b with k bytes of zeros behind it.
-     */
-    using Tables = std::array<std::array<std::uint64_t, 256>, 8>;
-
-    constexpr Tables
-    make_tables()
-    {
-      Tables tables{};
-      for (unsigned int byte = 0; byte < 256; ++byte)
-        {
-          // The remainder of one byte, bit by bit; then with more and more
-          // zeros behind it.
-          std::uint64_t rest = byte;
-          for (unsigned int bit = 0; bit < 8; ++bit)
-            rest = (rest >> 1) ^ ((rest & 1) != 0 ? generator : 0);
-          tables[0][byte] = rest;
-        }
-      for (unsigned int k = 1; k < tables.size(); ++k)
-        for (unsigned int byte = 0; byte < 256; ++byte)
-          {
-            const std::uint64_t rest = tables[k - 1][byte];
-            tables[k][byte]          = (rest >> 8) ^ tables[0][rest & 255];
-          }
-      return tables;
-    }
-
-    constexpr Tables tables = make_tables();
-
-    /** Eight bytes as a number, the first one its lowest. */
-    std::uint64_t
-    little_endian(const unsigned char *bytes)
-    {
-      std::uint64_t number = 0;
-      for (unsigned int k = 0; k < 8; ++k)
-        number |= std::uint64_t(bytes[k]) << (8 * k);
-      return number;
-    }
-  } // namespace
-
-  void
-  Digest::add(const std::string_view bytes)
-  {
-    const auto *byte = reinterpret_cast<const unsigned char *>(bytes.data());
-    const auto *const end  = byte + bytes.size();
-    std::uint64_t     rest = remainder;
-    // Eight bytes at a time: each has a table of its own, for its distance to
-    // the end of the eight, and the results do not wait for each other.
-    for (; end - byte >= 8; byte += 8)
-      {
-        const std::uint64_t word = rest ^ little_endian(byte);
-        rest                     = 0;
-        for (unsigned int k = 0; k < 8; ++k)
-          rest ^= tables[7 - k][word >> (8 * k) & 255];
-      }
-    // The last few bytes, one at a time.
-    for (; byte != end; ++byte)
-      rest = (rest >> 8) ^ tables[0][(rest ^ *byte) & 255];
-    remainder = rest;
-  }
-
   std::string
   digest_text(const std::uint64_t digest)
   {
@@ -126,13 +59,13 @@ namespace Morula
       while (in)
         {
           in.read(buffer.data(), buffer.size());
-          digest.add({buffer.data(), static_cast<std::size_t>(in.gcount())});
+          digest.process_bytes(buffer.data(), in.gcount());
           n_bytes += in.gcount();
         }
       if (!in.eof())
         throw std::runtime_error("cannot read the file '" + path + "'");
       std::string text = first_line + "bytes " + std::to_string(n_bytes) +
-                         "\nCRC-64/XZ " + digest_text(digest.value()) + '\n';
+                         "\nCRC-64/XZ " + digest_text(digest.checksum()) + '\n';
       // Newlines fill the seal up to its fixed size, so that it can be read as
       // text.
       text.resize(size_of_seal, '\n');

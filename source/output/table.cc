@@ -75,7 +75,7 @@ namespace Morula
 
       Beginning beginning;
       beginning.size = header.size();
-      beginning.digest.add(header);
+      beginning.digest.process_bytes(header.data(), header.size());
       for (std::uint64_t row = 0; row < kept.n_rows; ++row)
         {
           std::getline(in, line);
@@ -86,9 +86,9 @@ namespace Morula
                    std::to_string(row) + ")");
           line += '\n';
           beginning.size += line.size();
-          beginning.digest.add(line);
+          beginning.digest.process_bytes(line.data(), line.size());
         }
-      if (beginning.digest.value() != kept.digest)
+      if (beginning.digest.checksum() != kept.digest)
         refuse("a file whose first " + std::to_string(kept.n_rows) +
                " rows are those of the run (their digest is not "
                "the snapshot's)");
@@ -104,7 +104,7 @@ namespace Morula
     on_root(comm, [&]() {
       file = std::make_unique<OutputFile>(path, OutputFile::Mode::create);
       file->write(header);
-      digest.add(header);
+      digest.process_bytes(header.data(), header.size());
     });
   }
 
@@ -140,7 +140,7 @@ namespace Morula
       // Somebody may have moved the file while the run went on.
       file->check_in_place();
       file->write(rows);
-      digest.add(rows);
+      digest.process_bytes(rows.data(), rows.size());
     });
     n_rows += Utilities::MPI::broadcast(
       comm, std::uint64_t(std::count(rows.begin(), rows.end(), '\n')));

@@ -260,7 +260,7 @@ namespace Morula
     TableExtent
     extent() const
     {
-      return {n_rows, digest.value()};
+      return {n_rows, digest.checksum()};
     }
 
   private:

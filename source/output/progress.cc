@@ -128,70 +128,50 @@ namespace Morula
   } // namespace
 
   std::string
-  progress_line(const StepReport &report,
-                const double      end_time,
-                const double      seconds_left)
+  progress_line(const StatisticsRow &row,
+                const double         end_time,
+                const double         wall_seconds,
+                const double         seconds_left)
   {
     std::string line = format(
       "step %u: day %.6g of %.6g, dt %.3g, %llu cells, %u Newton iterations, "
       "%s",
-      report.step,
-      report.time,
+      row.step,
+      row.time,
       end_time,
-      report.dt,
-      static_cast<unsigned long long>(report.cells),
-      report.newton_iterations,
-      duration(report.wall_seconds).c_str());
+      row.dt,
+      static_cast<unsigned long long>(row.cells),
+      row.newton_iterations,
+      duration(wall_seconds).c_str());
     if (seconds_left > 0.)
       line += ", about " + duration(seconds_left) + " left";
     return line;
   }
 
   std::string
-  summary_block(const FinalReport &summary)
+  summary_block(const std::string   &outcome,
+                const unsigned int   dimension,
+                const StatisticsRow &row,
+                const unsigned int   rejected_steps,
+                const std::string   &directory)
   {
-    // The three sections of the timings that took longest are named, with their
-    // share of the wall time. What a scene does not have gives no line.
-    std::vector<std::pair<std::string, double>> sections;
-    for (const auto &section : summary.sections)
-      sections.emplace_back(section.first, section.second.wall_seconds);
-    std::stable_sort(sections.begin(),
-                     sections.end(),
-                     [](const auto &a, const auto &b) {
-                       return a.second > b.second;
-                     });
-    constexpr std::size_t n_shown = 3;
-    sections.resize(std::min(sections.size(), n_shown));
-
-    std::string dearest;
-    for (const auto &section : sections)
-      dearest += (dearest.empty() ? "" : ", ") + section.first +
-                 format(" %.0f %%",
-                        summary.wall_seconds > 0. ?
-                          100. * section.second / summary.wall_seconds :
-                          0.);
-
-    std::string text = summary.outcome;
-    text += summary_line("day", format("%.6g", summary.time));
-    text += summary_line(
-      "cells", format("%llu", static_cast<unsigned long long>(summary.cells)));
-    text +=
-      summary_line("volume",
-                   format("%.6g um^%u", summary.volume, summary.dimension));
-    text += summary_line("steps",
-                         format("%u, %u rejected",
-                                summary.steps,
-                                summary.rejected_steps));
-    text += summary_line("wall time", duration(summary.wall_seconds));
-    if (!dearest.empty())
-      text += summary_line("spent mostly in", dearest);
-    text += summary_line("error in time",
-                         summary.error_in_time ?
-                           format("about %.2g %% of growth and strain",
-                                  100. * *summary.error_in_time) :
-                           "none to estimate");
-    text += summary_line("files in", summary.directory);
-    return text;
+    return outcome + summary_line("day", format("%.6g", row.time)) +
+           summary_line("cells",
+                        format("%llu",
+                               static_cast<unsigned long long>(row.cells))) +
+           summary_line("volume",
+                        format("%.6g um^%u",
+                               row.tissue.total_volume,
+                               dimension)) +
+           summary_line("steps",
+                        format("%u, %u rejected", row.step, rejected_steps)) +
+           summary_line("wall time", duration(row.wall_seconds)) +
+           summary_line("error in time",
+                        row.step_error ?
+                          format("about %.2g %% of growth and strain",
+                                 100. * *row.step_error) :
+                          "none to estimate") +
+           summary_line("files in", directory);
   }
 
   Progress::Progress(const std::string &log_path,

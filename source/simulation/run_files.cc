@@ -280,12 +280,7 @@ namespace Morula
       lineage_rows(births, !contents.type_names.empty(), comm));
     if (records_events)
       tables.at("events").append(event_rows(events, contents, comm));
-    progress->step({row.step,
-                    row.time,
-                    row.dt,
-                    row.cells,
-                    row.newton_iterations,
-                    clock.wall_time()});
+    progress->step(row, clock.wall_time());
   }
 
   template <int dim>
@@ -414,24 +409,15 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::finish(const std::string   &outcome,
-                        const StatisticsRow &row,
-                        const unsigned int   rejected_steps,
-                        const TimerOutput   &timer)
+  RunFiles<dim>::finish(const std::string &outcome,
+                        StatisticsRow      row,
+                        const unsigned int rejected_steps)
   {
     // The lock goes last: until then no other run may touch the files.
     finish_points();
-    progress->finish({outcome,
-                      dim,
-                      row.time,
-                      row.cells,
-                      row.tissue.total_volume,
-                      row.step,
-                      rejected_steps,
-                      wall_seconds(),
-                      section_times(timer, sections_before),
-                      scene.output_directory,
-                      row.step_error});
+    row.wall_seconds = wall_seconds();
+    message(
+      summary_block(outcome, dim, row, rejected_steps, scene.output_directory));
     note_finished(scene.output_directory, setup(), wall_seconds(), comm);
     lock.reset();
   }

@@ -5,15 +5,12 @@
 #define morula_output_progress_h
 
 #include <morula/output/output_file.h>
+#include <morula/output/rows.h>
 
 #include <deal.II/base/timer.h>
 
-#include <mpi.h>
-
-#include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,44 +87,23 @@ namespace Morula
                 const MPI_Comm      comm);
 
 
-  /** What the program reports of a step. */
-  struct StepReport
-  {
-    unsigned int  step              = 0;
-    double        time              = 0.; // at its end, day
-    double        dt                = 0.; // day
-    std::uint64_t cells             = 0;
-    unsigned int  newton_iterations = 0;
-    double        wall_seconds      = 0.; // since this program began
-  };
-
-  /** What the program reports at the end of the run. */
-  struct FinalReport
-  {
-    std::string   outcome; // e.g. "Finished: End time reached"
-    unsigned int  dimension      = 3;
-    double        time           = 0.; // day
-    std::uint64_t cells          = 0;
-    double        volume         = 0.; // µm^dim
-    unsigned int  steps          = 0;
-    unsigned int  rejected_steps = 0;
-    double        wall_seconds   = 0.; // across resumes
-    SectionTimes  sections;
-    std::string   directory;
-    /** Estimated, relative, if steps can have one. */
-    std::optional<double> error_in_time = {};
-  };
-
   /** A step as one line of text.
+   *  @param wall_seconds since this program began
    *  @param seconds_left as TimeLeft::seconds() */
   std::string
-  progress_line(const StepReport &report,
-                const double      end_time,
-                const double      seconds_left);
+  progress_line(const StatisticsRow &row,
+                const double         end_time,
+                const double         wall_seconds,
+                const double         seconds_left);
 
-  /** The summary at the end: several lines, without the last newline. */
+  /** The summary at the end: several lines, without the last newline.
+   *  @param outcome e.g. "Finished: End time reached" */
   std::string
-  summary_block(const FinalReport &summary);
+  summary_block(const std::string   &outcome,
+                const unsigned int   dimension,
+                const StatisticsRow &row,
+                const unsigned int   rejected_steps,
+                const std::string   &directory);
 
   /**
    * Tells the user what happens: the terminal and log.txt get one line a step,
@@ -157,17 +133,10 @@ namespace Morula
 
     /** Reports an accepted step. */
     void
-    step(const StepReport &report)
+    step(const StatisticsRow &row, const double wall_seconds)
     {
-      time_left.add(report.time, report.wall_seconds);
-      message(progress_line(report, end_time, time_left.seconds()));
-    }
-
-    /** Shows and logs the summary of a run that has come to its end. */
-    void
-    finish(const FinalReport &summary)
-    {
-      message(summary_block(summary));
+      time_left.add(row.time, wall_seconds);
+      message(progress_line(row, end_time, wall_seconds, time_left.seconds()));
     }
 
     /**

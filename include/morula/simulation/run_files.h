@@ -156,10 +156,9 @@ namespace Morula
     /** Writes the summary to the terminal and into log.txt, marks the run as
      *  finished, and unlocks its directory. */
     void
-    finish(const std::string   &outcome,
-           const StatisticsRow &row,
-           const unsigned int   rejected_steps,
-           const TimerOutput   &timer);
+    finish(const std::string &outcome,
+           StatisticsRow      row,
+           const unsigned int rejected_steps);
 
     /** Wall seconds since the start of the run, over all resumptions. */
     double

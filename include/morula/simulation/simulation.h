@@ -140,8 +140,7 @@ namespace Morula
                     time_steps.finished() ? "Finished: End time reached" :
                                             "Finished: Stop at cells reached",
                     row,
-                    run_state.n_rejected,
-                    timer);
+                    run_state.n_rejected);
     }
     bool
     must_stop() const;

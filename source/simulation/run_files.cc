@@ -9,9 +9,7 @@
 #include <morula/simulation/run_files.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -19,20 +17,6 @@ namespace Morula
 {
   namespace
   {
-    /** Number of the first multiple of @p interval that is due after @p time.
-     * It follows from the time, since a resumed run may have another interval.
-     */
-    unsigned int
-    next_multiple(const double          time,
-                  const double          interval,
-                  const TimeParameters &steps)
-    {
-      return interval > 0. ? static_cast<unsigned int>(
-                               std::floor((time + steps.slack()) / interval)) +
-                               1 :
-                             0;
-    }
-
     /** A snapshot calls the number of a table's rows by the table's name and
      * this suffix. */
     const std::string rows_suffix = "_rows";
@@ -149,16 +133,13 @@ namespace Morula
     , wall_seconds_before(resumed_from ? resumed_from->number("wall_seconds") :
                                          0.)
     , clock(clock)
-    , next_output(
-        resumed_from ?
-          next_multiple(resumed_from->time, scene.output.interval, scene.time) :
-          0)
-    , next_snapshot(next_multiple(resumed_from ? resumed_from->time : 0.,
-                                  scene.output.snapshot_interval,
-                                  scene.time))
-    , next_forces(next_multiple(resumed_from ? resumed_from->time : 0.,
-                                scene.output.interval,
-                                scene.time))
+    , outputs(scene.output.interval,
+              scene.time.slack(),
+              resumed_from ? resumed_from->time : 0.)
+    , snapshots(scene.output.snapshot_interval,
+                scene.time.slack(),
+                resumed_from ? resumed_from->time : 0.)
+    , forces(outputs)
     , points(comm)
   {
     // The lock is taken first, so that a second run in this directory fails
@@ -206,32 +187,6 @@ namespace Morula
                       false);
     if (!lock->reason_without_lock().empty())
       message(lock->reason_without_lock());
-    if (resumed_from)
-      warn_of_missing_states();
-  }
-
-  template <int dim>
-  void
-  RunFiles<dim>::warn_of_missing_states()
-  {
-    // The series counts all states of the run. If an earlier part has written
-    // another format, ParaView's lists are without those states.
-    for (const std::string format : {"vtu", "csv"})
-      {
-        if (!has_format(format))
-          continue;
-        unsigned int n_missing = 0;
-        for (unsigned int n = 0; n < output_times.size(); ++n)
-          n_missing +=
-            !std::filesystem::exists(path(numbered_file("cells", n, format)));
-        if (n_missing > 0)
-          message(std::to_string(n_missing) + " of the " +
-                  std::to_string(output_times.size()) +
-                  " states so far are not there as " + format +
-                  (format == "vtu" ? "; cells.pvd and surface.pvd are without "
-                                     "them." :
-                                     "."));
-      }
   }
 
   template <int dim>
@@ -302,17 +257,6 @@ namespace Morula
 
   template <int dim>
   void
-  RunFiles<dim>::forces(const double time, const std::vector<ForceRow> &rows)
-  {
-    next_forces = next_multiple(time, scene.output.interval, scene.time);
-    std::string text;
-    for (const ForceRow &row : rows)
-      text += force_row(time, row).text();
-    tables.at("forces").append(text);
-  }
-
-  template <int dim>
-  void
   RunFiles<dim>::write_points(PointFields<dim> cells,
                               PointFields<dim> surface,
                               const double     time)
@@ -323,7 +267,6 @@ namespace Morula
     finish_points();
     const unsigned int number = output_times.size();
     output_times.push_back(time);
-    next_output = next_multiple(time, scene.output.interval, scene.time);
 
     // Rank 0 gets the rows of all, and its thread writes them.
     std::vector<std::pair<std::string, std::vector<PointFields<dim>>>> series;
@@ -384,8 +327,6 @@ namespace Morula
     const SectionTimes       sections = section_times(timer, sections_before);
     const TimerOutput::Scope section(timer, "snapshot");
     const double             begin = clock.wall_time();
-    next_snapshot =
-      next_multiple(data.time, scene.output.snapshot_interval, scene.time);
     // A table that is behind its count could not be continued.
     for (auto &[name, table] : tables)
       {

@@ -312,13 +312,24 @@ namespace Morula
     // rows of each, and a resumed run cuts them there.
     const TimerOutput::Scope section(timer, "rows");
     files->step(row, births, events);
-    if (condition)
-      files->condition(run_state.n_steps, row.time - row.dt, *condition);
+    write_work(run_state.n_steps, row.time - row.dt);
     // There is one row a step. The next step makes an estimate of its own only
     // if it finds none.
     condition.reset();
-    if (model.scene.output.newton_trace)
-      files->newton(run_state.n_steps, newton_report.trace);
+  }
+
+  template <int dim>
+  void
+  Simulation<dim>::write_work(const unsigned int step, const double begin)
+  {
+    if (condition)
+      files->append("condition", condition_row(step, begin, *condition).text());
+    if (!model.scene.output.newton_trace)
+      return;
+    std::string rows;
+    for (const NewtonIteration &state : newton_report.trace)
+      rows += newton_row(step, state).text();
+    files->append("newton", rows);
   }
 
   template <int dim>
@@ -337,7 +348,10 @@ namespace Morula
       }
     if (!forces.empty() && files->forces_due(t, last))
       {
-        files->forces(t, forces);
+        std::string rows;
+        for (const ForceRow &row : forces)
+          rows += force_row(t, row).text();
+        files->append("forces", rows);
         if (const auto warning =
               balance_warning(forces,
                               t,

@@ -441,10 +441,7 @@ namespace Morula
     files->write_snapshot(snapshot(), timer);
     // These rows follow the snapshot, which must not count them: a resumed run
     // repeats the step and writes its own.
-    if (condition)
-      files->condition(run_state.n_steps + 1, time_steps.time(), *condition);
-    if (model.scene.output.newton_trace)
-      files->newton(run_state.n_steps + 1, newton_report.trace);
+    write_work(run_state.n_steps + 1, time_steps.time());
     files->write_timings(timer);
     throw std::runtime_error(reason + " The state is saved in snapshot.h5.");
   }

@@ -109,17 +109,12 @@ def test_other_output_interval(runs):
 
 
 def test_other_format(runs):
-    """The run says which states are not in the new series."""
+    """The new series has no states that are not there."""
     runs.run("formats", SCENE, {END: 0.5, INTERVAL: 0.25})
     run = runs.run("formats", SCENE, {"Output/Formats": "vtu", INTERVAL: 0.25, END: 1}, "--resume")
-    word = "3 of the 3 states so far are not there as vtu"
-    assert word in run.said
-    assert word in (run.directory / "log.txt").read_text()
     for stem in ("cells", "surface"):
         listed = re.findall(r'file="(.*?)"', (run.directory / f"{stem}.pvd").read_text())
         assert listed == [f"{stem}-0003.vtu", f"{stem}-0004.vtu"]
-    run = runs.run("formats", SCENE, {"Output/Formats": "csv, vtu"}, "--resume")
-    assert "states so far" not in run.said
 
 
 def test_provenance(runs):

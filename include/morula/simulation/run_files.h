@@ -16,6 +16,7 @@
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,36 @@
 
 namespace Morula
 {
+  /** Multiples of an interval, at which something is due. */
+  class Multiples
+  {
+  public:
+    /** @param interval day; 0: never
+     *  @param slack    for the rounding of times, day
+     *  @param after    the first one is later, day */
+    Multiples(const double interval, const double slack, const double after)
+      : interval(interval)
+      , slack(slack)
+    {
+      are_reached(after);
+    }
+
+    /** Whether @p time (day) has come to the next one; it is passed then. */
+    bool
+    are_reached(const double time)
+    {
+      if (interval <= 0. || time < next * interval - slack)
+        return false;
+      next =
+        static_cast<unsigned int>(std::floor((time + slack) / interval)) + 1;
+      return true;
+    }
+
+  private:
+    double       interval, slack;
+    unsigned int next = 0;
+  };
+
   /**
    * The files of one run in its output directory. It opens them, knows when
    * each is due, and numbers the series. All members are collective unless they
@@ -58,37 +89,21 @@ namespace Morula
       progress->message(text);
     }
 
-    /** Appends to condition.csv. Only if the scene asks for the file. */
+    /** Appends rows to condition.csv, newton.csv or forces.csv. Only if the
+     *  scene asks for the file. @param name without its ending */
     void
-    condition(const unsigned int       step,
-              const double             time,
-              const ConditionEstimate &estimate)
+    append(const std::string &name, const std::string &rows)
     {
-      tables.at("condition").append(condition_row(step, time, estimate).text());
-    }
-
-    /** Appends to newton.csv. Only if the scene asks for the file. */
-    void
-    newton(const unsigned int step, const std::vector<NewtonIteration> &trace)
-    {
-      std::string rows;
-      for (const NewtonIteration &state : trace)
-        rows += newton_row(step, state).text();
-      tables.at("newton").append(rows);
+      tables.at(name).append(rows);
     }
 
     /** Whether forces.csv is due at @p time (day), as cells and surface are
      *  from the first step on. */
     bool
-    forces_due(const double time, const bool last) const
+    forces_due(const double time, const bool last)
     {
-      const double interval = scene.output.interval;
-      return last || (interval > 0. &&
-                      time >= next_forces * interval - scene.time.slack());
+      return last || forces.are_reached(time);
     }
-    /** Appends to forces.csv. Only if conditions act on the surface. */
-    void
-    forces(const double time, const std::vector<ForceRow> &rows);
 
     /** Whether the scene asks for cells and surface in any format. */
     bool
@@ -97,28 +112,20 @@ namespace Morula
       return has_format("vtu") || has_format("csv");
     }
 
-    /** Whether output is due at @p time (day). Always true for the last state.
-     */
+    /** Whether output is due at @p time (day). Always true for the first state
+     *  and the last one. */
     bool
-    output_due(const double time, const bool last) const
+    output_due(const double time, const bool last)
     {
-      // The first state is always written, and the last one.
-      const double interval = scene.output.interval;
-      return last || output_times.empty() ||
-             (interval > 0. &&
-              time >= next_output * interval - scene.time.slack());
+      return last || output_times.empty() || outputs.are_reached(time);
     }
     /** Whether a snapshot is due, as output_due() or by the clock of rank 0. */
     bool
-    snapshot_due(const double time, const bool last) const
+    snapshot_due(const double time, const bool last)
     {
       // The clock comes last: the conditions before it are equal on all ranks,
       // so that either all ranks go on to its collective call or none.
-      const double interval = scene.output.snapshot_interval;
-      return last ||
-             (interval > 0. &&
-              time >= next_snapshot * interval - scene.time.slack()) ||
-             snapshot_due_by_clock();
+      return last || snapshots.are_reached(time) || snapshot_due_by_clock();
     }
 
     /** Begins to write the next files of the series of cells and surface. They
@@ -168,8 +175,6 @@ namespace Morula
     }
 
   private:
-    void
-    warn_of_missing_states(); // written with another Output/Formats
     void
     continue_tables(const TissueModel<dim>  &model,
                     const SnapshotData<dim> &resumed_from);
@@ -223,10 +228,7 @@ namespace Morula
     const double                 wall_seconds_before;
     const Timer                 &clock;
     std::vector<double>          output_times;
-    // The next ones are due at these multiples of their intervals.
-    unsigned int next_output;
-    unsigned int next_snapshot;
-    unsigned int next_forces;
+    Multiples outputs, snapshots, forces; // when they are due
     // On this program's clock, s: when the last snapshot was done, and how long
     // it took.
     double                  last_snapshot    = 0.;

@@ -299,6 +299,11 @@ namespace Morula
     }
     void
     write_rows();
+    /** What Newton's method had to do in step number @p step, which has begun
+     *  at @p begin (day): rows of condition.csv and newton.csv, where the scene
+     *  asks for them. */
+    void
+    write_work(const unsigned int step, const double begin);
     void
     output(const bool last);
     SnapshotData<dim>

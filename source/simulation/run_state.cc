@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace Morula
@@ -197,52 +198,68 @@ namespace Morula
     state_.time = time();
   }
 
+
+  namespace
+  {
+    /** Calls visit(name, number) for the numbers that every snapshot has, and
+     *  visit(name, number, otherwise) for others, which are `otherwise` if it
+     *  has them not. */
+    template <typename Steps, typename State, typename Visit>
+    void
+    for_numbers(Steps &steps, State &state, const Visit &visit)
+    {
+      visit("next_id", state.next_id);
+      visit("steps", state.n_steps);
+      visit("rejected_steps", state.n_rejected);
+      visit("step_length", steps.step);
+      visit("step_interval", steps.interval);
+      visit("step_begin", steps.begin);
+      visit("step_part", steps.part);
+      visit("step_level", steps.level);
+      // Without the last step's begin the first step compares nothing with the
+      // step before.
+      visit("last_step_begin", steps.past, steps.time);
+      visit("step_anew", steps.anew, 0.);
+      visit("step_patience", steps.patience, 1.);
+      visit("good_steps", steps.good, 1.);
+      visit("drag", steps.drag, 1.);
+      visit("next_boundary_id", state.next_boundary_id, 0.);
+      visit("surface_way", state.surface_way, 0.);
+      visit("missed_flow", state.error.flow, 0.);
+      visit("step_error", state.error.last, 0.);
+      visit("sum_of_errors", state.error.sum, 0.);
+    }
+
+    /** Stands for what a number is otherwise that must be there. */
+    const double needed = std::numeric_limits<double>::quiet_NaN();
+  } // namespace
+
+
   template <int dim>
   SnapshotData<dim>
   snapshot_of(const Tissue<dim>      &tissue,
               const TimeSteps::State &time_steps,
-              const RunState         &state,
-              const bool              has_boundary_ids)
+              const RunState         &state)
   {
     // What a step needs of the steps before it is stored, by names: numbers
     // first, then the box of the grid and the weights of its last partition
     // (they decide owners and the order of sums, so that a resumed run has the
     // same bits), then this rank's points with the layout of their columns.
-    // Integers up to 2^53 are exact as numbers. Numbers that only some scenes
-    // have are left out elsewhere.
+    // Integers up to 2^53 are exact as numbers.
     SnapshotData<dim> data;
     data.program_version = version_number();
     data.time            = time_steps.time;
-    data.numbers         = {{"next_id", double(state.next_id)},
-                            {"steps", double(state.n_steps)},
-                            {"rejected_steps", double(state.n_rejected)},
-                            {"step_length", time_steps.step},
-                            {"step_interval", double(time_steps.interval)},
-                            {"step_begin", time_steps.begin},
-                            {"step_part", double(time_steps.part)},
-                            {"step_level", double(time_steps.level)},
-                            {"last_step_begin", time_steps.past},
-                            {"step_anew", double(time_steps.anew)}};
-    if (time_steps.patience > 1)
-      {
-        data.numbers["step_patience"] = time_steps.patience;
-        data.numbers["good_steps"]    = time_steps.good;
-      }
-    if (state.error.total() > 0. || state.error.flow > 0.)
-      {
-        data.numbers["missed_flow"]   = state.error.flow;
-        data.numbers["step_error"]    = state.error.last;
-        data.numbers["sum_of_errors"] = state.error.sum;
-      }
-    if (has_boundary_ids)
-      data.numbers["next_boundary_id"] = state.next_boundary_id;
+    for_numbers(time_steps,
+                state,
+                [&](const char  *name,
+                    const double value,
+                    const double otherwise = needed) {
+                  if (value != otherwise)
+                    data.numbers[name] = value;
+                });
     data.numbers.insert(state.kept.begin(), state.kept.end());
     if (state.enclosed_share)
       data.numbers["enclosed_share"] = *state.enclosed_share;
-    if (time_steps.drag > 1.)
-      data.numbers["drag"] = time_steps.drag;
-    if (state.surface_way > 0.)
-      data.numbers["surface_way"] = state.surface_way;
     if (!state.walls.empty())
       data.tables["walls"] = state.walls;
     const GridBox<dim> &box = tissue.grid().box();
@@ -292,42 +309,22 @@ namespace Morula
 
 
   template <int dim>
-  TimeSteps::State
-  saved_time_steps(const SnapshotData<dim> &data)
+  std::pair<TimeSteps::State, RunState>
+  saved_state(const SnapshotData<dim> &data, const NamedNumbers &kept)
   {
-    // What snapshots of older versions do not have is as at t = 0; without the
-    // last step's begin, the first step compares nothing with the step before.
-    const auto optional = [&](const std::string &name, const double otherwise) {
-      return data.numbers.count(name) > 0 ? data.number(name) : otherwise;
-    };
-    return {data.time,
-            data.number("step_length"),
-            static_cast<unsigned int>(data.number("step_interval")),
-            data.number("step_begin"),
-            static_cast<unsigned int>(data.number("step_part")),
-            static_cast<unsigned int>(data.number("step_level")),
-            optional("last_step_begin", data.time),
-            optional("step_anew", 0.) != 0.,
-            static_cast<unsigned int>(optional("step_patience", 1.)),
-            static_cast<unsigned int>(optional("good_steps", 1.)),
-            optional("drag", 1.)};
-  }
-
-
-  template <int dim>
-  RunState
-  saved_run_state(const SnapshotData<dim> &data,
-                  const bool               has_boundary_ids,
-                  const NamedNumbers      &kept)
-  {
-    // What a snapshot must have is read by number(), which refuses one without
-    // it; what only some scenes or later versions store is looked for.
-    RunState state;
-    state.next_id    = data.number("next_id");
-    state.n_steps    = data.number("steps");
-    state.n_rejected = data.number("rejected_steps");
-    if (has_boundary_ids && data.numbers.count("next_boundary_id") > 0)
-      state.next_boundary_id = data.number("next_boundary_id");
+    // number() refuses a snapshot that lacks what it must have. A kept number
+    // whose name ends with '/' stands for all that begin with it.
+    TimeSteps::State steps{};
+    RunState         state;
+    steps.time = data.time;
+    for_numbers(
+      steps,
+      state,
+      [&](const char *name, auto &value, const double otherwise = needed) {
+        value = std::isnan(otherwise) || data.numbers.count(name) > 0 ?
+                  data.number(name) :
+                  otherwise;
+      });
     state.kept = kept;
     for (auto &[name, value] : state.kept)
       if (data.numbers.count(name) > 0)
@@ -338,20 +335,13 @@ namespace Morula
     // Snapshots of versions that did not know the share do not have it.
     if (data.numbers.count("enclosed_share") > 0)
       state.enclosed_share = data.number("enclosed_share");
-    if (data.numbers.count("surface_way") > 0)
-      state.surface_way = data.number("surface_way");
     if (data.tables.count("walls") > 0)
       state.walls = data.table("walls");
-    if (data.numbers.count("step_error") > 0)
-      state.error = {data.number("missed_flow"),
-                     data.number("step_error"),
-                     data.number("sum_of_errors")};
-    return state;
+    return {steps, state};
   }
 
 
   MORULA_INSTANTIATE(snapshot_of);
   MORULA_INSTANTIATE(restore_tissue);
-  MORULA_INSTANTIATE(saved_time_steps);
-  MORULA_INSTANTIATE(saved_run_state);
+  MORULA_INSTANTIATE(saved_state);
 } // namespace Morula

@@ -146,8 +146,7 @@ namespace Morula
     if (!begun.rows.empty())
       set_rows(tissue, begun.rows);
     files->write_snapshot(
-      snapshot_of(tissue, begun.time_steps, begun.run_state, surface.exists()),
-      timer);
+      snapshot_of(tissue, begun.time_steps, begun.run_state), timer);
     files->write_timings(timer);
     throw StoppedBySignal(signal, time_steps.time());
   }

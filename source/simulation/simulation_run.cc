@@ -202,9 +202,9 @@ namespace Morula
                   tissue.cells().columns(),
                   tissue.boundary_points().columns(),
                   comm);
-    run_state =
-      saved_run_state(*resumed_from, surface.exists(), model.tables.kept());
-    time_steps.restore(saved_time_steps(*resumed_from));
+    const auto saved = saved_state(*resumed_from, model.tables.kept());
+    run_state        = saved.second;
+    time_steps.restore(saved.first);
     restore_tissue(*resumed_from, tissue);
     surface.resume(tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <utility>
 
 namespace Morula
 {
@@ -255,17 +256,13 @@ namespace Morula
     ErrorInTime error = {};
   };
 
-  /**
-   * Everything that outlives a step, for snapshot.h5; the files of the run add
-   * their own.
-   * @param has_boundary_ids whether ids of boundary points are given
-   */
+  /** Everything that outlives a step, for snapshot.h5; the files of the run add
+   *  their own. */
   template <int dim>
   SnapshotData<dim>
   snapshot_of(const Tissue<dim>      &tissue,
               const TimeSteps::State &time_steps,
-              const RunState         &state,
-              const bool              has_boundary_ids);
+              const RunState         &state);
 
   /** Fills the tissue with the points of a snapshot, which are taken out of it.
    *  Collective. @throws InputError where the snapshot lacks anything */
@@ -273,18 +270,12 @@ namespace Morula
   void
   restore_tissue(SnapshotData<dim> &data, Tissue<dim> &tissue);
 
-  /** The place in the sequence of steps. @throws InputError if it is missing */
+  /** The place in the sequence of steps, and the run state.
+   *  @param kept the numbers of the effects at t = 0: what the snapshot does
+   * not know of them is that @throws InputError where it lacks anything */
   template <int dim>
-  TimeSteps::State
-  saved_time_steps(const SnapshotData<dim> &data);
-
-  /** The run state. @param kept the numbers of the effects at t = 0: what the
-   *  snapshot does not know of them is that. @throws InputError likewise */
-  template <int dim>
-  RunState
-  saved_run_state(const SnapshotData<dim> &data,
-                  const bool               has_boundary_ids,
-                  const NamedNumbers      &kept);
+  std::pair<TimeSteps::State, RunState>
+  saved_state(const SnapshotData<dim> &data, const NamedNumbers &kept);
 } // namespace Morula
 
 #endif

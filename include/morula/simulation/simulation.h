@@ -309,10 +309,7 @@ namespace Morula
     SnapshotData<dim>
     snapshot() const
     {
-      return snapshot_of(tissue,
-                         time_steps.state(),
-                         run_state,
-                         surface.exists());
+      return snapshot_of(tissue, time_steps.state(), run_state);
     }
     /** Saves the state that the present step has begun with. @throws
      *  StoppedBySignal */

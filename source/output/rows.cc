@@ -4,27 +4,10 @@
 #include <morula/base/instantiate.h>
 #include <morula/output/rows.h>
 
-#include <tuple>
-
 namespace Morula
 {
   namespace
   {
-    /** The rows are ordered by time, then by id, then by kind. */
-    struct EventKey
-    {
-      double                time;
-      types::particle_index id;
-      unsigned int          kind;
-
-      bool
-      operator<(const EventKey &other) const
-      {
-        return std::tie(time, id, kind) <
-               std::tie(other.time, other.id, other.kind);
-      }
-    };
-
     void
     add_vector(const std::string  &name,
                const Tensor<1, 3> &vector,
@@ -144,12 +127,12 @@ namespace Morula
              const EventsContents         &contents,
              const MPI_Comm                comm)
   {
-    std::vector<std::string> rows;
-    std::vector<EventKey>    keys;
+    std::vector<std::string>           rows;
+    std::vector<std::array<double, 3>> keys;
     for (const CellEvent &event : events)
       {
         rows.push_back(event_row(event, contents).text());
-        keys.push_back({event.time, event.id, event.kind.order});
+        keys.push_back({{event.time, 1. * event.id, 1. * event.kind.order}});
       }
     // Several changes of a cell at one time stay in their order: each ends
     // where the next one begins.

@@ -4,12 +4,9 @@
 #ifndef morula_output_table_h
 #define morula_output_table_h
 
+#include <morula/base/send_records.h>
 #include <morula/output/output_file.h>
 #include <morula/output/sealed_file.h>
-
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/mpi_large_count.h>
 
 #include <mpi.h>
 
@@ -29,50 +26,24 @@ namespace Morula
 {
   using namespace dealii;
 
-  /**
-   * Gathers all ranks' strings, or vectors of plain values, on rank 0. The
-   * result is in the order of the ranks; on other ranks it is empty. A rank's
-   * part may be larger than 2 GB, which Utilities::MPI::gather() does not
-   * allow. Collective.
-   */
-  template <typename Container>
-  std::vector<Container>
-  gather_to_root(Container local, const MPI_Comm comm)
+  /** The lists of all ranks, by rank, on rank 0; elsewhere nothing.
+   *  Collective. */
+  template <typename T>
+  std::vector<std::vector<T>>
+  gather_to_root(std::vector<T> local, const MPI_Comm comm)
   {
-    using T = typename Container::value_type;
-    static_assert(std::is_trivially_copyable<T>::value,
-                  "only plain values can be sent byte by byte");
-    constexpr int tag = 0;
-
-    const std::vector<std::size_t> sizes =
-      Utilities::MPI::gather(comm, local.size());
-    if (Utilities::MPI::this_mpi_process(comm) != 0)
-      {
-        if (!local.empty())
-          {
-            const int ierr = Utilities::MPI::LargeCount::Send_c(
-              local.data(), local.size() * sizeof(T), MPI_BYTE, 0, tag, comm);
-            AssertThrowMPI(ierr);
-          }
-        return {};
-      }
-
-    std::vector<Container> all(sizes.size());
-    all[0] = std::move(local);
-    for (std::size_t rank = 1; rank < all.size(); ++rank)
-      if (sizes[rank] > 0)
-        {
-          all[rank].resize(sizes[rank]);
-          const int ierr =
-            Utilities::MPI::LargeCount::Recv_c(&all[rank][0],
-                                               sizes[rank] * sizeof(T),
-                                               MPI_BYTE,
-                                               rank,
-                                               tag,
-                                               comm,
-                                               MPI_STATUS_IGNORE);
-          AssertThrowMPI(ierr);
-        }
+    // Rank 0's own list stays where it is.
+    const bool is_root = Utilities::MPI::this_mpi_process(comm) == 0;
+    std::map<unsigned int, std::vector<T>> sent;
+    if (!is_root)
+      sent[0] = std::move(local);
+    std::map<unsigned int, std::vector<T>> lists = send_records(sent, comm);
+    std::vector<std::vector<T>>            all;
+    if (!is_root)
+      return all;
+    lists[0] = std::move(local);
+    for (auto &[rank, list] : lists)
+      all.push_back(std::move(list));
     return all;
   }
 
@@ -161,11 +132,11 @@ namespace Morula
                 const MPI_Comm                  comm)
   {
     // Rows travel as one text. Their lengths cut it into rows again.
-    std::string              text;
+    std::vector<char>        text;
     std::vector<std::size_t> lengths;
     for (const std::string &row : rows)
       {
-        text += row;
+        text.insert(text.end(), row.begin(), row.end());
         lengths.push_back(row.size());
       }
     const auto all_keys    = gather_to_root(std::move(keys), comm);
@@ -174,7 +145,7 @@ namespace Morula
     std::vector<std::pair<Key, std::string_view>> all;
     for (std::size_t rank = 0; rank < all_keys.size(); ++rank)
       {
-        std::string_view rest = all_texts[rank];
+        std::string_view rest(all_texts[rank].data(), all_texts[rank].size());
         for (std::size_t i = 0; i < all_keys[rank].size(); ++i)
           {
             all.emplace_back(all_keys[rank][i],

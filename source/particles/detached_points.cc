@@ -129,7 +129,7 @@ namespace Morula
       const double      h     = tissue.grid().box().spacing();
       const auto        value = [&](const unsigned int p) {
         return NearCell(cells.position(p),
-                        cells.F(p),
+                        cells[p].F(),
                         surface_reach<dim>(cells[p], h));
       };
       const auto nearest = nearest_values(

@@ -470,9 +470,9 @@ namespace Morula
         largest = std::max(largest, youngs_modulus(lame));
     else
       for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-        largest =
-          std::max(largest,
-                   material.youngs_modulus(tissue.cells().founder_position(p)));
+        largest = std::max(largest,
+                           material.youngs_modulus(
+                             tissue.cells()[p].founder_position()));
     return Utilities::MPI::max(largest, comm);
   }
 

@@ -222,7 +222,7 @@ namespace Morula
     // can be too short for a step. Each rank checks the cells that it owns.
     std::vector<Point<dim>> founders;
     for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-      founders.push_back(tissue.cells().founder_position(p));
+      founders.push_back(tissue.cells()[p].founder_position());
     everywhere(comm, [&]() {
       model.development.cycle()->check(founders, model.scene.time.step);
     });

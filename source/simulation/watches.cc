@@ -345,7 +345,7 @@ namespace Morula
           {
             if (!sides)
               sides.emplace(held, scene, points.columns());
-            if (sides->behind(cells.founder_position(p), near).norm() == 0.)
+            if (sides->behind(cells[p].founder_position(), near).norm() == 0.)
               behind = sides->behind(x, near);
           }
         const std::vector<double> row = row_of<dim>(

@@ -125,12 +125,12 @@ namespace Step2
     const Cells<dim>  &cells  = tissue.cells();
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
-        const Point<dim>     X = cells.founder_position(p);
+        const Point<dim>     X = cells[p].founder_position();
         const double         V = cells.initial_volume(p);
         const Tensor<1, dim> u = cells.position(p) - X;
         errors.displacement += V * (u - waves.displacement(X)).norm_square();
         errors.deformation +=
-          V * (cells.F(p) - waves.deformation(X)).norm_square();
+          V * (cells[p].F() - waves.deformation(X)).norm_square();
         volume += V;
       }
     const BoundaryPoints<dim> &points = tissue.boundary_points();

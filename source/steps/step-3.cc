@@ -79,7 +79,7 @@ namespace Step3
     for (unsigned int p = 0; p < cells.size(); ++p)
       largest = std::max(largest,
                          cells.position(p).distance(Point<dim>(
-                           cells.growth(p) * cells.founder_position(p))));
+                           cells[p].growth() * cells[p].founder_position())));
     return Utilities::MPI::max(largest, tissue.communicator());
   }
 

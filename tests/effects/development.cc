@@ -87,9 +87,10 @@ TEST_2D_3D(CellGrowth, ShowsALawItsOwnGrowth)
       grow(other, cycle, t, t + 0.2);
       factor *= 1.1;
       for (std::size_t i = 0; i < tissue.cells().size(); ++i)
-        EXPECT_LE(
-          (tissue.cells().growth(i) - factor * other.cells().growth(i)).norm(),
-          1e-13);
+        EXPECT_LE((tissue.cells()[i].growth() -
+                   factor * other.cells()[i].growth())
+                    .norm(),
+                  1e-13);
     }
 }
 
@@ -128,14 +129,14 @@ TEST_2D_3D(CellGrowth, TakesTheCheckpointAtTheStartOfTheStep)
   SmallBall<dim>             tissue(growth, true);
   std::vector<double>        J;
   for (unsigned int p = 0; p < tissue.cells().size(); ++p)
-    J.push_back(determinant(tissue.cells().F(p)));
+    J.push_back(determinant(tissue.cells()[p].F()));
   const auto n_large =
     std::count_if(J.begin(), J.end(), [](const double j) { return j > 1.05; });
   ASSERT_GT(n_large, 0);
   ASSERT_LT(n_large, static_cast<int>(J.size()));
   grow(tissue, growth, 0.1, 0.3);
   for (std::size_t i = 0; i < J.size(); ++i)
-    EXPECT_NEAR(determinant(tissue.cells().growth(i)),
+    EXPECT_NEAR(determinant(tissue.cells()[i].growth()),
                 J[i] > 1.05 ? 1.2 : 1.,
                 1e-12);
 }

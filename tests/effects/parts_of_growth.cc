@@ -101,7 +101,7 @@ namespace
               product = contracted(cell, t + 0.2) * product;
             EXPECT_LE((F_g - product).norm(), 1e-13);
 
-            const Tensor<2, dim> without = other.cells().growth(p);
+            const Tensor<2, dim> without = other.cells()[p].growth();
             flow += (F_g - without).norm();
             EXPECT_NEAR(determinant(F_g), determinant(without), 1e-13);
             // What can be seen of the cycle is the same.

@@ -153,7 +153,7 @@ TEST(UptakeOfAField, WithoutDiffusionEachCellIsByItself)
                [&](const auto &cells, const auto &values, const auto &row) {
                  for (unsigned int p = 0; p < cells.size(); ++p)
                    {
-                     const Point<2> X = cells.founder_position(p);
+                     const Point<2> X = cells[p].founder_position();
                      double c = (X[0] > 50.) + std::abs(std::sin(X[0] / 3.));
                      const double k = 1000. * (X[0] > 10.) + X[1] * X[1];
                      for (unsigned int step = 0; step < row.step; ++step)
@@ -186,7 +186,7 @@ TEST(UptakeOfAField, AJumpOfTheUptake)
                        {
                          const double amount = cells.volume(p) * values[p];
                          sums[0] += amount;
-                         if (cells.founder_position(p)[0] > 10.)
+                         if (cells[p].founder_position()[0] > 10.)
                            sums[1] +=
                              0.1 * 1000. * amount; // used up in the step
                          EXPECT_GE(values[p], 0.);
@@ -224,7 +224,7 @@ TEST(UptakeOfAField, ValuesSetToZeroChangeNoBalance)
                  std::vector<double> sums(2);
                  for (unsigned int p = 0; p < cells.size(); ++p)
                    {
-                     const double X = cells.founder_position(p)[0];
+                     const double X = cells[p].founder_position()[0];
                      sums[0] += cells.volume(p) * values[p] * 1e3;
                      sums[1] += cells.volume(p) * 5. * (X > 10.);
                      EXPECT_GE(values[p], 0.);

@@ -17,48 +17,52 @@
 
 namespace Morula
 {
-  /**
-   * This rank's boundary points by their position p in the canonical order:
-   * `points.F(p)`, `points.area_vector(p)`. A whole point is `points[p]`. The
-   * ParticleHandler stores them.
-   */
-  template <int dim>
-  class BoundaryPoints : public PointStore<dim>
+  /** This rank's points of a kind by their position p in the canonical order.
+   *  A whole point is `points[p]`. The ParticleHandler stores them. */
+  template <int dim, typename OfColumns, template <int, typename> class View>
+  class PointsWithColumns : public PointStore<dim>
   {
   public:
     /** No points yet, with these columns. */
-    explicit BoundaryPoints(const BoundaryColumns<dim> &columns)
+    explicit PointsWithColumns(const OfColumns &columns)
       : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
       , columns_(columns)
     {}
 
-    /** The columns of a boundary point. */
-    const BoundaryColumns<dim> &
+    /** The columns of a point. */
+    const OfColumns &
     columns() const
     {
       return columns_;
     }
 
-    /** One boundary point. */
-    BoundaryView<dim, const double>
+    /** One point. */
+    View<dim, const double>
     operator[](const unsigned int p) const
     {
       return {this->row(p), columns_};
     }
 
-    /** One boundary point, for writing. */
-    BoundaryView<dim, double>
+    /** One point, for writing. */
+    View<dim, double>
     operator[](const unsigned int p)
     {
       return {this->row(p), columns_};
     }
 
-    /** F. */
-    Tensor<2, dim>
-    F(const unsigned int p) const
-    {
-      return (*this)[p].F();
-    }
+  private:
+    const OfColumns columns_;
+  };
+
+
+  /** This rank's boundary points: `points[p].F()`, `points.area_vector(p)`. */
+  template <int dim>
+  class BoundaryPoints
+    : public PointsWithColumns<dim, BoundaryColumns<dim>, BoundaryView>
+  {
+  public:
+    using PointsWithColumns<dim, BoundaryColumns<dim>, BoundaryView>::
+      PointsWithColumns;
 
     /** What holds or loads the point. */
     SurfaceCondition
@@ -96,54 +100,15 @@ namespace Morula
                             Tensor<1, dim>()});
       return list;
     }
-
-  private:
-    const BoundaryColumns<dim> columns_;
   };
 
 
-  /**
-   * This rank's cells by their position p in the canonical order: `cells.F(p)`,
-   * `cells.growth(p)`, `cells.get(column, p)`. A whole cell is `cells[p]`. The
-   * ParticleHandler stores them.
-   */
+  /** This rank's cells: `cells[p].F()`, `cells.get(column, p)`. */
   template <int dim>
-  class Cells : public PointStore<dim>
+  class Cells : public PointsWithColumns<dim, CellColumns<dim>, CellView>
   {
   public:
-    /** No cells yet, with these columns. */
-    explicit Cells(const CellColumns<dim> &columns)
-      : PointStore<dim>(columns.n_numbers(), columns.body, columns.part)
-      , columns_(columns)
-    {}
-
-    /** The columns of a cell. */
-    const CellColumns<dim> &
-    columns() const
-    {
-      return columns_;
-    }
-
-    /** One cell. */
-    CellView<dim, const double>
-    operator[](const unsigned int p) const
-    {
-      return {this->row(p), columns_};
-    }
-
-    /** One cell, for writing. */
-    CellView<dim, double>
-    operator[](const unsigned int p)
-    {
-      return {this->row(p), columns_};
-    }
-
-    /** Initial position of the founder, µm. */
-    Point<dim>
-    founder_position(const unsigned int p) const
-    {
-      return (*this)[p].founder_position();
-    }
+    using PointsWithColumns<dim, CellColumns<dim>, CellView>::PointsWithColumns;
 
     /** V⁰, µm^dim. */
     double
@@ -152,29 +117,12 @@ namespace Morula
       return (*this)[p].initial_volume();
     }
 
-    /** F, the deformation gradient since t = 0. */
-    Tensor<2, dim>
-    F(const unsigned int p) const
-    {
-      return (*this)[p].F();
-    }
-
-    /** F_g; the identity if no effect lets cells grow. */
-    Tensor<2, dim>
-    growth(const unsigned int p) const
-    {
-      return (*this)[p].growth();
-    }
-
     /** V = V⁰ det F, µm^dim. */
     double
     volume(const unsigned int p) const
     {
       return (*this)[p].volume();
     }
-
-  private:
-    const CellColumns<dim> columns_;
   };
 
 

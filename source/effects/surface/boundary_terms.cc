@@ -145,7 +145,7 @@ namespace Morula
     // store's order.
     for (std::size_t k = 0; k < held.list.size(); ++k)
       {
-        const Tensor<2, dim> F = store.F(held.groups.points[k]);
+        const Tensor<2, dim> F = store[held.groups.points[k]].F();
         if (!growth.present)
           current.push_back(state(F, I, grown));
         else

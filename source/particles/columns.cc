@@ -11,16 +11,14 @@ namespace Morula
 {
   namespace
   {
-    /** How many numbers each column of a layout has. */
-    std::map<std::string, unsigned int>
-    sizes(const std::string &layout)
+    /** The columns of a layout: a line of it is a name and how many numbers. */
+    std::map<std::string, std::string>
+    columns_of(const std::string &layout)
     {
-      // A line of a layout is a name and a number.
-      std::map<std::string, unsigned int> columns;
-      std::istringstream                  lines(layout);
-      std::string                         name;
-      for (unsigned int n = 0; lines >> name >> n;)
-        columns[name] = n;
+      std::map<std::string, std::string> columns;
+      std::istringstream                 lines(layout);
+      for (std::string name, n; lines >> name >> n;)
+        columns[name + ' ' + n] = name;
       return columns;
     }
   } // namespace
@@ -69,26 +67,19 @@ namespace Morula
   std::string
   Columns::differences(const std::string &other) const
   {
-    // The columns are compared by name, as users know them. The order matters
-    // as well, since a row is read by places.
-    const std::map<std::string, unsigned int> mine   = sizes(layout());
-    const std::map<std::string, unsigned int> theirs = sizes(other);
-    std::vector<std::string>                  parts;
-    for (const auto &[name, n] : mine)
-      if (theirs.count(name) == 0)
-        parts.push_back("lacks '" + name + "'");
-      else if (theirs.at(name) != n)
-        parts.push_back("has '" + name + "' of " +
-                        std::to_string(theirs.at(name)) + " numbers, not " +
-                        std::to_string(n));
-    for (const auto &column : theirs)
-      if (mine.count(column.first) == 0)
-        parts.push_back("has '" + column.first + "'");
-    if (parts.empty() && other != layout())
-      return "has them in another order";
+    // The columns are compared by name, as users know them, and size. The order
+    // matters as well, since a row is read by places.
+    const auto  mine = columns_of(layout()), theirs = columns_of(other);
     std::string text;
-    for (const std::string &part : parts)
-      text += (text.empty() ? "" : " and ") + part;
-    return text;
+    const auto  add =
+      [&](const std::string &word, const auto &of, const auto &in) {
+        for (const auto &[column, name] : of)
+          if (in.count(column) == 0)
+            text += (text.empty() ? "" : " and ") + word + " '" + name + "'";
+      };
+    add("lacks", mine, theirs);
+    add("has", theirs, mine);
+    return text.empty() && other != layout() ? "has them in another order" :
+                                               text;
   }
 } // namespace Morula

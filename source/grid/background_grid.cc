@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.templates.h>
 #include <deal.II/grid/grid_generator.h>
 
-#include <algorithm>
 #include <limits>
 #include <map>
 

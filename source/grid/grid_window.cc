@@ -6,8 +6,6 @@
 
 #include <deal.II/base/mpi.templates.h>
 
-#include <algorithm>
-
 namespace Morula
 {
   namespace

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/grid/grid_box.h>
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/parting.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <queue>

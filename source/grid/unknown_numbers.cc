@@ -12,9 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <utility>
 
 namespace Morula
 {

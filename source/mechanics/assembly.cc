@@ -7,9 +7,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
-#include <algorithm>
-#include <utility>
-
 namespace Morula
 {
   template <int dim, int n_components>

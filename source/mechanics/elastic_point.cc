@@ -4,8 +4,6 @@
 #include <morula/base/instantiate.h>
 #include <morula/mechanics/elastic_point.h>
 
-#include <cmath>
-
 namespace Morula
 {
   namespace

@@ -4,7 +4,6 @@
 #include <morula/mechanics/enclosure.h>
 
 #include <array>
-#include <utility>
 
 namespace Morula
 {

@@ -4,8 +4,6 @@
 #include <morula/mechanics/elastic_point.h>
 #include <morula/mechanics/internal_force.h>
 
-#include <cmath>
-
 namespace Morula
 {
   namespace

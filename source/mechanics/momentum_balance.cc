@@ -5,9 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <sstream>

@@ -9,8 +9,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <algorithm>
-
 namespace Morula
 {
   namespace

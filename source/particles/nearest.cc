@@ -13,11 +13,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <optional>
 #include <set>
 #include <tuple>
-#include <utility>
 
 namespace Morula
 {

@@ -8,7 +8,6 @@
 #include <morula/particles/nearest.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
-#include <morula/particles/tissue.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,7 +15,6 @@
 #include <cmath>
 #include <map>
 #include <tuple>
-#include <vector>
 
 namespace Morula
 {

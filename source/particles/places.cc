@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <tuple>
-#include <vector>
 
 namespace Morula
 {

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

@@ -4,11 +4,9 @@
 #include <morula/base/available_memory.h>
 #include <morula/base/parameter_keys.h>
 #include <morula/base/version.h>
-#include <morula/output/point_fields.h>
 #include <morula/scene/seeded_tissue.h>
 #include <morula/simulation/run_files.h>
 
-#include <algorithm>
 #include <ctime>
 #include <fstream>
 #include <iterator>

@@ -9,10 +9,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 
 namespace Morula
 {

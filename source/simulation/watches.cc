@@ -13,7 +13,6 @@
 #include <limits>
 #include <sstream>
 #include <utility>
-#include <vector>
 
 namespace Morula
 {

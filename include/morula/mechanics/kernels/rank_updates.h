@@ -34,10 +34,11 @@ namespace Morula
     template <int dimension, typename Number>
     struct PointRows
     {
-      using Real                          = Number;
-      static constexpr int          dim   = dimension;
-      static constexpr unsigned int width = Sizes<dim, Real>::width;
-      using Rows                          = Real[dim][width];
+      using Real                            = Number;
+      static constexpr bool         coupled = false;
+      static constexpr int          dim     = dimension;
+      static constexpr unsigned int width   = Sizes<dim, Real>::width;
+      using Rows                            = Real[dim][width];
 
       alignas(64) Rows g;
       Rows m;
@@ -61,9 +62,10 @@ namespace Morula
     template <int dim, typename Real>
     struct CoupledPointRows : public PointRows<dim, Real>
     {
-      using Base = PointRows<dim, Real>;
-      typename Base::Rows b_g;   // b_e g
-      typename Base::Rows b_g_C; // B g + C b_e g
+      using Base                    = PointRows<dim, Real>;
+      static constexpr bool coupled = true;
+      typename Base::Rows   b_g;   // b_e g
+      typename Base::Rows   b_g_C; // B g + C b_e g
 
       /** Fills the rows that are multiples of g and b_e g: B b_e g goes with A
        *  g. */

@@ -71,69 +71,51 @@ namespace Morula
         }
     }
 
-    /** The rows of the rank updates of these points. @param of_A is
-     *  added to W A, and @p of_gamma to W γ */
-    template <int dim, typename Real>
+    /** The rows of the rank updates of these points. @param of_A is added to
+     *  W A, and @p of_gamma to W γ. A law with B and C has b_e g = F_e Aᵀ ∇N as
+     *  well. */
+    template <int dim, typename LawsResponse, typename Point>
     MORULA_INLINE void
-    make_rows(const Points<dim>     &points,
-              const Response<Lanes> &r,
-              const Lanes           &A,
-              const Lanes           &gamma,
-              const Lanes           &of_A,
-              const Lanes           &of_gamma,
-              const unsigned int     n,
-              PointRows<dim, Real>  *rows)
+    make_rows(const Points<dim>  &points,
+              const LawsResponse &r,
+              const Lanes        &A,
+              const Lanes        &gamma,
+              const Lanes        &of_A,
+              const Lanes        &of_gamma,
+              const unsigned int  n,
+              Point              *rows)
     {
-      Lanes M[2 * dim][dim];
+      constexpr unsigned int n_rows = (Point::coupled ? 3 : 2) * dim;
+      Lanes                  M[n_rows][dim];
       gradient_matrices(points, r.alpha, M);
-      const Rows<dim, Real, 2 * dim> all_rows(points, M);
+      if constexpr (Point::coupled)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              M[2 * dim + i][k] = points.F_e[i][0] * points.A[k][0];
+              for (unsigned int l = 1; l < dim; ++l)
+                M[2 * dim + i][k] += points.F_e[i][l] * points.A[k][l];
+            }
+      const Rows<dim, typename Point::Real, n_rows> all_rows(points, M);
       for (unsigned int l = 0; l < n; ++l)
         for (unsigned int i = 0; i < dim; ++i)
           {
             all_rows.write(i, l, rows[l].g[i]);
             all_rows.write(dim + i, l, rows[l].m[i]);
+            if constexpr (Point::coupled)
+              all_rows.write(2 * dim + i, l, rows[l].b_g[i]);
           }
       const Numbers W_A = points.W * A + of_A,
                     W_c = points.W * (r.alpha - gamma) - of_gamma;
-      for (unsigned int l = 0; l < n; ++l)
-        rows[l].scale(W_A[l], W_c[l]);
-    }
-
-    /** Makes the rows of a law with B and C, which has b_e g = F_e Aᵀ ∇N as
-     *  well. */
-    template <int dim, typename Real>
-    MORULA_INLINE void
-    make_rows(const Points<dim>            &points,
-              const CoupledResponse<Lanes> &r,
-              const Lanes                  &A,
-              const Lanes                  &gamma,
-              const Lanes                  &of_A,
-              const Lanes                  &of_gamma,
-              const unsigned int            n,
-              CoupledPointRows<dim, Real>  *rows)
-    {
-      Lanes M[3 * dim][dim];
-      gradient_matrices(points, r.alpha, M);
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            M[2 * dim + i][k] = points.F_e[i][0] * points.A[k][0];
-            for (unsigned int l = 1; l < dim; ++l)
-              M[2 * dim + i][k] += points.F_e[i][l] * points.A[k][l];
-          }
-      const Rows<dim, Real, 3 * dim> all_rows(points, M);
-      for (unsigned int l = 0; l < n; ++l)
-        for (unsigned int i = 0; i < dim; ++i)
-          {
-            all_rows.write(i, l, rows[l].g[i]);
-            all_rows.write(dim + i, l, rows[l].m[i]);
-            all_rows.write(2 * dim + i, l, rows[l].b_g[i]);
-          }
-      const Numbers W_A = points.W * A + of_A,
-                    W_c = points.W * (r.alpha - gamma) - of_gamma,
-                    W_B = points.W * r.B, W_C = points.W * r.C;
-      for (unsigned int l = 0; l < n; ++l)
-        rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
+      if constexpr (Point::coupled)
+        {
+          const Numbers W_B = points.W * r.B, W_C = points.W * r.C;
+          for (unsigned int l = 0; l < n; ++l)
+            rows[l].scale(W_A[l], W_c[l], W_B[l], W_C[l]);
+        }
+      else
+        for (unsigned int l = 0; l < n; ++l)
+          rows[l].scale(W_A[l], W_c[l]);
     }
 
     /** Type of the numbers that a law's tangent needs of a point. */

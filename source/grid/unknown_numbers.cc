@@ -185,18 +185,6 @@ namespace Morula
         numbers[c] = next++;
         pieces_.push_back(copies.list()[c].piece);
       }
-    add_small_pieces(copies, small_pieces, grid, next);
-  }
-
-  template <int dim>
-  void
-  UnknownNumbers<dim>::add_small_pieces(const SplineCopies<dim>   &copies,
-                                        SmallPieces               &small_pieces,
-                                        const BackgroundGrid<dim> &grid,
-                                        unsigned int               next)
-  {
-    const MPI_Comm     comm = grid.communicator();
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
     // Every rank knows all small pieces. The owner of each sets its first
     // unknown, the others have 0 there, and a sum tells all.
     std::vector<unsigned int> first(small_pieces.size(), 0);

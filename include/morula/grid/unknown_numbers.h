@@ -125,14 +125,6 @@ namespace Morula
     }
 
   private:
-    /** Numbers the small pieces' unknowns behind @p next, which are this
-     *  rank's. Collective. */
-    void
-    add_small_pieces(const SplineCopies<dim>   &copies,
-                     SmallPieces               &small_pieces,
-                     const BackgroundGrid<dim> &grid,
-                     unsigned int               next);
-
     std::vector<unsigned int> numbers; // by copy
     std::vector<unsigned int> pieces_;
     IndexSet                  owned_;

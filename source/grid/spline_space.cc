@@ -45,11 +45,30 @@ namespace Morula
         wide = find_splines(grid, parameters);
       }
     count(grid.communicator());
-    numbers = UnknownNumbers<dim>(copies, own_unknowns(), small_pieces, grid);
+    std::vector<unsigned int> own;
+    for (unsigned int c = 0; c < copies.list().size(); ++c)
+      if (copies.is_own(copies.list()[c]) && is_unknown(copies.list()[c]))
+        own.push_back(c);
+    numbers = UnknownNumbers<dim>(copies, own, small_pieces, grid);
     numbers.ask(copies_of_others(), copies, grid);
     owned_  = numbers.owned();
     pieces_ = numbers.pieces();
-    express_grid_cells();
+    std::map<unsigned int, Terms> outer; // many grid cells share a spline
+    const auto                    terms_of = [&](const unsigned int copy) {
+      if (numbers.has(copy))
+        return Terms{{numbers[copy], 1.}};
+      auto found = outer.find(copy);
+      if (found == outer.end())
+        found = outer.emplace(copy, expression(copy)).first;
+      return found->second;
+    };
+    for (const unsigned int node : copies.own_nodes())
+      {
+        std::vector<Terms> rows;
+        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
+          rows.push_back(terms_of(copy_at(node, a)));
+        add_grid_cell(node, rows);
+      }
     find_relevant();
   }
 
@@ -154,28 +173,6 @@ namespace Morula
 
   template <int dim>
   void
-  SplineSpace<dim>::express_grid_cells()
-  {
-    std::map<unsigned int, Terms> outer; // many grid cells share a spline
-    const auto                    terms_of = [&](const unsigned int copy) {
-      if (numbers.has(copy))
-        return Terms{{numbers[copy], 1.}};
-      auto found = outer.find(copy);
-      if (found == outer.end())
-        found = outer.emplace(copy, expression(copy)).first;
-      return found->second;
-    };
-    for (const unsigned int node : copies.own_nodes())
-      {
-        std::vector<Terms> rows;
-        for (unsigned int a = 0; a < BSpline<dim>::n; ++a)
-          rows.push_back(terms_of(copy_at(node, a)));
-        add_grid_cell(node, rows);
-      }
-  }
-
-  template <int dim>
-  void
   SplineSpace<dim>::add_grid_cell(const unsigned int        node,
                                   const std::vector<Terms> &rows)
   {
@@ -252,9 +249,26 @@ namespace Morula
     // affine fields. Small pieces have unknowns of their polynomial: the value
     // at its centre and the slopes per grid spacing, doc/theory.md (3.4);
     // quadratic ones are 0.
-    if (!bodies.empty())
-      return affine_coefficients_of_body(piece, a, gradient);
     std::vector<double> coefficients(owned().n_elements(), 0.);
+    // The unknowns of this rank stand body by body. Those of other bodies stay
+    // at 0.
+    std::size_t first = 0;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        if (piece >= first_piece[b] && piece < first_piece[b + 1])
+          {
+            const auto of_body =
+              bodies[b].affine_coefficients(piece - first_piece[b],
+                                            a,
+                                            gradient);
+            std::copy(of_body.begin(),
+                      of_body.end(),
+                      coefficients.begin() + first);
+          }
+        first += bodies[b].owned().n_elements();
+      }
+    if (!bodies.empty())
+      return coefficients;
     const auto set = [&](const unsigned int unknown, const double value) {
       if (owned().is_element(unknown))
         coefficients[owned().index_within_set(unknown)] = value;
@@ -377,34 +391,6 @@ namespace Morula
   }
 
 
-
-  template <int dim>
-  std::vector<double>
-  SplineSpace<dim>::affine_coefficients_of_body(
-    const unsigned int    piece,
-    const double          a,
-    const Tensor<1, dim> &gradient) const
-  {
-    // The unknowns of this rank stand body by body. Those of other bodies stay
-    // at 0.
-    std::vector<double> coefficients(owned().n_elements(), 0.);
-    std::size_t         first = 0;
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        if (piece >= first_piece[b] && piece < first_piece[b + 1])
-          {
-            const auto of_body =
-              bodies[b].affine_coefficients(piece - first_piece[b],
-                                            a,
-                                            gradient);
-            std::copy(of_body.begin(),
-                      of_body.end(),
-                      coefficients.begin() + first);
-          }
-        first += bodies[b].owned().n_elements();
-      }
-    return coefficients;
-  }
 
   template class SplineSpace<2>;
   template class SplineSpace<3>;

@@ -275,31 +275,12 @@ namespace Morula
       return !extend || (copy.inner && small_pieces.count(copy.piece) == 0);
     }
 
-    /** Copies that are unknowns of this rank. */
-    std::vector<unsigned int>
-    own_unknowns() const
-    {
-      std::vector<unsigned int> own;
-      for (unsigned int c = 0; c < copies.list().size(); ++c)
-        if (copies.is_own(copies.list()[c]) && is_unknown(copies.list()[c]))
-          own.push_back(c);
-      return own;
-    }
-
     std::vector<unsigned int>
     copies_of_others() const;
-    void
-    express_grid_cells();
     void
     add_grid_cell(const unsigned int node, const std::vector<Terms> &rows);
     void
     find_relevant();
-
-    /** affine_coefficients() where bodies are parted. */
-    std::vector<double>
-    affine_coefficients_of_body(const unsigned int    piece,
-                                const double          a,
-                                const Tensor<1, dim> &gradient) const;
 
     /** The copy of spline @p a of a node's grid cell. */
     unsigned int

@@ -20,21 +20,16 @@ namespace Morula
 
     /** One count for each grid cell, in order. */
     GridCellCounts
-    merged(GridCellCounts counts)
+    merged(const GridCellCounts &counts)
     {
       // Counts of a grid cell may come from several ranks and several times
-      // from one. Sorted, they are neighbours.
-      std::sort(counts.begin(),
-                counts.end(),
-                [](const GridCellCount &a, const GridCellCount &b) {
-                  return a.number < b.number;
-                });
-      GridCellCounts result;
+      // from one.
+      std::map<unsigned int, unsigned int> sums;
       for (const GridCellCount &count : counts)
-        if (result.empty() || result.back().number != count.number)
-          result.push_back(count);
-        else
-          result.back().n += count.n;
+        sums[count.number] += count.n;
+      GridCellCounts result;
+      for (const auto &[number, n] : sums)
+        result.push_back({number, n});
       return result;
     }
 

@@ -37,14 +37,6 @@ namespace Morula
                              [&](const unsigned int neighbor, const auto &) {
                                near_contest[neighbor] = 1;
                              });
-    find_linked();
-  }
-
-
-  template <int dim>
-  void
-  GridNodes<dim>::find_linked()
-  {
     // Each spline asks for the links of its support, and supports overlap: so
     // links are looked up once for each node.
     first_linked.assign(1, 0);
@@ -151,36 +143,19 @@ namespace Morula
   void
   GridContents<dim>::sum_quadrature_points(const BackgroundGrid<dim> &grid)
   {
-    // As for the other sums, in two passes: counts go to the owners, who add
-    // them up, and from there to all windows. Only the quadrature points travel
-    // here: the rest has been summed before, and stays.
+    // As for the other sums. What these have found is kept by the owners, and
+    // others send them the numbers of quadrature points alone.
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return;
-    struct Count
-    {
-      unsigned int number, part, n;
-    };
-    const auto list_of_counts = [&]() {
-      std::vector<Count> list;
-      for (unsigned int node = 0; node < nodes_.size(); ++node)
-        if (const unsigned int n = n_quadrature_points(node); n > 0)
-          list.push_back(
-            {window_.whole().number(nodes_.index(node)), nodes_.part(node), n});
-      return list;
-    };
-    const auto n_at = [&](const Count &count) -> std::uint32_t & {
-      return counts[nodes_.node(window_.whole().index(count.number),
-                                count.part)][quadrature];
-    };
-    const auto summed = window_.to_owners(list_of_counts(), grid);
-    // This rank's own counts have been sent; what comes back includes them.
-    for (Counts &n : counts)
-      n[quadrature] = 0;
-    for (const Count &count : summed)
-      n_at(count) += count.n;
-    // Sums of other ranks' grid cells are taken as they are, not added.
-    for (const Count &count : window_.to_windows(list_of_counts()))
-      n_at(count) = count.n;
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    std::vector<Record> list;
+    for (const Record &record : records())
+      if (grid.owner(record.number) == rank)
+        list.push_back(record);
+      else if (const std::uint32_t n = record.counts[quadrature]; n > 0)
+        list.push_back({record.number, record.part, {{n, 0u, 0u}}, {}, 0});
+    spread(window_.to_owners(list, grid));
   }
 
   template <int dim>

@@ -140,12 +140,9 @@ namespace Morula
   typename SplineSpace<dim>::Terms
   SplineSpace<dim>::expression(const unsigned int c) const
   {
-    // A copy that is an unknown stands for itself. A copy of a piece too small
-    // to have inner grid cells follows the piece's own few unknowns. Any other
-    // one is outer, and continued from inner grid cells.
-    if (numbers.has(c))
-      return {{numbers[c], 1.}};
-
+    // A copy of a piece too small to have inner grid cells follows the piece's
+    // own few unknowns. Any other one that is no unknown is outer, and
+    // continued from inner grid cells.
     const SplineCopy    &copy  = copies.list()[c];
     const GridIndex<dim> index = occupancy_.window().index(copy.spline);
     if (const auto found = small_pieces.find(copy.piece);

@@ -148,10 +148,6 @@ namespace Morula
     }
 
   private:
-    /** Fills `linked`. */
-    void
-    find_linked();
-
     GridWindow<dim>           window;
     SharedParting<dim>        parting_;
     std::vector<GridCellPart> further;       // numbers in the window

@@ -286,7 +286,8 @@ namespace Morula
     unsigned int
     copy_at(const unsigned int node, const unsigned int a) const;
 
-    /** The global unknowns of one spline and their weights. */
+    /** The global unknowns of a spline that is none itself, and their weights.
+     */
     Terms
     expression(const unsigned int copy) const;
 

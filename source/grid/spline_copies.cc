@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
@@ -107,42 +106,22 @@ namespace Morula
       unsigned int part;
     };
 
-    /** Nodes of other ranks that this rank's parts hold, by owner. */
-    using SeenParts = std::map<unsigned int, std::vector<NodeOfPart>>;
-
     /** A rank, its part, and the part of the rank that tells of it. */
     using Pair = std::array<unsigned int, 3>;
-
-    std::vector<Pair>
-    pairs_of(const SeenParts                                   &seen,
-             const std::function<unsigned int(const NodeName)> &part_of,
-             const MPI_Comm                                     comm)
-    {
-      std::vector<Pair> pairs;
-      // part_of() is asked on the owner, who knows its own part there. A pair
-      // is told once, however many nodes two parts share.
-      for (const auto &[rank, list] : send_records(seen, comm))
-        for (const NodeOfPart &node : list)
-          pairs.push_back({{rank, node.part, part_of(node.node)}});
-      std::sort(pairs.begin(), pairs.end());
-      pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-      return pairs;
-    }
 
     /**
      * Joins the parts of all ranks to wholes. Parts of two ranks belong
      * together if they have a node in common. Every rank gets the list of all
      * wholes. (Boost's disjoint sets, one for each part of a rank.) Collective.
-     * @param lowest  lowest node that this rank knows of each of its parts
-     * @param part_of the part that holds a node of this rank
+     * @param lowest lowest node that this rank knows of each of its parts
+     * @param pairs  of its parts and those of others
      * @return the whole of each of this rank's parts, and the lowest node of
      *         each whole, increasing
      */
     std::pair<std::vector<unsigned int>, std::vector<NodeName>>
-    wholes_of(const std::vector<NodeName>                       &lowest,
-              const SeenParts                                   &seen,
-              const std::function<unsigned int(const NodeName)> &part_of,
-              const MPI_Comm                                     comm)
+    wholes_of(const std::vector<NodeName> &lowest,
+              const std::vector<Pair>     &pairs,
+              const MPI_Comm               comm)
     {
       std::vector<unsigned int> wholes;
       std::vector<NodeName>     all_wholes;
@@ -151,9 +130,8 @@ namespace Morula
       // few parts. Each rank then joins the same sets, so that all of them find
       // the same wholes, without a further message. A whole is named by its
       // lowest grid cell; their order is independent of the number of ranks.
-      const auto all_lowest = gather_everywhere(lowest, comm);
-      const auto all_pairs =
-        gather_everywhere(pairs_of(seen, part_of, comm), comm);
+      const auto                all_lowest = gather_everywhere(lowest, comm);
+      const auto                all_pairs  = gather_everywhere(pairs, comm);
       std::vector<unsigned int> first(1, 0); // part of each rank
       std::vector<NodeName>     lowest_of;
       for (const auto &list : all_lowest)
@@ -409,7 +387,8 @@ namespace Morula
     // parts belong together.
     constexpr unsigned int last = std::numeric_limits<unsigned int>::max();
     std::vector<NodeName>  lowest_of_parts(n_parts, NodeName{{last, last}});
-    SeenParts              seen;
+    // nodes of other ranks, by owner
+    std::map<unsigned int, std::vector<NodeOfPart>> seen;
     for (unsigned int node = 0; node < nodes.size(); ++node)
       if (pieces[node] != no_piece)
         {
@@ -420,13 +399,17 @@ namespace Morula
           if (!own[nodes.grid_cell(node)])
             seen[grid.owner(index)].push_back({there, pieces[node]});
         }
-    const auto [wholes, lowest_of_wholes] = wholes_of(
-      lowest_of_parts,
-      seen,
-      [&](const NodeName there) {
-        return pieces[nodes.node(whole.index(there[0]), there[1])];
-      },
-      grid.communicator());
+    // The owner knows its own part there. A pair is told once, however many
+    // nodes two parts share.
+    std::vector<Pair> pairs;
+    for (const auto &[rank, list] : send_records(seen, grid.communicator()))
+      for (const auto &[there, part] : list)
+        pairs.push_back(
+          {{rank, part, pieces[nodes.node(whole.index(there[0]), there[1])]}});
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    const auto [wholes, lowest_of_wholes] =
+      wholes_of(lowest_of_parts, pairs, grid.communicator());
     lowest = lowest_of_wholes;
     for (unsigned int &piece : pieces)
       if (piece != no_piece)

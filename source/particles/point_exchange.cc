@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 namespace Morula
 {
@@ -50,45 +51,6 @@ namespace Morula
           points.add(id, position, {row + Head::n, points.n_numbers});
         }
     }
-
-    /** Sorted owners, other than @p rank, of the grid cells within @p radius
-     *  of each grid cell of this rank; looked up once per grid cell. */
-    template <int dim>
-    class ForeignOwners
-    {
-    public:
-      ForeignOwners(const BackgroundGrid<dim> &grid, const int radius)
-        : grid(grid)
-        , radius(radius)
-        , rank(Utilities::MPI::this_mpi_process(grid.communicator()))
-      {}
-
-      const std::vector<unsigned int> &
-      around(const GridIndex<dim> &index)
-      {
-        // Neighbouring points share a grid cell, so the owners around it are
-        // looked up once.
-        const unsigned int number = grid.box().number(index);
-        const auto         found  = owners.find(number);
-        if (found != owners.end())
-          return found->second;
-        std::vector<unsigned int> &list = owners[number];
-        grid.box().for_neighbors(
-          index, radius, [&](const unsigned int, const auto &neighbor) {
-            if (const unsigned int owner = grid.owner(neighbor); owner != rank)
-              list.push_back(owner);
-          });
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        return list;
-      }
-
-    private:
-      const BackgroundGrid<dim>                        &grid;
-      const int                                         radius;
-      const unsigned int                                rank;
-      std::map<unsigned int, std::vector<unsigned int>> owners;
-    };
 
     template <int dim>
     void
@@ -240,13 +202,27 @@ namespace Morula
     PointList<dim> others(points.n_numbers);
     if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return others;
-    ForeignOwners<dim> foreign(
-      grid, static_cast<int>(std::ceil(reach / grid.box().spacing())));
-    std::map<unsigned int, std::vector<double>> rows_to;
+    const int radius =
+      static_cast<int>(std::ceil(reach / grid.box().spacing()));
+    const unsigned int rank =
+      Utilities::MPI::this_mpi_process(grid.communicator());
+    // Points share grid cells, around which the owners are looked up once.
+    std::map<GridIndex<dim>, std::set<unsigned int>> owners;
+    std::map<unsigned int, std::vector<double>>      rows_to;
     for (std::size_t i = 0; i < points.size(); ++i)
-      for (const unsigned int owner :
-           foreign.around(grid.box().locate(points.positions[i])))
-        append_row(points, i, rows_to[owner]);
+      {
+        const GridIndex<dim> index     = grid.box().locate(points.positions[i]);
+        const auto [found, is_new]     = owners.try_emplace(index);
+        std::set<unsigned int> &around = found->second;
+        if (is_new)
+          grid.box().for_neighbors(
+            index, radius, [&](const unsigned int, const auto &neighbor) {
+              around.insert(grid.owner(neighbor));
+            });
+        for (const unsigned int owner : around)
+          if (owner != rank)
+            append_row(points, i, rows_to[owner]);
+      }
     exchange(rows_to, grid.communicator(), others);
     return others;
   }

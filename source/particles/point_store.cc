@@ -22,26 +22,18 @@ namespace Morula
     canonical_order(const PointList<dim> &points, const GridBox<dim> &box)
     {
       // Sorting small records is faster than sorting an index with look-ups.
-      struct Place
-      {
-        unsigned int          number; // of the grid cell
-        types::particle_index id;
-        unsigned int          i;
-      };
-      std::vector<Place> places;
+      std::vector<std::tuple<unsigned int, types::particle_index, unsigned int>>
+        places; // numbers of grid cells, ids, and i
       places.reserve(points.size());
       for (unsigned int i = 0; i < points.size(); ++i)
-        places.push_back(
-          {box.number(box.locate(points.positions[i])), points.ids[i], i});
-      std::sort(places.begin(),
-                places.end(),
-                [](const Place &a, const Place &b) {
-                  return std::tie(a.number, a.id) < std::tie(b.number, b.id);
-                });
+        places.emplace_back(box.number(box.locate(points.positions[i])),
+                            points.ids[i],
+                            i);
+      std::sort(places.begin(), places.end());
       std::vector<unsigned int> order;
       order.reserve(places.size());
-      for (const Place &place : places)
-        order.push_back(place.i);
+      for (const auto &place : places)
+        order.push_back(std::get<2>(place));
       return order;
     }
   } // namespace

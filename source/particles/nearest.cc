@@ -80,14 +80,6 @@ namespace Morula
       return list;
     }
 
-    /** The largest of some numbers of grid cells. */
-    template <typename Numbers>
-    int
-    largest_of(const Numbers &n)
-    {
-      return *std::max_element(n.begin(), n.end());
-    }
-
     /** Positions of the nearest points in the list, by id, and their distance:
      *  none, and infinity, if no point counts. Distances that differ by
      *  rounding only count as equal; else the choice would depend on the frame.
@@ -132,25 +124,6 @@ namespace Morula
                   return list.ids[i] < list.ids[j];
                 });
       return {found, shortest};
-    }
-
-    /** Appends what is wanted of the points at @p found, of which there is one
-     *  at least. */
-    template <int dim>
-    void
-    append_wanted(const std::vector<unsigned int> &found,
-                  const PointList<dim>            &list,
-                  const Ties                       ties,
-                  std::vector<double>             &numbers)
-    {
-      const std::size_t n = ties == Ties::mean ? found.size() : 1;
-      for (unsigned int i = 0; i < list.n_numbers; ++i)
-        {
-          double sum = 0.;
-          for (std::size_t k = 0; k < n; ++k)
-            sum += list.row(found[k])[i];
-          numbers.push_back(sum / n);
-        }
     }
   } // namespace
 
@@ -217,14 +190,15 @@ namespace Morula
 
     /** The points of the query's side that are nearest, in the list of their
      *  body, and their distance: none, and infinity, if there is none in grid
-     *  cells as near as @p radius. */
+     *  cells as near as @p radius. @param is_all whether these are all */
     template <int dim>
     std::tuple<const PointList<dim> *, std::vector<unsigned int>, double>
     nearest_of_side(const Point<dim>                                &query,
                     const Side<dim>                                 &side,
                     const std::map<unsigned int, PointsOfBody<dim>> &bodies,
                     const GridBox<dim>                              &box,
-                    const int                                        radius)
+                    const int                                        radius,
+                    const bool                                       is_all)
     {
       // If even the whole box holds no point of a query's body, that body is
       // gone, and the nearest of all points counts. So does the nearest of the
@@ -236,7 +210,7 @@ namespace Morula
         return nearest(query, points.list, *points.bins, box, of_side);
       };
       auto body = bodies.find(side.body);
-      if (body == bodies.end() && radius > 2 * largest_of(box.n()))
+      if (body == bodies.end() && is_all)
         body = std::min_element(bodies.begin(),
                                 bodies.end(),
                                 [&](const auto &a, const auto &b) {
@@ -283,6 +257,9 @@ namespace Morula
           by_body(near_points(queries, points, of_point, grid, radius),
                   by_side,
                   box);
+        // Nothing in the box is farther than its diagonal.
+        const bool is_all =
+          radius > 2 * *std::max_element(box.n().begin(), box.n().end());
         std::vector<double> numbers;
         double              farthest = 0.;
         for (std::size_t q = 0; q < queries.size(); ++q)
@@ -292,15 +269,23 @@ namespace Morula
                               by_side ? sides[q] : Side<dim>{},
                               bodies,
                               box,
-                              radius);
+                              radius,
+                              is_all);
             farthest = std::max(farthest, distance);
             if (found.empty())
               break;
-            append_wanted(found, *list, wanted.ties, numbers);
+            // What is wanted of the points found, or of the first one.
+            const std::size_t n = wanted.ties == Ties::mean ? found.size() : 1;
+            for (unsigned int i = 0; i < wanted.n; ++i)
+              {
+                double sum = 0.;
+                for (std::size_t k = 0; k < n; ++k)
+                  sum += list->row(found[k])[i];
+                numbers.push_back(sum / n);
+              }
           }
         // A point of a grid cell outside of the radius is farther away than
-        // this. Nothing in the box is farther than its diagonal.
-        const bool is_all = radius > 2 * largest_of(box.n());
+        // this.
         if (Utilities::MPI::max(farthest, comm) <= radius * box.spacing())
           return numbers;
         AssertThrow(by_side || !is_all, ExcMessage("There are no cells."));

@@ -91,22 +91,6 @@ namespace Morula
           refuse(file, error);
     }
 
-    void
-    refuse_to_remove_inputs(const std::vector<fs::path>    &files,
-                            const std::vector<std::string> &inputs)
-    {
-      std::error_code ignored; // a missing input cannot be removed
-      for (const fs::path &file : files)
-        for (const std::string &input : inputs)
-          if (fs::equivalent(file, input, ignored))
-            throw InputError(key,
-                             file.parent_path().string(),
-                             "a directory whose run may be replaced, but the "
-                             "scene reads '" +
-                               input + "'",
-                             "Choose another directory.");
-    }
-
     /** @param why a clause after "there is one" that says why the old run must
      *    not be lost */
     [[noreturn]] void
@@ -348,7 +332,16 @@ namespace Morula
       create_directory(directory);
       check_replaceable(directory, run.scene_file, run.replace);
       std::vector<fs::path> old_run = files_with(directory, is_run_file);
-      refuse_to_remove_inputs(old_run, run.inputs);
+      std::error_code       ignored; // a missing input cannot be removed
+      for (const fs::path &file : old_run)
+        for (const std::string &input : run.inputs)
+          if (fs::equivalent(file, input, ignored))
+            throw InputError(key,
+                             directory,
+                             "a directory whose run may be replaced, but the "
+                             "scene reads '" +
+                               input + "'",
+                             "Choose another directory.");
       // The record is written first, so that a run that is killed here leaves
       // no files without one.
       write_parameters(directory, run, {});

@@ -66,31 +66,6 @@ namespace Morula
       return path.find(':') == std::string::npos ? path : "ufs:" + path;
     }
 
-    hid_t
-    create_file(const std::string &path, const MPI_Comm comm)
-    {
-      const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-      // HDF5 leaves so many bytes at the beginning of the file alone: there the
-      // seal goes.
-      H5Pset_userblock(creation, size_of_seal);
-      return H5Fcreate(name_for_mpi(path).c_str(),
-                       H5F_ACC_TRUNC,
-                       creation,
-                       access_by(comm));
-    }
-
-    /** The type of a string of fixed length, at least 1: HDF5 has no strings of
-     *  length zero. */
-    Handle
-    string_type(const std::size_t length)
-    {
-      Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-      H5Tset_size(type, std::max<std::size_t>(length, 1));
-      H5Tset_strpad(type, H5T_STR_NULLPAD);
-      H5Tset_cset(type, H5T_CSET_UTF8);
-      return type;
-    }
-
     template <typename Number>
     Number
     check(const Number result, const std::string &what)
@@ -132,7 +107,14 @@ namespace Morula
   Hdf5File::Hdf5File(const std::string &path, const MPI_Comm comm)
     : Hdf5File(comm)
   {
-    file = create_file(path, comm);
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    // HDF5 leaves so many bytes at the beginning of the file alone: there the
+    // seal goes.
+    H5Pset_userblock(creation, size_of_seal);
+    file = H5Fcreate(name_for_mpi(path).c_str(),
+                     H5F_ACC_TRUNC,
+                     creation,
+                     access_by(comm));
     note(file >= 0);
   }
 
@@ -205,7 +187,12 @@ namespace Morula
   void
   Hdf5File::text(const std::string &name, const std::string &value)
   {
-    write_of_root(name, string_type(value.size()), 1, value.c_str());
+    // Of fixed length, at least 1: HDF5 has no strings of length zero.
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, std::max<std::size_t>(value.size(), 1));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    write_of_root(name, type, 1, value.c_str());
   }
 
 

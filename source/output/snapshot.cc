@@ -159,14 +159,6 @@ namespace Morula
                           " numbers each (they have " +
                           std::to_string(points.n_numbers) + ")");
     }
-
-    /** Why a file could not be written. Collective. */
-    std::string
-    reason_of(const Hdf5File &file)
-    {
-      const std::string text = file.reason();
-      return text.empty() ? "is the disk full?" : text;
-    }
   } // namespace
 
   void
@@ -282,7 +274,7 @@ namespace Morula
     // All ranks know whether any has failed.
     if (!file.close())
       {
-        const std::string reason = reason_of(file);
+        const std::string reason = file.reason();
         on_root(comm, [&]() {
           std::remove(temporary_path(path).c_str());
           throw std::runtime_error("cannot write the snapshot '" + path +
@@ -303,7 +295,7 @@ namespace Morula
     file.attribute("/", snapshot_format_name, snapshot_format);
     file.text("parameters", "");
     const bool        works  = file.close();
-    const std::string reason = works ? "" : reason_of(file);
+    const std::string reason = works ? "" : file.reason();
     on_root(comm, [&]() {
       std::remove(trial.c_str());
       if (!works)

@@ -93,7 +93,7 @@ namespace Morula
     bool
     close();
 
-    /** Why it has not, in the library's words; empty if it does not say. */
+    /** Why it has not, in the library's words. Collective. */
     std::string
     reason() const
     {
@@ -101,7 +101,7 @@ namespace Morula
            dealii::Utilities::MPI::all_gather(comm, first_error))
         if (!text.empty())
           return text;
-      return "";
+      return "is the disk full?";
     }
 
     /** The value of an attribute of a group. */

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
-#include <morula/effects/surface/boundary_terms.h>
 #include <morula/output/point_fields.h>
 #include <morula/output/rows.h>
 #include <morula/particles/tissue.h>
@@ -254,7 +252,12 @@ namespace Morula
         !turns_too_far(tissue, space, displacement))
       return;
     told_of_turn = true;
-    files->message(turn_message(time_steps.time()));
+    files->message(
+      "Warning: at t = " + as_text(time_steps.time()) +
+      " day a strand of tissue turns by more than 36 degrees within a step. It "
+      "may pass through itself there, as surfaces without contact do not see "
+      "each other: look at the surface. Contact/Between = all keeps folds "
+      "apart.");
   }
 
 
@@ -275,7 +278,13 @@ namespace Morula
     if (row.proximal_paths > 0 && !told_of_path)
       {
         told_of_path = true;
-        files->message(path_message(time_steps.time()));
+        files->message(
+          "At t = " + as_text(time_steps.time()) +
+          " day Newton's method alone did not find the equilibrium, but a "
+          "proximal path did: the tissue folds there, or something jumps in "
+          "time. There may be more than one equilibrium: compare with another "
+          "Friction/Coefficient, or let what jumps rise over some steps. Column "
+          "proximal_paths of statistics.csv counts such steps.");
       }
     if (row.has_long_cells() && !warned_of_long_cells)
       {
@@ -370,23 +379,6 @@ namespace Morula
   }
 
   template <int dim>
-  double
-  Simulation<dim>::largest_held_displacement() const
-  {
-    // Each rank looks at its own held points, and their expressions may have no
-    // value at t + dt.
-    double largest = 0.;
-    everywhere(comm, [&]() {
-      for (const auto &point : held_points(model.boundary_conditions,
-                                           tissue,
-                                           time_steps.time(),
-                                           time_steps.next()))
-        largest = std::max(largest, point.from.distance(point.to));
-    });
-    return Utilities::MPI::max(largest, comm);
-  }
-
-  template <int dim>
   FailedStep
   Simulation<dim>::failed_step() const
   {
@@ -432,9 +424,7 @@ namespace Morula
   Simulation<dim>::give_up_step(const std::string &reason)
   {
     // The message names the step, the reason of its last attempt and the
-    // diagnosis before general advice. Points that are moved by more than half
-    // a grid spacing even in the smallest step hint at a displacement that
-    // jumps.
+    // diagnosis before general advice.
     std::ostringstream text;
     text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()
@@ -446,10 +436,6 @@ namespace Morula
     if (model.boundary_conditions.has_dirichlet())
       text << ", or with another Boundary conditions/Nitsche penalty";
     text << '.';
-    if (const double way = largest_held_displacement();
-        way > 0.5 * model.scene.grid.spacing)
-      text << " Even in so short a step held points move by " << way
-           << " um: let Boundary conditions/Displacement rise from 0 with t.";
     give_up(text.str());
   }
 

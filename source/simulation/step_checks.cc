@@ -282,33 +282,6 @@ namespace Morula
   }
 
 
-  std::string
-  path_message(const double t)
-  {
-    std::ostringstream text;
-    text << "At t = " << t
-         << " day Newton's method alone did not find the equilibrium, but a "
-            "proximal path did: the tissue folds there, or something jumps in "
-            "time. There may be more than one equilibrium: compare with "
-            "another Friction/Coefficient, or let what jumps rise over some "
-            "steps. Column proximal_paths of statistics.csv counts such steps.";
-    return text.str();
-  }
-
-
-  std::string
-  turn_message(const double t)
-  {
-    std::ostringstream text;
-    text << "Warning: at t = " << t
-         << " day a strand of tissue turns by more than 36 degrees within a "
-            "step. It may pass through itself there, as surfaces without "
-            "contact do not see each other: look at the surface. "
-            "Contact/Between = all keeps folds apart.";
-    return text.str();
-  }
-
-
   double
   friction_against(const double curvature,
                    const double E,

@@ -51,15 +51,6 @@ def test_a_clamp_that_widens(runs, strain, iterations):
     assert run.statistics["newton_iterations"].sum() <= iterations
 
 
-def test_clamps_torn_apart(runs):
-    """No rigid motion: the message says what is asked for."""
-    said = runs.run("torn", SCENE, {
-        "Boundary conditions/Fixed where": "(Y < -40) || (Y > 40)", FORM: "symmetric",
-        MOVES: f"0; if(Y > 0, {6 * SPACING}, 0); 0", "Time/Smallest step": 0.1}, code=2).said
-    assert (f"held points move by {6 * SPACING:g} um: let Boundary conditions/Displacement "
-            "rise from 0 with t.") in said
-
-
 def test_at_rest_nothing_changes(runs):
     """A displacement that is constant in time is no motion after the first
     step."""

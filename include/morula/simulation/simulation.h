@@ -322,10 +322,6 @@ namespace Morula
     /** Calls @p solve for all equations, and ends the run if it cannot. */
     void
     solve_equations(const std::function<void(EquationInRun<dim> &)> &solve);
-    /** The longest way that the present attempt asks of a held point, µm.
-     *  Collective. */
-    double
-    largest_held_displacement() const;
     [[noreturn]] void
     give_up(const std::string &reason);
     [[noreturn]] void

@@ -101,16 +101,6 @@ namespace Morula
   std::string
   diagnosis(const FailedStep &step);
 
-  /** What a run says once of a step that ended at @p t (day), and whose
-   *  equilibrium was found along a proximal path. */
-  std::string
-  path_message(const double t);
-
-  /** What to say where tissue without contact turns so far in a step that it
-   * may pass through itself. */
-  std::string
-  turn_message(const double t);
-
   /** The friction (kPa day/µm²) that outweighs the @p curvature (relative to
    * the diagonal, < 0) of tissue of stiffness @p E (kPa) on a grid of spacing
    * @p h (µm) in a step of @p dt (day): doc/theory.md (5.8). */

@@ -80,8 +80,6 @@ namespace Morula
     private:
       void
       find_pairs();
-      bool
-      are_parted(const unsigned int p, const unsigned int q) const;
       Tensor<1, dim>
       inside_part(Tensor<1, dim> way, const unsigned int p) const;
 
@@ -195,6 +193,20 @@ namespace Morula
                     return std::tie(to_a, patches.ids[a]) <
                            std::tie(to_b, patches.ids[b]);
                   });
+      // Whether the surface passes between two cells, the first of which is one
+      // of this rank: then they belong to folds that face each other.
+      const auto are_parted = [&](const unsigned int p, const unsigned int q) {
+        return std::any_of(
+          near_patches[p].begin(), near_patches[p].end(), [&](const auto b) {
+            const auto [normal, spacing, body] =
+              patches.template value<Patch<dim>>(b);
+            const Tensor<1, dim> to_patch = patches.positions[b] - x[p];
+            const double         depth    = normal * to_patch;
+            const double         step     = normal * (x[q] - x[p]);
+            return depth * (depth - step) < 0. &&
+                   (depth / step * (x[q] - x[p]) - to_patch).norm() <= spacing;
+          });
+      };
       for (unsigned int p = 0; p < n_own; ++p)
         bins.visit_within(
           x[p], 0.5 * pair_reach * (l[p] + width), [&](const unsigned int q) {
@@ -203,26 +215,6 @@ namespace Morula
                 !(has_folds && are_parted(p, q)))
               pairs.push_back({{p, q}});
           });
-    }
-
-
-    /** Whether the surface passes between two cells, the first of which is one
-     *  of this rank: then they belong to folds that face each other. */
-    template <int dim>
-    bool
-    CrowdedCells<dim>::are_parted(const unsigned int p,
-                                  const unsigned int q) const
-    {
-      return std::any_of(
-        near_patches[p].begin(), near_patches[p].end(), [&](const auto b) {
-          const auto [normal, spacing, body] =
-            patches.template value<Patch<dim>>(b);
-          const Tensor<1, dim> to_patch = patches.positions[b] - x[p];
-          const double         depth    = normal * to_patch;
-          const double         step     = normal * (x[q] - x[p]);
-          return depth * (depth - step) < 0. &&
-                 (depth / step * (x[q] - x[p]) - to_patch).norm() <= spacing;
-        });
     }
 
 

@@ -119,22 +119,6 @@ namespace Morula
       /** Boxes along the edge of a grid cell that the surface cuts. */
       static constexpr unsigned int n_boxes = 6 - dim;
 
-      /** Calls visit(number, product) for the splines that reach into a grid
-       *  cell, with the product of their @p numbers by axis. */
-      template <typename Visit>
-      void
-      for_products(const GridIndex<dim>                         &at,
-                   const std::array<std::array<double, 3>, dim> &numbers,
-                   const Visit                                  &visit) const
-      {
-        box.for_neighbors(at, 1, [&](const unsigned int a, const auto &i) {
-          double product = 1.;
-          for (unsigned int d = 0; d < dim; ++d)
-            product *= numbers[d][i[d] - at[d] + 1];
-          visit(a, product);
-        });
-      }
-
       /** Calls visit(number, value) for the means of the splines over a cube of
        *  the edge @p l (um) around @p x. */
       template <typename Visit>
@@ -242,7 +226,10 @@ namespace Morula
                                 0.,
                                 1.);
             }
-          for_products(at, N, [&](const unsigned int a, const double integral) {
+          box.for_neighbors(at, 1, [&](const unsigned int a, const auto &i) {
+            double integral = 1.;
+            for (unsigned int d = 0; d < dim; ++d)
+              integral *= N[d][i[d] - at[d] + 1];
             space[a] += part * integral;
           });
         }

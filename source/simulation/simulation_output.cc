@@ -106,19 +106,6 @@ namespace Morula
     }
 
 
-    /** The table behind surface-NNNN.csv and .vtu, at @p t, day. */
-    template <int dim>
-    SurfaceFields<dim>
-    surface_table(const Tissue<dim> &tissue, const double t)
-    {
-      const BoundaryPoints<dim> &points = tissue.boundary_points();
-      SurfaceFields<dim>         table(t, points.columns());
-      for (unsigned int p = 0; p < points.size(); ++p)
-        table.add(points.id(p), points[p], points.position(p));
-      return table;
-    }
-
-
     /** The warning about cells that are too long for the grid. */
     template <int dim>
     std::string
@@ -350,9 +337,13 @@ namespace Morula
     const double t = time_steps.time();
     if (files->writes_points() && files->output_due(t, last))
       {
-        const TimerOutput::Scope section(timer, "output");
+        const TimerOutput::Scope   section(timer, "output");
+        const BoundaryPoints<dim> &points = tissue.boundary_points();
+        SurfaceFields<dim>         on_surface(t, points.columns());
+        for (unsigned int p = 0; p < points.size(); ++p)
+          on_surface.add(points.id(p), points[p], points.position(p));
         files->write_points(cell_table(model, tissue, t),
-                            surface_table(tissue, t),
+                            std::move(on_surface),
                             t);
       }
     if (!forces.empty() && files->forces_due(t, last))

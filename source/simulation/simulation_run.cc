@@ -209,13 +209,6 @@ namespace Morula
     surface.resume(tissue);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     describe_state();
-    check_resumed_cycle();
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::check_resumed_cycle() const
-  {
     if (model.development.cycle() == nullptr)
       return;
     // A resumed run may have another Time/Step, with which a phase of the cycle

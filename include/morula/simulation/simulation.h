@@ -110,8 +110,6 @@ namespace Morula
     seed(const SeededTissue<dim> &seeded);
     void
     restore();
-    void
-    check_resumed_cycle() const; // Step may have changed
 
     /** Gives founders their state anew, when the steady fields are known.
      *  @param all whether all are still there. Collective. */

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace Morula
@@ -29,9 +30,9 @@ namespace Morula
       return result;
     }
 
-    /** How many numbers of a row ranks add up: points, area, the inward part,
-     * and three components of force and moment each. */
-    constexpr unsigned int n_sums = 9;
+    /** What ranks add up of a row: points, area, the inward part, force and
+     *  moment. */
+    using Sums = std::tuple<double, double, double, Tensor<1, 3>, Tensor<1, 3>>;
 
     /** Coefficients of the splines of a grid cell in the field x, µm: their
      *  centres, doc/theory.md, section 3. */
@@ -264,30 +265,19 @@ namespace Morula
         // adds up all of them. The forces of points stay with the rank that has
         // the points.
         SurfaceForces<dim>  result = mine;
-        std::vector<double> numbers;
+        std::vector<double> sums;
         for (const ForceRow &row : mine.rows)
-          {
-            numbers.push_back(row.points);
-            numbers.push_back(row.area);
-            numbers.push_back(row.inward);
-            for (const Tensor<1, 3> &vector : {row.force, row.moment})
-              for (unsigned int d = 0; d < 3; ++d)
-                numbers.push_back(vector[d]);
-          }
-        std::vector<double> all(numbers.size());
-        Utilities::MPI::sum(numbers, comm, all);
+          append_flat(
+            sums,
+            Sums(row.points, row.area, row.inward, row.force, row.moment));
+        Utilities::MPI::sum(sums, comm, sums);
         for (std::size_t r = 0; r < result.rows.size(); ++r)
           {
-            const double *const of_row = &all[n_sums * r];
-            ForceRow           &row    = result.rows[r];
-            row.points                 = std::llround(of_row[0]);
-            row.area                   = of_row[1];
-            row.inward                 = of_row[2];
-            for (unsigned int d = 0; d < 3; ++d)
-              {
-                row.force[d]  = of_row[3 + d];
-                row.moment[d] = of_row[6 + d];
-              }
+            ForceRow &row    = result.rows[r];
+            double    points = 0.;
+            std::tie(points, row.area, row.inward, row.force, row.moment) =
+              Flat<Sums>::read(&sums[Flat<Sums>::n * r]);
+            row.points = std::llround(points);
           }
         return result;
       }

@@ -378,36 +378,29 @@ namespace Morula
   }
 
 
-  std::size_t
-  Hdf5File::n_values(const std::string &name,
-                     const hsize_t      begin,
-                     const hsize_t      end) const
-  {
-    // The range is checked against the file before memory is taken.
-    const std::vector<hsize_t> all = size(name);
-    if (all.empty() || end < begin || end > all[0])
-      throw std::runtime_error("cannot read the data set '" + name + "'");
-    return std::accumulate(all.begin() + 1,
-                           all.end(),
-                           std::size_t(end - begin),
-                           std::multiplies<>());
-  }
-
-
   void
-  Hdf5File::read_rows(const std::string &name,
-                      const hid_t        type,
-                      const hsize_t      begin,
-                      const hsize_t      end,
-                      void              *values) const
+  Hdf5File::read_rows(const std::string                        &name,
+                      const hid_t                               type,
+                      const hsize_t                             begin,
+                      const hsize_t                             end,
+                      const std::function<void *(std::size_t)> &room) const
   {
-    // Of the columns all are read: a selection of rows [begin, end) in the
-    // file, the same number of values in memory.
+    // The range is checked against the file before memory is taken. Of the
+    // columns all are read: a selection of rows [begin, end) in the file, the
+    // same number of values in memory.
     const std::string    what  = "the data set '" + name + "'";
     std::vector<hsize_t> count = size(name);
+    if (count.empty() || end < begin || end > count[0])
+      throw std::runtime_error("cannot read " + what);
+    count[0]            = end - begin;
+    const std::size_t n = std::accumulate(count.begin(),
+                                          count.end(),
+                                          std::size_t(1),
+                                          std::multiplies<>());
+    if (n == 0)
+      return;
     std::vector<hsize_t> offset(count.size(), 0);
     offset[0]            = begin;
-    count[0]             = end - begin;
     const Handle dataset = open_dataset(file, name);
     const Handle file_space(check(H5Dget_space(dataset), what), H5Sclose);
     const Handle memory_space(
@@ -420,7 +413,8 @@ namespace Morula
                               count.data(),
                               nullptr),
           what);
-    check(H5Dread(dataset, type, memory_space, file_space, H5P_DEFAULT, values),
-          what);
+    check(
+      H5Dread(dataset, type, memory_space, file_space, H5P_DEFAULT, room(n)),
+      what);
   }
 } // namespace Morula

@@ -10,6 +10,7 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -135,7 +136,11 @@ namespace Morula
     std::vector<T>
     table(const std::string &name) const
     {
-      return rows<T>(name, 0, length(name));
+      const std::vector<hsize_t> n = size(name);
+      if (n.size() != 1)
+        throw std::runtime_error("cannot read the data set '" + name +
+                                 "' as a vector");
+      return rows<T>(name, 0, n[0]);
     }
 
     /** Rows [begin, end) of a data set, stored one after the other. */
@@ -143,9 +148,11 @@ namespace Morula
     std::vector<T>
     rows(const std::string &name, const hsize_t begin, const hsize_t end) const
     {
-      std::vector<T> values(n_values(name, begin, end));
-      if (!values.empty())
-        read_rows(name, native_type<T>(), begin, end, values.data());
+      std::vector<T> values;
+      read_rows(name, native_type<T>(), begin, end, [&](const std::size_t n) {
+        values.resize(n);
+        return values.data();
+      });
       return values;
     }
 
@@ -220,29 +227,13 @@ namespace Morula
                    const hid_t        type,
                    void              *value) const;
 
-    /** Of a vector. */
-    hsize_t
-    length(const std::string &name) const
-    {
-      const std::vector<hsize_t> n = size(name);
-      if (n.size() != 1)
-        throw std::runtime_error("cannot read the data set '" + name +
-                                 "' as a vector");
-      return n[0];
-    }
-
-    /** How many values the rows have, which must be there. */
-    std::size_t
-    n_values(const std::string &name,
-             const hsize_t      begin,
-             const hsize_t      end) const;
-
+    /** @param room gives room for so many values */
     void
-    read_rows(const std::string &name,
-              const hid_t        type,
-              const hsize_t      begin,
-              const hsize_t      end,
-              void              *values) const;
+    read_rows(const std::string                        &name,
+              const hid_t                               type,
+              const hsize_t                             begin,
+              const hsize_t                             end,
+              const std::function<void *(std::size_t)> &room) const;
 
     MPI_Comm    comm;
     H5E_auto2_t printer; // of the library's errors, before

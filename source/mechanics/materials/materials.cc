@@ -11,28 +11,21 @@ namespace Morula
 {
   namespace
   {
-    /** Law number @p i of the library's list, with its kernels. */
-    template <typename Law>
-    void
-    add_own(const unsigned int i, Materials &materials)
-    {
-      const auto material =
-        // The kernels are chosen by the law's number, since their files see
-        // only the list of laws.
-        std::make_shared<const MaterialOf<Law>>(Law(),
-                                                available_vector_kernels<2>(i),
-                                                available_vector_kernels<3>(i));
-      materials.add(Law::name, material);
-    }
-
     template <typename... Law>
     void
     add_all(const Laws<Law...> &, Materials &materials)
     {
       // A fold over the types of the list: the position in it is the law's
-      // number.
+      // number. The kernels are chosen by that, since their files see only the
+      // list of laws.
       unsigned int i = 0;
-      (add_own<Law>(i++, materials), ...);
+      ((materials.add(Law::name,
+                      std::make_shared<const MaterialOf<Law>>(
+                        Law(),
+                        available_vector_kernels<2>(i),
+                        available_vector_kernels<3>(i))),
+        ++i),
+       ...);
     }
   } // namespace
 

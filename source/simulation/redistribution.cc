@@ -7,7 +7,6 @@
 #include <morula/simulation/redistribution.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,25 +76,6 @@ namespace Morula
 
 
   template <int dim>
-  double
-  displacing_strain(const CellView<dim, const double> &cell,
-                    const unsigned int                 p,
-                    const Tensor<2, dim>              &f,
-                    const DevelopmentOfStep<dim>      &of_step,
-                    const bool                         flows)
-  {
-    double strain = 0.;
-    if (of_step.present)
-      strain = std::abs(std::log(determinant(cell.growth()) /
-                                 determinant(of_step.previous[p])));
-    if (flows ||
-        (!of_step.relaxation.empty() && of_step.relaxation[p].kept < 1.))
-      strain += deviator(symmetrize(f)).norm();
-    return strain;
-  }
-
-
-  template <int dim>
   void
   redistribute(Tissue<dim>            &tissue,
                const TissueModel<dim> &model,
@@ -112,6 +92,5 @@ namespace Morula
       numbers["density_error"] = fit_volumes(tissue);
   }
 
-  MORULA_INSTANTIATE(displacing_strain);
   MORULA_INSTANTIATE(redistribute);
 } // namespace Morula

@@ -23,23 +23,6 @@ namespace Morula
     const std::string section_prefix = "seconds in ";
     const std::string calls_prefix   = "calls of ";
 
-    /** A row with the columns that a run of this scene has. */
-    template <int dim>
-    StatisticsRow
-    row_like(const TissueModel<dim> &model)
-    {
-      // The values do not matter: a column exists where the row has a value for
-      // it.
-      StatisticsRow row;
-      for (const auto &column : model.tables.columns())
-        row.of_effects.emplace_back(column.name, 0.);
-      if (has_surface(model))
-        row.surface.emplace();
-      if (model.development.states_error())
-        row.step_error = 0.;
-      return row;
-    }
-
     /** A table that grows by rows as the run goes on. */
     struct Table
     {
@@ -62,9 +45,16 @@ namespace Morula
       const Tables<dim> &of_effects = model.tables;
       const CellEvent    event{0., 0, CellEvent::death, 0, 0};
       Birth<dim>         birth{};
+      StatisticsRow      row; // a column exists where it has a value for it
+      for (const auto &column : of_effects.columns())
+        row.of_effects.emplace_back(column.name, 0.);
+      if (has_surface(model))
+        row.surface.emplace();
+      if (model.development.states_error())
+        row.step_error = 0.;
       birth.numbers             = model.development.state().named_numbers();
       std::vector<Table> tables = {
-        {"statistics", statistics_row(row_like(model)).header()},
+        {"statistics", statistics_row(row).header()},
         {"lineage", lineage_row(birth, !scene.type_names().empty()).header()}};
       if (of_effects.records_events())
         tables.push_back(

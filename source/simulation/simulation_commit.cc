@@ -103,6 +103,31 @@ namespace Morula
     }
 
 
+    /**
+     * The strain of a step that displaces a cell against its neighbours:
+     * doc/theory.md (6.11). F_g must be that of the end of the step.
+     * @param p       the cell's place in @p of_step
+     * @param f       of the step
+     * @param flows   whether its shear is a flow, whatever its own one
+     */
+    template <int dim>
+    double
+    displacing_strain(const CellView<dim, const double> &cell,
+                      const unsigned int                 p,
+                      const Tensor<2, dim>              &f,
+                      const DevelopmentOfStep<dim>      &of_step,
+                      const bool                         flows)
+    {
+      double strain = 0.;
+      if (of_step.present)
+        strain = std::abs(std::log(determinant(cell.growth()) /
+                                   determinant(of_step.previous[p])));
+      if (flows ||
+          (!of_step.relaxation.empty() && of_step.relaxation[p].kept < 1.))
+        strain += deviator(symmetrize(f)).norm();
+      return strain;
+    }
+
     /** Whether some cells were killed by a condition in this step and are gone
      *  already. Local to the rank. */
     bool

@@ -4,7 +4,6 @@
 #include <morula/base/send_records.h>
 #include <morula/mechanics/assembly.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
 namespace Morula

@@ -9,7 +9,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <algorithm>
 #include <functional>
 #include <utility>
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/version.h>
 #include <morula/output/directory.h>
-#include <morula/output/output_file.h>
 #include <morula/output/progress.h>
 
 #include <unistd.h>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/output/directory.h>
 #include <morula/output/output_file.h>
@@ -20,7 +19,6 @@
 #include <cstring>
 #include <fstream>
 #include <thread>
-#include <utility>
 
 namespace Morula
 {

@@ -5,7 +5,6 @@
 #include <morula/output/progress.h>
 #include <morula/output/table.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>

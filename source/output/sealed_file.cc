@@ -10,7 +10,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
 
 namespace Morula
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/input_error.h>
 #include <morula/base/instantiate.h>
 #include <morula/output/hdf5_file.h>
@@ -9,16 +8,11 @@
 #include <morula/output/sealed_file.h>
 #include <morula/output/snapshot.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <boost/serialization/map.hpp>
 #include <boost/serialization/vector.hpp>
 
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
-#include <type_traits>
-#include <utility>
 
 namespace Morula
 {

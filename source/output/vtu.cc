@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/agreement.h>
 #include <morula/base/instantiate.h>
 #include <morula/output/output_file.h>
 #include <morula/output/point_fields.h>
 
 #include <deal.II/base/data_out_base.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <sstream>

@@ -9,9 +9,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <set>
 #include <tuple>

@@ -3,17 +3,11 @@
 
 #include <morula/base/instantiate.h>
 #include <morula/base/near_tree.h>
-#include <morula/base/send_records.h>
 #include <morula/grid/grid_box.h>
 #include <morula/particles/nearest.h>
 #include <morula/particles/neighbours.h>
 #include <morula/particles/point_exchange.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <tuple>
 
 namespace Morula

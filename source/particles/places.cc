@@ -8,9 +8,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <tuple>
 

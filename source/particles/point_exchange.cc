@@ -5,12 +5,9 @@
 #include <morula/base/send_records.h>
 #include <morula/particles/point_exchange.h>
 
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 namespace Morula

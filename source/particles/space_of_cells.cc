@@ -6,13 +6,9 @@
 #include <morula/particles/places.h>
 #include <morula/particles/point_exchange.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <set>
 #include <tuple>
-#include <vector>
 
 namespace Morula
 {

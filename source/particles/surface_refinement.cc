@@ -7,10 +7,6 @@
 #include <morula/particles/point_exchange.h>
 #include <morula/particles/surface_refinement.h>
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/numerics/rtree.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>

@@ -5,9 +5,6 @@
 #include <morula/base/send_records.h>
 #include <morula/particles/tissue.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

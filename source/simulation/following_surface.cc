@@ -9,9 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <set>
-#include <vector>
 
 namespace Morula
 {

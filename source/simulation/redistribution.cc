@@ -6,10 +6,7 @@
 #include <morula/particles/places.h>
 #include <morula/simulation/redistribution.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <algorithm>
-#include <cmath>
 
 namespace Morula
 {

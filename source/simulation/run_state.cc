@@ -9,7 +9,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 
 namespace Morula

@@ -9,10 +9,8 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <tuple>
-#include <vector>
 
 namespace Morula
 {

@@ -4,16 +4,12 @@
 #include <morula/effects/division/divide.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/effects/volumes_of_step.h>
-#include <morula/mechanics/plain_kernels.h>
 #include <morula/simulation/redistribution.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 

@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/output/point_fields.h>
 #include <morula/output/rows.h>
-#include <morula/particles/tissue.h>
-#include <morula/scene/tissue_model.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <sstream>
-#include <vector>
 
 // What a run tells of its state.
 

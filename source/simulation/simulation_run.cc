@@ -4,7 +4,6 @@
 #include <morula/base/agreement.h>
 #include <morula/effects/fate/removal.h>
 #include <morula/effects/surface/boundary_terms.h>
-#include <morula/scene/seeded_tissue.h>
 #include <morula/seeding/bodies.h>
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/snapshot_check.h>
@@ -16,7 +15,6 @@
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <utility>
 
 // How a run begins, goes on and ends.
 

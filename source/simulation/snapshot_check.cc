@@ -5,7 +5,6 @@
 #include <morula/base/parameter_keys.h>
 #include <morula/simulation/snapshot_check.h>
 
-#include <map>
 #include <set>
 #include <sstream>
 

@@ -10,11 +10,9 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
-#include <vector>
 
 namespace Morula
 {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 by the Morula authors
 
-#include <morula/base/near_tree.h>
 #include <morula/particles/point_exchange.h>
 #include <morula/simulation/watches.h>
 #include <morula/surface/walls.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>

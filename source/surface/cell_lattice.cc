@@ -11,10 +11,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/pending/disjoint_sets.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 
 namespace Morula
 {

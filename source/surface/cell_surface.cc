@@ -7,11 +7,6 @@
 #include <morula/surface/cell_lattice.h>
 #include <morula/surface/cell_surface.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
-
 namespace Morula
 {
   namespace

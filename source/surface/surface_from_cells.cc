@@ -10,8 +10,6 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
-#include <cmath>
 #include <functional>
 #include <set>
 

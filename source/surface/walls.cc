@@ -6,7 +6,6 @@
 #include <morula/surface/walls.h>
 
 #include <cmath>
-#include <map>
 #include <tuple>
 
 namespace Morula

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/mechanics/materials/laws.h>
-#include <morula/mechanics/materials/material.h>
 #include <morula/mechanics/materials/own_material.h>
 
 #include <stdexcept>

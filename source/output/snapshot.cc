@@ -63,20 +63,6 @@ namespace Morula
       file.text(group + "/columns", columns);
     }
 
-    /** One row for each grid cell: its number and its weight. */
-    void
-    write_weights(Hdf5File &file, const GridCellCounts &weights)
-    {
-      std::vector<unsigned int> rows;
-      rows.reserve(2 * weights.size());
-      for (const GridCellCount &weight : weights)
-        {
-          rows.push_back(weight.number);
-          rows.push_back(weight.n);
-        }
-      file.rows(snapshot_weights_name, rows.data(), weights.size(), 2);
-    }
-
     /**
      * Rank 0's data without the points. HDF5 demands that all ranks write the
      * same attributes; wall times, for one, are not.
@@ -264,7 +250,14 @@ namespace Morula
                  data.boundary_points,
                  shared.boundary_columns,
                  comm);
-    write_weights(file, data.grid_weights);
+    // One row for each grid cell: its number and its weight.
+    std::vector<unsigned int> weights;
+    for (const GridCellCount &weight : data.grid_weights)
+      weights.insert(weights.end(), {weight.number, weight.n});
+    file.rows(snapshot_weights_name,
+              weights.data(),
+              data.grid_weights.size(),
+              2);
     // All ranks know whether any has failed.
     if (!file.close())
       {

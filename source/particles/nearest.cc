@@ -17,34 +17,6 @@ namespace Morula
 {
   namespace
   {
-    /** Grid cells by the rank that owns them, by number in order. */
-    using GridCellsOfRanks = std::map<unsigned int, std::vector<unsigned int>>;
-
-    /** The grid cells within a radius of a query. */
-    template <int dim>
-    GridCellsOfRanks
-    near_queries(const std::vector<Point<dim>> &queries,
-                 const BackgroundGrid<dim>     &grid,
-                 const int                      radius)
-    {
-      const GridBox<dim> &box = grid.box();
-      // Many queries share a grid cell, which is looked at once.
-      std::set<GridIndex<dim>> with_query; // many queries share a grid cell
-      for (const Point<dim> &query : queries)
-        with_query.insert(box.locate(query));
-      std::set<unsigned int> near;
-      for (const GridIndex<dim> &index : with_query)
-        box.for_neighbors(index,
-                          radius,
-                          [&](const unsigned int number, const auto &) {
-                            near.insert(number);
-                          });
-      GridCellsOfRanks grid_cells;
-      for (const unsigned int number : near)
-        grid_cells[grid.owner(number)].push_back(number);
-      return grid_cells;
-    }
-
     /** This rank's points in some of its grid cells. */
     template <int dim>
     PointList<dim>
@@ -134,10 +106,23 @@ namespace Morula
   {
     const MPI_Comm     comm = grid.communicator();
     const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    // Grid cells around the queries, by owner. This rank's own points in them
-    // need no message.
-    GridCellsOfRanks near = near_queries(queries, grid, radius);
-    PointList<dim>   list = points_in(near[rank], points, wanted);
+    // Grid cells around the queries, by owner, by number in order. Many queries
+    // share a grid cell, which is looked at once. This rank's own points need
+    // no message.
+    std::set<GridIndex<dim>> with_query;
+    for (const Point<dim> &query : queries)
+      with_query.insert(grid.box().locate(query));
+    std::set<unsigned int> numbers;
+    for (const GridIndex<dim> &index : with_query)
+      grid.box().for_neighbors(index,
+                               radius,
+                               [&](const unsigned int number, const auto &) {
+                                 numbers.insert(number);
+                               });
+    std::map<unsigned int, std::vector<unsigned int>> near;
+    for (const unsigned int number : numbers)
+      near[grid.owner(number)].push_back(number);
+    PointList<dim> list = points_in(near[rank], points, wanted);
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       return list;
     // Each rank asks the owners of these grid cells for their points, and

@@ -37,34 +37,25 @@ namespace Morula
 
     template <int dim>
     void
-    append_points(const std::vector<double> &rows, PointList<dim> &points)
-    {
-      using Head = Flat<std::tuple<types::particle_index, Point<dim>>>;
-      const std::size_t width = width_of_row<dim>(points.n_numbers);
-      for (const double *row = rows.data(); row != rows.data() + rows.size();
-           row += width)
-        {
-          const auto [id, position] = Head::read(row);
-          points.add(id, position, {row + Head::n, points.n_numbers});
-        }
-    }
-
-    template <int dim>
-    void
     exchange(const std::map<unsigned int, std::vector<double>> &rows_to,
              const MPI_Comm                                     comm,
              PointList<dim>                                    &points)
     {
       // Room for all received points is made at once: this is the largest list
       // that a step may hold.
-      const auto  received  = send_records(rows_to, comm);
-      std::size_t n_numbers = 0;
+      using Head = Flat<std::tuple<types::particle_index, Point<dim>>>;
+      const std::size_t width     = width_of_row<dim>(points.n_numbers);
+      const auto        received  = send_records(rows_to, comm);
+      std::size_t       n_numbers = 0;
       for (const auto &[rank, rows] : received)
         n_numbers += rows.size();
-      points.reserve(points.size() +
-                     n_numbers / width_of_row<dim>(points.n_numbers));
+      points.reserve(points.size() + n_numbers / width);
       for (const auto &[rank, rows] : received)
-        append_points(rows, points);
+        for (std::size_t i = 0; i < rows.size(); i += width)
+          {
+            const auto [id, position] = Head::read(&rows[i]);
+            points.add(id, position, {&rows[i] + Head::n, points.n_numbers});
+          }
     }
 
     /** Points that a rank sends in one go at most. All points, as at the start

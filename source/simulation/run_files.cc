@@ -228,8 +228,12 @@ namespace Morula
 
   template <int dim>
   bool
-  RunFiles<dim>::snapshot_due_by_clock() const
+  RunFiles<dim>::snapshot_due(const double time, const bool last)
   {
+    // The clock comes last: the conditions before it are equal on all ranks, so
+    // that either all ranks go on to its collective call or none.
+    if (last || snapshots.are_reached(time))
+      return true;
     // Snapshots take this part of the run's time at most. So the time between
     // two of them is at least 19 times as long as the last one took.
     constexpr double largest_part = 0.05;

@@ -239,20 +239,42 @@ namespace Morula
       }
     begin();
     signals.emplace(comm);
-    record_failure([&]() {
-      if (observe)
-        observe();
-      while (!must_stop())
-        {
-          begun = {time_steps.state(), run_state, {}};
-          stop_if_asked();
-          step();
-          write_rows();
-          output(must_stop());
-          if (observe)
-            observe();
-        }
-    });
+    try
+      {
+        if (observe)
+          observe();
+        while (!must_stop())
+          {
+            begun = {time_steps.state(), run_state, {}};
+            stop_if_asked();
+            step();
+            write_rows();
+            output(must_stop());
+            if (observe)
+              observe();
+          }
+      }
+    // Memory has run out on this rank alone. The program's main function tells
+    // of it and ends all ranks.
+    catch (const std::bad_alloc &)
+      {
+        throw;
+      }
+    catch (const StoppedBySignal &stop)
+      {
+        files->fail(stop.what());
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        // An expression without a value at some later time arrives here, too:
+        // the scene had been accepted, so this is no longer bad input but a run
+        // that failed.
+        std::ostringstream text;
+        text << "At t = " << time_steps.time() << " day: " << error.what();
+        files->fail(text.str());
+        throw std::runtime_error(text.str());
+      }
     finish();
     signals.reset();
   }
@@ -373,37 +395,6 @@ namespace Morula
     for_moments(&Moments<dim>::surfaced, 0., 0.);
     typical_stiffness = model.typical_stiffness(tissue, growth_of_step, comm);
     return true;
-  }
-
-  template <int dim>
-  void
-  Simulation<dim>::record_failure(const std::function<void()> &steps)
-  {
-    try
-      {
-        steps();
-      }
-    // Memory has run out on this rank alone. The program's main function tells
-    // of it and ends all ranks.
-    catch (const std::bad_alloc &)
-      {
-        throw;
-      }
-    catch (const StoppedBySignal &stop)
-      {
-        files->fail(stop.what());
-        throw;
-      }
-    catch (const std::exception &error)
-      {
-        // An expression without a value at some later time arrives here, too:
-        // the scene had been accepted, so this is no longer bad input but a run
-        // that failed.
-        std::ostringstream text;
-        text << "At t = " << time_steps.time() << " day: " << error.what();
-        files->fail(text.str());
-        throw std::runtime_error(text.str());
-      }
   }
 
   template <int dim>

@@ -76,15 +76,6 @@ namespace Morula
       return -1;
     }
 
-    /** Whether the process that began this run has ended. */
-    bool
-    is_orphan()
-    {
-      pollfd watched{lifeline, 0, 0};
-      return (launcher != 0 && getppid() != launcher) ||
-             (poll(&watched, 1, 0) > 0 && (watched.revents & POLLHUP) != 0);
-    }
-
     std::string
     message(const int signal, const double time)
     {
@@ -142,7 +133,11 @@ namespace Morula
   {
     // A launcher may send the signal to some ranks only, or to all at different
     // times. All stop after the same step. No descriptor (-1) is never ready.
-    const int signal = last_signal == 0 && is_orphan() ? SIGHUP : last_signal;
+    pollfd     watched{lifeline, 0, 0};
+    const bool is_orphan =
+      (launcher != 0 && getppid() != launcher) ||
+      (poll(&watched, 1, 0) > 0 && (watched.revents & POLLHUP) != 0);
+    const int signal = last_signal == 0 && is_orphan ? SIGHUP : last_signal;
     return dealii::Utilities::MPI::max(signal, comm);
   }
 } // namespace Morula

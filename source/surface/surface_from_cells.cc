@@ -32,18 +32,6 @@ namespace Morula
      *  lattice. */
     constexpr double farthest = 1.;
 
-    /** This rank's cells of a body with their volumes. */
-    template <int dim>
-    PointList<dim>
-    cells_of_body(const Cells<dim> &cells, const unsigned int body)
-    {
-      PointList<dim> list(1);
-      for (unsigned int p = 0; p < cells.size(); ++p)
-        if (cells.body(p) == body)
-          list.add_value(cells.id(p), cells.position(p), cells.volume(p));
-      return list;
-    }
-
     /** The new boundary points of a body. */
     template <int dim>
     class NewPoints
@@ -278,11 +266,14 @@ namespace Morula
                      const SurfaceWish<dim> &wish,
                      types::particle_index  &next_id)
   {
-    const GridBox<dim>    &box = tissue.grid().box();
+    const GridBox<dim> &box   = tissue.grid().box();
+    const Cells<dim>   &cells = tissue.cells();
+    PointList<dim>      volumes(1);
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      if (cells.body(p) == wish.body)
+        volumes.add_value(cells.id(p), cells.position(p), cells.volume(p));
     const CellSurface<dim> surface =
-      surface_of_cells(cells_of_body(tissue.cells(), wish.body),
-                       tissue.grid(),
-                       {wish.share});
+      surface_of_cells(volumes, tissue.grid(), {wish.share});
     NewPoints<dim> points(tissue, wish, surface);
     if (wish.present &&
         !Utilities::MPI::logical_or(

@@ -121,12 +121,7 @@ namespace Morula
     }
     /** Whether a snapshot is due, as output_due() or by the clock of rank 0. */
     bool
-    snapshot_due(const double time, const bool last)
-    {
-      // The clock comes last: the conditions before it are equal on all ranks,
-      // so that either all ranks go on to its collective call or none.
-      return last || snapshots.are_reached(time) || snapshot_due_by_clock();
-    }
+    snapshot_due(const double time, const bool last);
 
     /** Begins to write the next files of the series of cells and surface. They
      *  are complete after one of the next steps, before the next snapshot at
@@ -193,10 +188,6 @@ namespace Morula
     {
       return scene.output_directory + "/" + file;
     }
-
-    /** Whether the clock asks for a snapshot. Collective. */
-    bool
-    snapshot_due_by_clock() const;
 
     bool
     has_format(const std::string &format) const

@@ -127,9 +127,6 @@ namespace Morula
      *  @return whether it has moved. Collective. */
     bool
     balance_at_start();
-    /** Runs @p steps; what makes them fail goes into the run's files, too. */
-    void
-    record_failure(const std::function<void()> &steps);
     void
     finish()
     {

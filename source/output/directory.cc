@@ -130,20 +130,6 @@ namespace Morula
       bool        finished     = false;
       double      wall_seconds = 0.; // of a finished run
 
-      /** The comments, complete lines. */
-      std::string
-      comments() const
-      {
-        std::ostringstream text;
-        text << "# A run of Morula " << version_number() << ".\n"
-             << "# scene: " << scene << "\n# state: ";
-        if (finished)
-          text << "finished after " << wall_seconds << " s\n";
-        else
-          text << "not finished\n";
-        return text.str();
-      }
-
       /** The record of the run in a directory. Nothing if there are no such
        *  comments. */
       static std::optional<RunRecord>
@@ -209,13 +195,19 @@ namespace Morula
     void
     write_parameters(const std::string &directory,
                      const RunSetup    &run,
-                     RunRecord          record)
+                     const RunRecord   &record)
     {
       // The record names the scene that the run is of, also if it was started
       // from its own parameters.prm.
-      record.scene = recorded_name(directory, run.scene_file);
-      write_atomically(parameters_file(directory),
-                       record.comments() + run.parameters);
+      std::ostringstream text;
+      text << "# A run of Morula " << version_number()
+           << ".\n# scene: " << recorded_name(directory, run.scene_file)
+           << "\n# state: ";
+      if (record.finished)
+        text << "finished after " << record.wall_seconds << " s\n";
+      else
+        text << "not finished\n";
+      write_atomically(parameters_file(directory), text.str() + run.parameters);
     }
 
   } // namespace

@@ -313,23 +313,6 @@ namespace Morula
       return {n * rank / n_ranks, n * (rank + 1) / n_ranks};
     }
 
-    /** This rank's slice of the weights. */
-    GridCellCounts
-    read_weights(const Hdf5File &file, const MPI_Comm comm)
-    {
-      // Sizes are checked before memory is taken by them.
-      const auto size = file.size(snapshot_weights_name);
-      if (size.size() != 2 || size[1] != 2)
-        throw std::runtime_error("the grid weights do not fit");
-      const auto [begin, end] = slice(size[0], comm);
-      const auto rows =
-        file.rows<unsigned int>(snapshot_weights_name, begin, end);
-      GridCellCounts weights;
-      for (std::size_t i = 0; i < rows.size(); i += 2)
-        weights.push_back({rows[i], rows[i + 1]});
-      return weights;
-    }
-
     /** This rank's slice of the points. */
     template <int dim>
     PointList<dim>
@@ -424,7 +407,15 @@ namespace Morula
       data.boundary_points  = read_points<dim>(file, "boundary points", comm);
       data.cell_columns     = file.text("cells/columns");
       data.boundary_columns = file.text("boundary points/columns");
-      data.grid_weights     = read_weights(file, comm);
+      // Sizes are checked before memory is taken by them.
+      const auto size = file.size(snapshot_weights_name);
+      if (size.size() != 2 || size[1] != 2)
+        throw std::runtime_error("the grid weights do not fit");
+      const auto [begin, end] = slice(size[0], comm);
+      const auto rows =
+        file.rows<unsigned int>(snapshot_weights_name, begin, end);
+      for (std::size_t i = 0; i < rows.size(); i += 2)
+        data.grid_weights.push_back({rows[i], rows[i + 1]});
     };
     on_root(comm, [&]() { check_seal(path); });
     everywhere(comm, [&]() { read_checked(path, read); });

@@ -275,7 +275,12 @@ namespace Morula
         files->fail(text.str());
         throw std::runtime_error(text.str());
       }
-    finish();
+    files->write_timings(timer);
+    files->finish(row.cells == 0        ? "Finished: all cells are dead" :
+                  time_steps.finished() ? "Finished: End time reached" :
+                                          "Finished: Stop at cells reached",
+                  row,
+                  run_state.n_rejected);
     signals.reset();
   }
 

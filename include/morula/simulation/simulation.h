@@ -127,16 +127,6 @@ namespace Morula
      *  @return whether it has moved. Collective. */
     bool
     balance_at_start();
-    void
-    finish()
-    {
-      files->write_timings(timer);
-      files->finish(row.cells == 0        ? "Finished: all cells are dead" :
-                    time_steps.finished() ? "Finished: End time reached" :
-                                            "Finished: Stop at cells reached",
-                    row,
-                    run_state.n_rejected);
-    }
     bool
     must_stop() const;
 

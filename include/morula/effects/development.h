@@ -68,7 +68,7 @@ namespace Morula
             const TissueMaterial &material) const
     {
       return lame.empty() ?
-               material.lame_at(tissue.cells().founder_position(p)) :
+               material.lame_at(tissue.cells()[p].founder_position()) :
                lame[p];
     }
   };

@@ -129,14 +129,6 @@ TEST(SceneWarnings, OfBoundaryPointsFarApart)
 }
 
 
-TEST(SceneWarnings, OfMissingExtension)
-{
-  Scene scene          = good_scene();
-  scene.grid.extension = false;
-  expect_warning(scene, "Grid/Extension = 'false'");
-}
-
-
 TEST(SceneWarnings, OfLongSteps)
 {
   Scene scene = good_scene();

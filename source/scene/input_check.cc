@@ -10,6 +10,9 @@
 #include <morula/scene/tissue_model.h>
 #include <morula/seeding/seeding.h>
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -347,17 +350,49 @@ namespace Morula
 
   namespace
   {
-    /** The value of a key that is to be warned of, if it does nothing: the
-     *  scene's for all cells, and those of types. */
-    std::vector<const AnyKey *>
-    given(const Scene &scene, const AnyKey &key)
+    /** Warns of a key that does nothing, if the scene gives it a value for all
+     *  cells or for those of a type. @param why half a sentence */
+    void
+    warn_of_idle(const Scene       &scene,
+                 const AnyKey      &key,
+                 const std::string &why,
+                 const std::string &remedy,
+                 Review            &review)
     {
-      std::vector<const AnyKey *> list;
+      const auto warn = [&](const AnyKey &value) {
+        review.warn(value.path(),
+                    value.text(),
+                    "it does nothing " + why + '.',
+                    remedy);
+      };
       if (scene.has_set(key) && !key.is_default())
-        list.push_back(&key);
+        warn(key);
       for (const ExpressionKey *own : scene.cell_types.own_values_of(key))
-        list.push_back(own);
-      return list;
+        warn(*own);
+    }
+
+    /** Warns of the keys of laws, or of rules, that the scene does not choose.
+     *  Where it sets the switch to its default, it has switched them off on
+     *  purpose; where it does not set it, they have been refused. */
+    template <template <int> class Interface>
+    void
+    review_not_chosen(const Scene                 &scene,
+                      const Choices<Interface>    &choices,
+                      const AnyKey                &switch_key,
+                      const std::set<std::string> &chosen,
+                      Review                      &review)
+    {
+      if (!scene.has_set(switch_key) || switch_key.is_default())
+        return;
+      const std::string choose = switch_key.path() + " = ";
+      for (const auto &choice : choices)
+        if (chosen.count(choice.name()) == 0)
+          for (const AnyKey *const key : choice.keys().list())
+            warn_of_idle(scene,
+                         *key,
+                         "with " + choose + switch_key.text(),
+                         "Remove it, or set " + choose + choice.name() + '.',
+                         review);
     }
   } // namespace
 
@@ -365,29 +400,39 @@ namespace Morula
   void
   review_idle_keys(const Scene &scene, Review &review)
   {
+    review_not_chosen(scene,
+                      scene.catalogue.growth_laws,
+                      scene.growth_law,
+                      {scene.law_of_growth()},
+                      review);
+    review_not_chosen(scene,
+                      scene.catalogue.division_rules,
+                      scene.division.axis,
+                      scene.division_axes(),
+                      review);
     std::map<std::string, const AnyKey *> keys;
     for (const AnyKey *const key : scene.list())
       keys[key->path()] = key;
+    // What a key needs is a path, or a path and a value.
+    const auto is_met = [&keys](const std::string &text) {
+      const auto equals = text.find('=');
+      const auto other  = keys.find(text.substr(0, equals));
+      return other != keys.end() &&
+             (equals == std::string::npos ?
+                other->second->is_changed() :
+                other->second->text() == text.substr(equals + 1));
+    };
     for (const AnyKey *const key : scene.list())
-      for (const std::vector<std::string> &paths : key->needed())
-        {
-          std::string missing;
-          bool        is_met = false;
-          for (const std::string &path : paths)
-            {
-              const auto other = keys.find(path);
-              is_met =
-                is_met || (other != keys.end() && other->second->is_changed());
-              missing += (missing.empty() ? "" : " and ") + path;
-            }
-          const auto values = given(scene, *key);
-          if (is_met || values.empty())
-            continue;
-          review.warn(values.front()->path(),
-                      values.front()->text(),
-                      "it does nothing without " + missing + '.',
-                      "Set this key as well, or remove the other.");
-          break;
-        }
+      for (const std::vector<std::string> &needed : key->needed())
+        if (std::none_of(needed.begin(), needed.end(), is_met))
+          {
+            const std::string any = boost::join(needed, " or ");
+            warn_of_idle(scene,
+                         *key,
+                         "without " + any,
+                         "Set " + any + ", or remove this key.",
+                         review);
+            break;
+          }
   }
 } // namespace Morula

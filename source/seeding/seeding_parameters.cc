@@ -24,6 +24,11 @@ namespace Morula
     refine_surface.with("paper", "false");
     surface.with("paper", "tracked");
     redistribution.with("paper", "false");
+    const std::string is = shape.path() + "=";
+    radius.needs({is + "sphere", is + "cylinder"});
+    inner_radius.needs({is + "sphere"});
+    size.needs({is + "box", is + "ellipsoid", is + "cylinder"});
+    points_surface.needs({is + "points"});
     // These keys name files, which are looked for beside the scene as well.
     for (Key<std::string> *key :
          {&surface_mesh, &points_file, &points_surface, &cuts})

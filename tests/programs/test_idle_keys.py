@@ -24,10 +24,21 @@ IDLE = (
     ("Tension/Force", "false", {**TYPES, "Cell types/a/Tension/With b": 1}),
     ("Solver/Largest gap", 0.1, BOX),
     ("Cell types/b/Material/Yield stress", 0.3, TYPES),
-    ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE))
+    ("Cell types/b/Growth/Rate/Homeostatic stress", 0.3, RATE),
+    ("Growth/Rate/Rate", 0.3, GROWS),
+    ("Cell types/b/Growth/Rate/Rate", 0.3, GROWS),
+    ("Proliferation/Cell cycle/Radial center", "1; 0; 0",
+     {**CYCLE, "Proliferation/Cell cycle/Division axis": "stretch"}),
+    ("Tissue/Radius", 30, BOX),
+    ("Obstacles/wall/Radius", 30, {**BOX, "Obstacles/Names": "wall",
+                                   "Obstacles/wall/Shape": "plane",
+                                   "Obstacles/wall/Normal": "0, 1, 0",
+                                   "Obstacles/wall/Center": "0, -60, 0"}),
+    ("Cell numbers/dose/Split noise", 0.3, {**BOX, "Cell numbers/Names": "dose",
+                                            "Cell numbers/dose/At division": "halved"}))
 
 READ = (
-    ("Growth/Rate/Rate", 0.3, GROWS),  # switched off by another law
+    ("Growth/Rate/Rate", 0.3, {**TYPES, "Growth/Law": "none"}),  # switched off on purpose
     ("Tension/Force", "false", {**MOVES, "Cell types/a/Tension/With b": 1,
                                 "Rearrangement/Fluctuation energy": 1}),
     ("Solver/Largest gap", 0.1,

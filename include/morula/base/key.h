@@ -186,8 +186,8 @@ namespace Morula
     }
 
     /** Says that the key does nothing unless one of the keys with these full
-     *  paths has another value than its default. Several calls: each must be
-     *  fulfilled. */
+     *  paths has another value than its default, or that behind a "=". Several
+     *  calls: each must be fulfilled. */
     void
     needs(const std::vector<std::string> &paths)
     {

@@ -40,6 +40,7 @@ namespace Morula
   {
     // The keys stand in the section of the field's name.
     place_in(list(), "Fields/" + name);
+    dilution.needs({time.path() + "=transient"});
   }
 
 

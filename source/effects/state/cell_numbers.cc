@@ -22,7 +22,7 @@ namespace Morula
         : name(name)
       {
         place_in(list(), "Cell numbers/" + name);
-        split_noise.needs({at_division.path()});
+        split_noise.needs({at_division.path() + "=split with noise"});
       }
 
       std::string   name;

@@ -24,6 +24,12 @@ namespace Morula
       : name(name)
     {
       place_in(list(), "Obstacles/" + name);
+      const std::string is = shape.path() + "=";
+      radius.needs({is + "sphere", is + "cylinder"});
+      normal.needs({is + "plane"});
+      size.needs({is + "box"});
+      axis.needs({is + "cylinder"});
+      surface_mesh.needs({is + "mesh"});
       surface_mesh.of_file();
     }
 

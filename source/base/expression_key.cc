@@ -120,7 +120,8 @@ namespace Morula
   {
     ExpressionKey key(section + "/" + path(),
                       "",
-                      "For cells of this type; empty: as for all.",
+                      "For cells of this type; empty: the value of the "
+                      "general key.",
                       evaluated_,
                       n_components);
     key.rule = rule;

@@ -377,7 +377,7 @@ namespace Morula
     text << ", the largest unbalanced force acts near (" << place_of_largest(R)
          << ") um";
     if (gap.value >= 0.)
-      text << ", and the largest gap of a held point is " << gap.value
+      text << ", and the largest gap of a fixed point is " << gap.value
            << " um, at (" << gap.place << ") um";
     if (const double way = u.linfty_norm(); way > space.box().spacing())
       text << ". The attempt has moved the tissue by up to " << way

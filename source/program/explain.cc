@@ -193,8 +193,9 @@ namespace Morula
       add_effects(out, catalogue.flows);
       if (has_surface(model) && model.any_surface(true))
         out.push_back({"surface",
-                       "made from the cells in each step; Fixed where and Slip "
-                       "where hold places, whichever cells are there"});
+                       "made from the cells in each step; Fixed where and "
+                       "Slip where act at places, on whichever cells are "
+                       "there"});
       else if (scene.tissue.refine_surface)
         out.push_back({"surface refinement",
                        "patches longer than " +
@@ -226,7 +227,7 @@ namespace Morula
     void
     print_method(std::ostream &out, const Scene &scene)
     {
-      out << "Method\n  " << scene.method << ", which stands for\n";
+      out << "Method\n  " << scene.method << " sets\n";
       for (const AnyKey *key : scene.list())
         if (!key->texts_by_method().empty())
           out << "    " << key->path() << " = " << key->shown()
@@ -349,7 +350,7 @@ namespace Morula
       for (const std::string &text : tissue.pieces)
         pieces += "    " + text + '\n';
       result.effects.push_back(
-        {"connected parts", std::to_string(tissue.n_pieces), pieces});
+        {"connected tissues", std::to_string(tissue.n_pieces), pieces});
       return result;
     }
 

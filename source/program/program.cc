@@ -383,8 +383,8 @@ namespace Morula
       {
         const CommandLine command = CommandLine::parse(words);
         if (command.serve)
-          throw InputError("--serve stands alone, on one rank: it reads from "
-                           "standard input what to run.");
+          throw InputError("--serve takes no other argument and one rank: it "
+                           "reads from standard input what to run.");
         execute(command, *this, resume_hint);
         return 0;
       }

@@ -128,9 +128,9 @@ namespace Morula
         "Method",
         "consistent",
         "Defaults of the keys that say 'With Method'; those that the scene "
-        "sets keep their values. consistent: the most exact for tissue "
-        "that grows, divides and is held, as --explain lists them. paper: "
-        "the paper's.",
+        "sets keep their values. consistent: the most accurate for tissue "
+        "that grows, divides and is fixed somewhere. paper: those of the "
+        "paper. --explain lists them.",
         {"paper|consistent"})
     , output_directory(
         "Output directory",

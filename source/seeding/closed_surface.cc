@@ -100,7 +100,7 @@ namespace Morula
                     "inside",
                     std::to_string(outside.size()) + " of " +
                       std::to_string(founders.n_global) +
-                      " cells stand outside, the first at (" + first.str() +
+                      " cells lie outside, the first at (" + first.str() +
                       ") um: do both files have the same origin and unit? Else "
                       "remove these cells, or widen the surface.");
       }

@@ -45,9 +45,9 @@ namespace Morula
     if (largest_gap == 0. || gap.value <= largest_gap * h)
       return;
     std::ostringstream text;
-    text << "The tissue slips through its clamp: a held point at (" << gap.place
-         << ") um is " << gap.value
-         << " um from where it is held, more than Solver/Largest gap = "
+    text << "The fixed surface slips: its point at (" << gap.place << ") um is "
+         << gap.value
+         << " um from its prescribed place, more than Solver/Largest gap = "
          << largest_gap << " grid spacings. A higher Boundary "
          << "conditions/Nitsche penalty holds it";
     throw StepFailed(text.str());
@@ -94,7 +94,7 @@ namespace Morula
     text << "points have left the tissue: it would reach from (" << lower
          << ") to (" << upper << ") um, over " << n_grid_cells
          << " grid cells. Look at the surface in the last output; choose a "
-            "shape without corners that stand off from the cells, another "
+            "shape without corners that lie far from the cells, another "
             "Grid/Spacing, or Grid/Points per cell = 2";
     return text.str();
   }
@@ -194,8 +194,8 @@ namespace Morula
   {
     if (tissue.cells().has_parts() &&
         turns_too_far(tissue, space, displacement))
-      throw StepFailed("a strand of the tissue turns by more than 36 degrees, "
-                       "so that the step is too long for its contact");
+      throw StepFailed("a strand of the tissue rotates by more than 36 "
+                       "degrees, so that the step is too long for its contact");
   }
 
 
@@ -258,8 +258,9 @@ namespace Morula
   {
     if (step.symmetric && step.smallest_J < crushed_J && step.energy < 0. &&
         !step.loaded)
-      return " A held point is crushed there: the symmetric Nitsche form has no "
-             "least energy. Set Boundary conditions/Nitsche form = bounded.";
+      return " A fixed point is crushed there: the symmetric Nitsche form "
+             "has no least energy. Set Boundary conditions/Nitsche form = "
+             "bounded.";
     if (step.pointwise && step.max_J > mismatch * step.min_J)
       {
         std::ostringstream text;

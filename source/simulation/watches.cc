@@ -139,12 +139,12 @@ namespace Morula
       const unsigned int which = farthest[dim + 1];
       std::ostringstream text;
       text << n[1] + n[2] << " of " << n[0]
-           << " cells are where none may be, the farthest by " << farthest[0]
+           << " cells lie where none may be, the farthest by " << farthest[0]
            << " um at (" << Flat<Point<dim>>::read(farthest + 1) << ") um, ";
       if (which < places.size())
         text << "in the obstacle '" << places[which].first << "'. ";
       else
-        text << "behind the held side with the normal "
+        text << "behind the fixed or slip side with the normal "
              << Flat<Tensor<1, dim>>::read(farthest + dim + 2) << ". ";
       return text.str();
     }
@@ -176,9 +176,9 @@ namespace Morula
       std::ostringstream text;
       text << "Warning: from t = " << t << " day on " << name
            << " acts on no boundary point any more, and did on " << before
-           << " before: the cells near them are gone. What it held, loaded or "
-              "fed goes on without it. Keep these cells alive, or choose a "
-              "place that stays.";
+           << " before: the cells near them are gone. What it fixed, loaded "
+              "or fed goes on without it. Keep these cells alive, or choose "
+              "a place that stays.";
       announce(text.str());
     };
     for (const auto &named : model.boundary_conditions.list())

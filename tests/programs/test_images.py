@@ -251,7 +251,7 @@ subsection Grid
 end
 """)
     for text, word in (
-            (square.format(50), "36 of 81 cells stand outside"),
+            (square.format(50), "36 of 81 cells lie outside"),
             ("POLYGON((0 0, 90 90, 90 0, 0 90, 0 0))", "has none that can"),
             ("POINT(1 2)", "MULTIPOLYGON"), ("", "MULTIPOLYGON"),
             ("POLYGON((0 0, 9 9", "It cannot be read as such"),

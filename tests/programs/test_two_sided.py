@@ -74,7 +74,7 @@ def test_cells_behind_a_wall(runs):
         "Growth/Law": "rate", "Growth/Rate/Rate": 0.7, "Division by size/Volume": 90,
         "Boundary conditions/Fixed where": "Y < -39.9",
         "Boundary conditions/Slip where": "abs(X) > 39.9", "Output/Formats": "csv"}, code=2)
-    assert "behind the held side with the normal" in run.said
+    assert "behind the fixed or slip side with the normal" in run.said
     assert "Two-sided" in run.said
     assert (run.directory / "snapshot.h5").exists()
 

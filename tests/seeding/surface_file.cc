@@ -110,8 +110,8 @@ TEST(SurfaceFile, CountsCellsOutside)
   const TemporaryFile mesh(".off", hollow_cube(60., 20.));
   const TemporaryFile polygon(".wkt", hollow_square(60., 20.));
   expect_parts(complaint_of([&] { surface<3>(mesh.path, 0., MPI_COMM_WORLD); }),
-               {"8 of 216 cells stand outside"});
+               {"8 of 216 cells lie outside"});
   expect_parts(complaint_of(
                  [&] { surface<2>(polygon.path, 0., MPI_COMM_WORLD); }),
-               {"4 of 36 cells stand outside"});
+               {"4 of 36 cells lie outside"});
 }

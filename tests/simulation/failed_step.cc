@@ -31,7 +31,7 @@ TEST(FailedStep, SaysWhatTheSignsMean)
       step.energy     = -1e6;
     });
   };
-  expect_parts(crushed(true, false), {"A held point is crushed"});
+  expect_parts(crushed(true, false), {"A fixed point is crushed"});
   EXPECT_EQ(crushed(true, true).find("crushed"), std::string::npos);
   EXPECT_EQ(crushed(false, false).find("crushed"), std::string::npos);
 

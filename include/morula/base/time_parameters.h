@@ -44,10 +44,10 @@ namespace Morula
     Key<double> tolerance{
       {this, "Time/Tolerance"},
       0.,
-      "What a step may miss of growth and flow, as a share of the "
-      "tissue's volume: steps are "
-      "Step/2^k, as long as this allows, and short at the start and "
-      "after a cut. Not negative; 0: all steps are Step long.",
+      "Largest error of growth and flow in a step, relative to the tissue's "
+      "volume. Steps are Step/2^k, as long as this allows, and short at the "
+      "start and after a cut. Not negative; 0: all steps have the length "
+      "Step.",
       {},
       not_negative("(a share)", "0 keeps all steps as long as Step.")};
 

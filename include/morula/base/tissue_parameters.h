@@ -53,9 +53,8 @@ namespace Morula
     Key<std::vector<double>> size{
       {this, "Tissue/Size"},
       {200., 200., 200.},
-      "Full edge lengths of a box, full axes of an ellipsoid; the "
-      "third is the height of a cylinder, which stands along z. "
-      "Units: um."};
+      "Full edge lengths of a box, full axes of an ellipsoid; the third is "
+      "the height of a cylinder, whose axis is z. Units: um."};
 
     Key<std::string> surface_mesh{
       {this, TissueKeys::surface_mesh},
@@ -66,25 +65,24 @@ namespace Morula
     Key<std::string> points_file{
       {this, TissueKeys::points_file},
       "",
-      "For the shape points: CSV file of the cells with a header "
-      "line that names the columns in any order: x,y,z (2-D: z may "
-      "be missing) in um; volume in um^3 (2-D: um^2), without it "
-      "that of the Cell spacing; generation, divisions since the "
-      "founder, without it 0; phase of the cell cycle, 0 G0, 1 S, 2 G2, 4 "
-      "G1, 9 never, in which the cell begins at a point that is drawn, "
-      "without it as Start says; type, a name in Cell types/Names or "
-      "its number from 0 on, without it as Where says."};
+      "For the shape points: CSV file of the cells with a header line that "
+      "names the columns in any order: x,y,z (2-D: z may be missing) in um; "
+      "volume in um^3 (2-D: um^2), without it that of the Cell spacing; "
+      "generation, divisions since the founder, without it 0; phase of the "
+      "cell cycle, 0 G0, 1 S, 2 G2, 4 G1, 9 never, in which the cell begins "
+      "at a random point, without it as Start says; type, a name in Cell "
+      "types/Names or its number from 0 on, without it as Where says."};
 
     Key<std::string> points_surface{
       {this, TissueKeys::points_surface},
       "automatic",
       "For the shape points: whether there is a surface around the cells, "
-      "with boundary points that can be held and loaded. automatic: where "
+      "with boundary points that can be fixed and loaded. automatic: where "
       "the scene has a boundary condition, or a key asks for the depth below "
-      "the surface or its normal. always: also without one. It "
-      "stands where the cells end, and encloses their volume. Or the file of "
-      "the closed surface around the cells in um, cavities and all: STL, "
-      "OFF, PLY or OBJ; in 2-D polygons as well-known text, WKT."};
+      "the surface or its normal. always: also without one. It lies where "
+      "the cells end, and encloses their volume. Or the file of the closed "
+      "surface around the cells in um, cavities and all: STL, OFF, PLY or "
+      "OBJ; in 2-D polygons as well-known text, WKT."};
 
     Key<std::string> cuts{
       {this, TissueKeys::cuts},
@@ -127,11 +125,12 @@ namespace Morula
     Key<unsigned int> boundary_points{
       {this, "Tissue/Boundary points"},
       0,
-      "Number of points on the surface, met as nearly as the shape allows. "
-      "0: one per L_p^2 of surface (2-D: L_p), and around points one for "
-      "each cell of a lattice of a third of Grid/Spacing, or of the length of "
-      "a cell if that is shorter, that the surface crosses. Another number makes that lattice finer or coarser, and the "
-      "surface less or more smooth with it."};
+      "Number of points on the surface, as nearly as the shape allows. 0: "
+      "one per L_p^2 of surface (2-D: L_p), and around points one for each "
+      "cell of a lattice of a third of Grid/Spacing, or of the length of a "
+      "cell if that is shorter, that the surface crosses. Another number "
+      "makes that lattice finer or coarser, and the surface less or more "
+      "smooth with it."};
 
     Key<bool> refine_surface{
       {this, "Tissue/Refine surface"},
@@ -151,14 +150,14 @@ namespace Morula
       {this, "Tissue/Surface"},
       "automatic",
       "How the surface follows the tissue. tracked: its points are carried "
-      "along, and only where cells are lost new ones close it. from cells: it "
-      "is made anew around the cells when it has moved by half a cell of its "
-      "lattice, and when points were lost; what is fixed or slips is then held "
-      "where it was at t = 0. automatic: from "
-      "cells where cells exchange places, where tissue flows and loses cells, "
-      "and where it flows and nothing holds it; tracked otherwise, with "
-      "Traction where, with folds that never fuse (Contact/Between = all) and "
-      "with Method = paper.",
+      "along, and only where cells are lost new ones close it. from cells: "
+      "it is made anew around the cells when it has moved by half a cell of "
+      "its lattice, and when points were lost; what is fixed or slips is "
+      "then fixed, or slips, at the places of t = 0. automatic: from cells "
+      "where cells exchange places, where tissue flows and loses cells, and "
+      "where it flows and is fixed nowhere; tracked otherwise, with Traction "
+      "where, with folds that never fuse (Contact/Between = all) and with "
+      "Method = paper.",
       {"automatic|tracked|from cells"}};
 
     Key<std::string> redistribution{

@@ -46,7 +46,7 @@ namespace Morula
       "Least number of quadrature points of a cell and direction, each with "
       "an equal part of the cell's volume; 1 is the paper's method. 2 lowers "
       "the scatter of stresses beside surfaces to a third, and costs as much "
-      "as 2^3 times the cells (2-D: 2^2). From 2 on the points stand in the "
+      "as 2^3 times the cells (2-D: 2^2). From 2 on the points lie in the "
       "cell's deformed box, as many along an edge as that is long: for "
       "tissue that is stretched one way.",
       {1, 10}};

@@ -52,20 +52,19 @@ namespace Morula
     Key<std::string> energy_per{
       {this, "Material/Energy per"},
       "grown volume",
-      "The volume that the elastic energy is counted per: the volume grown "
-      "without stress, so that tissue keeps its stiffness as it grows, or the "
-      "initial volume, halved at every division.",
+      "Reference volume of the elastic energy. grown volume: that of the "
+      "cell without stress, so that growth does not change the stiffness. "
+      "initial volume: it is halved at every division.",
       {"initial volume|grown volume"}};
 
     Key<std::string> volumetric_strain{
       {this, "Material/Volumetric strain"},
       "pooled",
-      "The elastic volume change in the volumetric part of the energy (that "
-      "with lambda, or kappa): each cell's own, or that of the sum of the "
-      "volumes of like cells in a grid cell. Pooled, tissue does not lock as "
-      "Poisson's ratio approaches 0.5; and cells that grow or shrink do not "
-      "press those beside them in their grid cell. "
-      "Projected is another word for pooled.",
+      "Volume change in the volumetric part of the elastic energy (with "
+      "lambda, or kappa). pointwise: each cell's own. pooled: that of the "
+      "like cells of a grid cell together, so that tissue does not lock as "
+      "Poisson's ratio approaches 0.5, and cells that grow or shrink do not "
+      "press others in their grid cell. projected: another word for pooled.",
       {"pointwise|projected|pooled"}};
 
     Key<std::string> law{
@@ -78,12 +77,11 @@ namespace Morula
     Key<std::string> on_transition{
       {this, "Material/On transition"},
       "keep strain",
-      "What a cell has of its elastic strain when its stiffness changes: "
-      "all, so that its stress changes; or, where it stiffens with time, age, "
-      "type or whatever its stiffness depends on, so much that its stress "
-      "stays, as what is laid down in loaded tissue bears nothing yet; or "
-      "nothing when it changes its type, so that it is free of stress as it "
-      "stands.",
+      "What happens when a cell's stiffness changes. keep strain: its "
+      "elastic strain stays, and its stress changes. keep stress: where it "
+      "stiffens, its stress stays, as new material in loaded tissue carries "
+      "no load yet. forget stress: a cell that changes its type is free of "
+      "stress in its present shape.",
       {"keep strain|keep stress|forget stress"}};
     /** What the law can be. */
     Materials materials;

@@ -62,9 +62,9 @@ namespace Morula
     Key<double> largest_gap{
       {this, "Solver/Largest gap"},
       0.25,
-      "Distance of a fixed or slip point from where it is held "
-      "at which a step counts as failed; 0: any is allowed. "
-      "Units: grid spacings.",
+      "Largest distance of a fixed or slip point from its prescribed place; "
+      "beyond it a step counts as failed. 0: any is allowed. Units: grid "
+      "spacings.",
       {0.}};
   };
 } // namespace Morula

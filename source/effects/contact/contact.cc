@@ -40,7 +40,7 @@ namespace Morula
       Key<std::string> bodies{
         {this, "Contact/Bodies"},
         "apart",
-        "What is a body. apart: cells that stand together at t = 0; gaps "
+        "What is a body. apart: cells that lie together at t = 0; gaps "
         "between bodies are at least as wide as 0.8 cells. cell type: all "
         "cells of a type at t = 0, by Cell types/Names; they may touch from "
         "the start. Daughters belong to their mother's body, and cells that "
@@ -387,8 +387,8 @@ namespace Morula
         if (!keys.is_of_all() && bodies.size() < 2)
           warnings.push_back(
             "Warning: " + keys.between.path() +
-            " = bodies does nothing, as "
-            "there is only one body: cells that stand nearer to each other than " +
+            " = bodies does nothing, as there is only one body: cells closer "
+            "to each other than " +
             as_text(widest_bond) + " of their lengths belong together (" +
             keys.bodies.path() +
             "). Leave a wider gap, or tell bodies apart by the type of their cells.");

@@ -163,7 +163,8 @@ namespace Morula
       std::string
       unfinished() const override
       {
-        return "the contact of two bodies is still changing after twenty turns";
+        return "the contact of two bodies is still changing after twenty "
+               "repeated solves";
       }
 
       std::vector<ForceBetween<dim>>

@@ -23,18 +23,18 @@ namespace Morula
       ExpressionKey coefficient{
         {this, "Friction/Coefficient"},
         "0",
-        "Friction of cells, also inside of the tissue, with surroundings that "
-        "stand still: the force on a cell per volume (see Per) is minus this "
-        "times its velocity; >= 0. An expression. Units: kPa day/um^2.",
+        "Friction of cells, also inside of the tissue, with surroundings at "
+        "rest: the force on a cell per volume (see Per) is minus this times "
+        "its velocity; >= 0. An expression. Units: kPa day/um^2.",
         Evaluated::step,
         not_negative("kPa day/um^2", "0 is no friction.")};
 
       Key<std::string> per{
         {this, "Friction/Per"},
         "current volume",
-        "The volume that Coefficient is counted per: that of the cell at the "
-        "beginning of the step, so that tissue that has grown is held by more "
-        "of its surroundings, or the initial one, halved at every division.",
+        "The volume to which Coefficient refers. current volume: that of the "
+        "cell at the beginning of the step, so that grown tissue has more "
+        "friction. initial volume: it is halved at every division.",
         {"current volume|initial volume"}};
 
       bool

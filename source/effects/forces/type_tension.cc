@@ -148,7 +148,7 @@ namespace Morula
               "a value >= 0 kPa um",
               "An interface with a negative tension would crumple: set " +
                 parameters.force.path() +
-                " = false, so that only Rearrangement knows it.");
+                " = false, so that only Rearrangement uses it.");
       }
 
       std::unique_ptr<Term<dim>>

@@ -242,9 +242,9 @@ namespace Morula
       unfinished() const override
       {
         std::ostringstream text;
-        text
-          << "the traction of held points does not settle: it still changes by "
-          << change << " of itself";
+        text << "the traction of the fixed surface does not converge: it still "
+                "changes by "
+             << change << " of itself";
         return text.str();
       }
 

@@ -38,7 +38,7 @@ namespace Morula
               key.refuse(
                 "a value >= 0 kPa um",
                 "A surface with a negative tension would crumple: set "
-                "Tension/Force = false, so that only Rearrangement knows it.");
+                "Tension/Force = false, so that only Rearrangement uses it.");
             tensions.push_back(key);
           }
       }

@@ -46,10 +46,10 @@ namespace Morula
     ExpressionKey axis_spread{
       {this, "Proliferation/Cell cycle/Axis spread"},
       "0",
-      "kappa: concentration of the axes around what Division axis says, by the "
-      "distribution of von Mises and Fisher. The larger, the nearer: the root "
-      "of the mean square angle tends to sqrt(2/kappa), in 2-D sqrt(1/kappa). "
-      "An expression; not negative; 0: no spread.",
+      "kappa: concentration of the axes around Division axis, by the "
+      "distribution of von Mises and Fisher: 0.1 is nearly random, 100 "
+      "nearly exact. The root mean square angle tends to sqrt(2/kappa), in "
+      "2-D sqrt(1/kappa). An expression; not negative; 0: no spread at all.",
       Evaluated::event,
       not_negative("(a concentration)",
                    "0 means no spread; otherwise, the larger the number, the "
@@ -78,7 +78,7 @@ namespace Morula
       {this, "Proliferation/Cell cycle/Stay inside surface"},
       true,
       "true: daughters are placed inside the whole surface; false: only "
-      "inside what is held of it."};
+      "behind its fixed and slip parts."};
   };
 
   /** Key of `Division axis = fixed`. */

@@ -58,7 +58,7 @@ namespace Morula
     ExpressionKey initial{
       {this, "Initial"},
       "0",
-      "The field at t = 0, at which a steady field is sought first; not "
+      "The field at t = 0; for a steady field, where its search begins. Not "
       "negative. An expression of X, Y, Z (um).",
       Evaluated::founder,
       not_negative("(a concentration)", "0 is none at all.")};
@@ -109,8 +109,8 @@ namespace Morula
     Key<bool> dilution{
       {this, "Dilution"},
       true,
-      "Whether a transient field becomes less where cells grow, so "
-      "that its amount stays. The steady state knows no dilution."};
+      "Whether a transient field becomes less where cells grow, so that its "
+      "amount stays. A steady field is not diluted."};
 
     Key<bool> exchanged{
       {this, "Exchanged"},

@@ -35,7 +35,7 @@ namespace Morula
       {this, "Tension/Force"},
       true,
       "Whether the tensions between types pull at the tissue. false: only "
-      "Rearrangement knows them, as where the grid is too coarse for them."};
+      "Rearrangement uses them, as where the grid is too coarse for them."};
     /** γ_ab, by (a, b) in the order of the types, without a = b; kPa µm. */
     std::deque<Key<double>>  between;
     std::vector<std::string> types;
@@ -100,7 +100,7 @@ namespace Morula
               "Cell types/" + name + "/Tension/With " + other,
               0.,
               "Tension of the interface with cells of type " + other +
-                "; one of the two types may say it. Negative: only for "
+                "; set it for one of the two types. Negative: only for "
                 "Rearrangement. Units: kPa um.");
     }
     using Keys::list;

@@ -19,10 +19,10 @@ namespace Morula
     ExpressionKey stretch{
       {this, "Contraction/Stretch"},
       "1",
-      "Length along Direction that a cell would have if nothing held it, as a "
-      "ratio to the length without contraction, gamma; > 0. Below 1 cells "
-      "contract, above 1 they lengthen. A value that differs from 1 from the "
-      "start on acts in the first step: ramp it, as 1 - 0.3*min(t, 1).",
+      "Stress-free length of a cell along Direction, relative to that "
+      "without contraction, gamma; > 0. Below 1 cells contract, above 1 they "
+      "lengthen. A value that differs from 1 from the start on acts in the "
+      "first step: ramp it, as 1 - 0.3*min(t, 1).",
       Evaluated::step,
       positive("(a ratio of lengths)", "1 is no contraction.")};
 

@@ -24,8 +24,9 @@ namespace Morula
     ExpressionKey time{
       {this, "Material/Relaxation time"},
       "0",
-      "Time in which the shear stress of held tissue falls to 1/e; >= 0. 0: "
-      "elastic. Volume does not relax. Epithelia have about 0.05. Units: day.",
+      "Time in which shear stress at constant strain falls to 1/e: the "
+      "viscosity over the shear modulus; >= 0. 0: elastic. Volume does not "
+      "relax. Epithelia have about 0.05. Units: day.",
       Evaluated::step,
       not_negative("day", "0 is elastic tissue.")};
 
@@ -39,9 +40,9 @@ namespace Morula
     Key<unsigned int> passes{
       {this, "Material/Relaxation passes"},
       1,
-      "Into how many parts the relaxation of a step with a "
-      "Yield stress is cut. More are more exact where tissue "
-      "is held, and less so under a load.",
+      "Number of parts into which the relaxation of a step with a Yield "
+      "stress is divided. More are more exact where the strain is given, and "
+      "less exact where the load is given.",
       {1, 10000}};
 
     bool

@@ -85,8 +85,8 @@ namespace Morula
     Key<bool> two_sided{
       {this, "Two-sided"},
       false,
-      "Whether it also holds what has touched it, and pulls it back, until "
-      "that is half a grid spacing off; along the obstacle it slides."};
+      "Whether the obstacle also pulls back the surface that has touched it, "
+      "up to a distance of half a grid spacing; along the obstacle it slides."};
 
     ExpressionKey velocity{
       {this, "Velocity"},

@@ -33,9 +33,9 @@ namespace Morula
     ExpressionKey volume{
       {this, path("Volume")},
       "",
-      "Volume of the lumen relative to that at t = 0, a function of t; "
-      "> 0. The pressure that it takes is found, and stands in "
-      "statistics.csv. Empty: what fills the lumen is a gas.",
+      "Volume of the lumen relative to that at t = 0, a function of t; > 0. "
+      "The pressure for that is computed, and written to statistics.csv. "
+      "Empty: a gas fills the lumen.",
       Evaluated::place,
       positive("times the volume at t = 0", "1 keeps the volume.")};
 
@@ -50,8 +50,8 @@ namespace Morula
     ExpressionKey secretion{
       {this, path("Secretion")},
       "",
-      "Volume of fluid that the wall of the lumen gives into it per area and "
-      "time, a function of t; < 0: it takes it up. The pressure is found. "
+      "Volume of fluid that the wall secretes into the lumen per area and "
+      "time, a function of t; < 0: it takes it up. The pressure is computed. "
       "Empty: the volume is given, or there is a gas. Units: um/day.",
       Evaluated::place};
 

@@ -180,11 +180,11 @@ namespace Morula
       {this, "Boundary conditions/Nitsche form"},
       "bounded",
       "symmetric: the paper's, for large penalties. unsymmetric: stable for "
-      "any penalty, but without an energy. bounded: the traction of held "
-      "points comes from the cells around them, is constant in a solve and "
-      "renewed after it; its energy has a lower bound, and with Nitsche "
-      "penalty = 20 it is much more accurate beside the edge of a fixed "
-      "surface.",
+      "any penalty, but without an energy. bounded: the traction of fixed "
+      "and slip points comes from the cells around them, is constant in a "
+      "solve and updated after it; its energy has a lower bound, and with "
+      "Nitsche penalty = 20 it is much more accurate beside the edge of a "
+      "fixed surface.",
       {"symmetric|unsymmetric|bounded"}};
 
     /** Which of Nitsche's terms. */

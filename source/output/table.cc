@@ -5,6 +5,8 @@
 #include <morula/base/input_error.h>
 #include <morula/output/table.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -69,13 +71,18 @@ namespace Morula
 
       std::string line;
       std::getline(in, line);
-      if (in.eof() || line + '\n' != header)
+      // A column of runs before 0.3.0 is called otherwise today.
+      if (in.eof() ||
+          boost::replace_all_copy(line, ",pieces,", ",connected_tissues,") +
+              '\n' !=
+            header)
         refuse("a file with the header '" +
                header.substr(0, header.size() - 1) + "'");
 
       Beginning beginning;
-      beginning.size = header.size();
-      beginning.digest.process_bytes(header.data(), header.size());
+      line += '\n';
+      beginning.size = line.size();
+      beginning.digest.process_bytes(line.data(), line.size());
       for (std::uint64_t row = 0; row < kept.n_rows; ++row)
         {
           std::getline(in, line);

@@ -196,7 +196,7 @@ namespace Morula
     row.step = run_state.n_steps;
     set_state(model, tissue, time_steps.time(), row);
     if (model.development.is_mortal())
-      of_step["pieces"] = watches.n_pieces();
+      of_step["connected_tissues"] = watches.n_pieces();
     const CellReader<dim> reader = model.development.reader(time_steps.time());
     for (const auto &[name, effect] : model.moments)
       effect->describe(

@@ -229,8 +229,8 @@ namespace Morula
     std::ostringstream text;
     text << "Warning: at t = " << t << " day the tissue has parted: it has "
          << n_pieces_ << " parts now, and had " << before
-         << ". Each moves on its own. The column pieces of statistics.csv has "
-            "their number; further cases are not reported.";
+         << ". Each moves on its own. The column connected_tissues of "
+            "statistics.csv has their number; further cases are not reported.";
     announce(text.str());
   }
 

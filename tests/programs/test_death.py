@@ -127,7 +127,7 @@ def test_last_cells(runs):
                                  " || t >= 0.4*(noise > 0.5) + 0.4*(X > 0)"})
     assert "Finished: all cells are dead" in run.said
     table = run.statistics
-    assert 1 in {*table["cells"]} | {*table["pieces"]}
+    assert 1 in {*table["cells"]} | {*table["connected_tissues"]}
     assert table["cells"].iloc[-1] == 0
     assert table["rejected_steps"].sum() == 0
 
@@ -152,11 +152,11 @@ def test_with_obstacles_and_coarsening(runs):
 
 
 def test_pieces(runs):
-    """A bar is cut: two pieces, which the user is told once."""
+    """A bar is cut: two connected tissues, which is said once."""
     run = runs.run("bar", DISC, {
         **AT_ONCE, "Tissue/Shape": "box", "Tissue/Size": "300, 50",
         "Death/When": "abs(X) < 50 && t >= 0.25"})
-    assert [*run.statistics["pieces"]] == [1, 1, 1, 2, 2, 2, 2, 2, 2]
+    assert [*run.statistics["connected_tissues"]] == [1, 1, 1, 2, 2, 2, 2, 2, 2]
     assert run.said.count("the tissue has parted") == 1
     assert "it has 2 parts now, and had 1" in run.said
 

@@ -37,7 +37,7 @@ def test_ten_days(runs):
     size = table["total_volume"] / table["cells"]
     assert abs(size.iloc[-30:].mean() / size[10:40].mean() - 1) < 0.02
     assert abs(1 - table["total_volume"] / table["grown_volume"]).max() < 0.02
-    assert {*table["pieces"]} == {1}
+    assert {*table["connected_tissues"]} == {1}
     for number in range(1, 6):
         check_surface(run.surface(number), run.cells(number))
 

@@ -170,7 +170,7 @@ class Run:
         if not len(table):
             raise Refused("The table", file, "a table with the initial state "
                           "and a row a step", "Has the run begun?")
-        return _frame(table)
+        return _frame(table).rename(columns={"pieces": "connected_tissues"})  # before 0.3.0
 
     @property
     def digest(self):

@@ -42,7 +42,7 @@ namespace Morula
         return;
       tables.add_count("deaths", CellEvent::death);
       tables.add_count("removed", CellEvent::removal);
-      tables.add_number("pieces");
+      tables.add_number("connected_tissues");
     }
 
   protected:

@@ -239,7 +239,7 @@ namespace Morula
         // borne: doc/theory.md (4.10a). Pairs' forces cancel, and their moments
         // do but for what points of a pair are beside each other.
         ForceRow held;
-        held.kind        = "held";
+        held.kind        = "constraint";
         held.name        = kind;
         held.is_internal = true;
         for (const ForceBetween<dim> &one : forces)

@@ -96,36 +96,52 @@ namespace Morula
       {"Cell spacing", "cell size,cell diameter,cell length,number of cells"},
       {"Grid/Spacing", "resolution,mesh size,element size,grid size"},
       {"Young's modulus",
-       "stiffness,elasticity,rigidity,modulus,elastic modulus"},
+       "stiffness,elasticity,rigidity,modulus,elastic modulus,ecm,"
+       "extracellular matrix,basement membrane,basal lamina"},
       {"Poisson's ratio", "compressibility,incompressible,bulk modulus"},
       {"Relaxation time",
-       "viscosity,viscous,viscoelasticity,creep,remodelling"},
+       "viscosity,viscous,viscoelasticity,creep,remodelling,fluidity"},
       {"Yield stress", "plasticity,plastic,yielding"},
-      {"Growth/Rate", "growth rate,anisotropic growth"},
+      {"Growth/Rate", "growth rate,anisotropic growth,swelling,hypertrophy"},
+      {"Growth/Rate/Homeosta", "mechanical feedback,mechanosensing"},
       {"Cell cycle/Duration", "cycle length,cycle time,doubling time"},
-      {"G0 exit rate", "proliferation rate,quiescence,quiescent"},
+      {"G0 exit rate",
+       "proliferation rate,quiescence,quiescent,doubling time,mechanosensing"},
       {"Size checkpoint", "contact inhibition,crowding"},
+      {"Proliferation/Law", "mitosis,cytokinesis,cell division"},
+      {"Division/Rate", "mitosis,cell division,doubling time"},
+      {"Division by size", "mitosis,cell division,cell volume"},
       {"Division axis", "spindle axis,spindle,division orientation"},
-      {"Transitions", "differentiation,fate decision,cell fate"},
+      {"Daughter types", "asymmetric division,stem cell,self-renewal"},
+      {"Transitions", "differentiation,fate decision,cell fate,mutation"},
       {"Contraction", "apical constriction,actomyosin,myosin,active stress"},
-      {"Death", "apoptosis,necrosis,necrotic core"},
-      {"Extrusion", "delamination,shedding"},
-      {"Fields", "morphogen,oxygen,nutrient,signal,concentration"},
+      {"Death", "apoptosis,necrosis,necrotic core,cell death,drug,treatment"},
+      {"Death/When", "wound,ablation,laser"},
+      {"Tissue/Cuts", "wound,ablation,incision"},
+      {"Extrusion", "delamination,shedding,sloughing"},
+      {"Fields",
+       "morphogen,oxygen,nutrient,signal,concentration,hypoxia,glucose,drug,"
+       "growth factor"},
+      {"Cell numbers", "protein,gene,gene expression,drug,dose,memory"},
       {"Consumption", "uptake,absorption,decay,degradation"},
       {"Production", "secretion,source"},
       {"Diffusion", "diffusivity,diffusion coefficient"},
       {"Tension/With", "adhesion,cohesion,differential adhesion,cell sorting"},
+      {"Surface tension", "cortical tension,line tension"},
       {"Fusion time", "adhesion,fusion of tissues"},
-      {"Rearrangement", "intercalation,migration,motility,mixing"},
-      {"Friction", "drag,viscous drag,substrate"},
-      {"Obstacles", "wall,confinement,mould,substrate"},
-      {"Contact", "collision,self-contact,self-collision"},
+      {"Rearrangement", "intercalation,migration,motility,mixing,invasion"},
+      {"Rearrangement/Drive", "chemotaxis,polarity,convergent extension"},
+      {"Friction", "drag,viscous drag,substrate,folding,buckling"},
+      {"Obstacles", "wall,confinement,mould,substrate,gel,dish"},
+      {"Contact", "collision,self-contact,self-collision,folding"},
       {"Fixed where", "clamp,clamped,anchored,dirichlet"},
       {"Slip where", "symmetry,sliding,roller"},
       {"Traction", "load,neumann,pulling force"},
+      {"Boundary conditions/Pressure", "turgor,hydrostatic pressure"},
       {"Force density", "gravity,weight"},
-      {"Lumen", "cavity,turgor,osmotic pressure"},
-      {"Cell types", "cell type,heterogeneity"},
+      {"Lumen", "cavity,turgor,osmotic pressure,hydrostatic pressure"},
+      {"Cell types", "cell type,heterogeneity,extracellular matrix,ecm"},
+      {"Output/Interval", "frames,film,frame rate"},
       {"Random seed", "seed,random number"}};
 
     std::string
@@ -192,13 +208,26 @@ namespace Morula
     std::vector<std::string> result;
     for (const auto &[word, others] : synonyms)
       {
-        std::vector<std::string> list;
-        boost::split(list, others, boost::is_any_of(","));
+        const std::vector<std::string> list = split_names(others);
         if (std::find(list.begin(), list.end(), boost::to_lower_copy(name)) !=
             list.end())
           result.push_back(word);
       }
     return result;
+  }
+
+
+  std::string
+  similar_word(const std::string &word)
+  {
+    std::vector<std::string> known;
+    for (const auto &[key, others] : synonyms)
+      {
+        known.push_back(last_name(key));
+        for (const std::string &other : split_names(others))
+          known.push_back(other);
+      }
+    return most_similar(word, known);
   }
 
 

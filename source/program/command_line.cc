@@ -332,9 +332,13 @@ namespace Morula
                                   }),
                    keys.end());
         if (keys.empty())
-          throw InputError(
-            "No key has '" + printable(word) + "' in its path or meaning" +
-            (command.words.size() > 1 ? ", and the words before it." : "."));
+          {
+            const std::string other = similar_word(word);
+            throw InputError(
+              "No key has '" + printable(word) + "' in its path or meaning" +
+              (command.words.size() > 1 ? ", and the words before it." : ".") +
+              (other.empty() ? "" : " Did you mean '" + other + "'?"));
+          }
       }
     if (command.json)
       ParameterKeys(keys).print_json(out, scene.as_written);

@@ -41,6 +41,10 @@ TEST(Suggestion, KnowsTheWordsOfTheField)
   EXPECT_EQ(words_of_keys("cell size"), Words{"Cell spacing"});
   EXPECT_EQ(words_of_keys("adhesion"), (Words{"Tension/With", "Fusion time"}));
   EXPECT_EQ(words_of_keys("Spacing"), Words());
+  EXPECT_EQ(words_of_keys("drug"), (Words{"Death", "Fields", "Cell numbers"}));
+  EXPECT_EQ(similar_word("viscocity"), "viscosity");
+  EXPECT_EQ(similar_word("apoptsis"), "apoptosis");
+  EXPECT_EQ(similar_word("qwertz"), "");
 }
 
 

@@ -86,6 +86,11 @@ namespace Morula
   std::vector<std::string>
   words_of_keys(const std::string &name);
 
+  /** The name of a key, or a word of words_of_keys(), that a misspelt word most
+   *  likely stands for; or empty. */
+  std::string
+  similar_word(const std::string &word);
+
   /**
    * A suggestion for the full path of a key or section that does not exist: the
    * most similar path, or those that end with the same name. Empty if nothing

@@ -121,7 +121,7 @@ namespace Step6
 
         whole.add_value("J_th", threshold);
         whole.add_value("cells", static_cast<unsigned int>(row.cells));
-        whole.add_value("held",
+        whole.add_value("waiting",
                         static_cast<unsigned int>(row.held_at_checkpoint));
         whole.add_value("apex", row.tissue.upper[2]);
         whole.add_value("volume/grown",

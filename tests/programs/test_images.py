@@ -65,7 +65,7 @@ def test_hollow_ball(runs, make, cells, dim, name, days):
     labels, voxel = hollow_ball(dim)
     said = make(f"{name}.tif", labels, "--voxel", ",".join(map(str, voxel[::-1])),
                 photometric="minisblack")
-    assert "in several pieces" in said
+    assert "in several parts" in said
     sizes = np.unique(labels[labels > 0], return_counts=True)[1]
     np.testing.assert_allclose(np.sort(cells(name)["volume"]),
                                np.sort(sizes) * voxel.prod(), 0.02)

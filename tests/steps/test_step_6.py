@@ -11,8 +11,8 @@ def test_checkpoint(step):
     whole, layers = tables(step({"Tissue/Cell spacing": "40", "Grid/Spacing": "100",
                                  "Time/End time": "2.5"}))
     assert whole["J_th"] == [0, 0.8, 0.9]
-    assert whole["held"][0] == 0
-    assert min(whole["held"][1:]) > 10
+    assert whole["waiting"][0] == 0
+    assert min(whole["waiting"][1:]) > 10
     # The larger the threshold, the fewer the cells, and the lower the energy.
     for name in ("cells", "energy", "apex"):
         assert whole[name] == sorted(whole[name], reverse=True)

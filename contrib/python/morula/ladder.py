@@ -100,8 +100,8 @@ def check_method(plan):
     both = [key.path for key in plan.scene.known if key.paper is not None and key.path in plan.keys]
     if "Method" in plan.keys and both:
         raise Refused("--vary", f"Method and {both[0]}", "one of them",
-                      "Method stands for that key: vary Method alone, or the "
-                      "keys that it stands for.")
+                      "Method sets that key: vary Method alone, or the "
+                      "keys that it sets.")
 
 
 class Plan:

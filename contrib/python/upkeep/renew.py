@@ -57,7 +57,7 @@ def ladder(title, text):
 
 def ladders():
     parts = ["●: no run is both faster and better; others are left out. ★: the fastest for the "
-             "wanted error. In brackets:\ncannot be told from zero. Commands: contrib/python/upkeep/accuracy.py."]
+             "wanted error. In brackets:\nnot distinguishable from zero. Commands: contrib/python/upkeep/accuracy.py."]
     for name, words in accuracy.LADDERS.items():
         output = OUTPUT / "accuracy" / name
         said("contrib/accuracy", *words, "--again", "--output", output)

@@ -33,7 +33,7 @@ def cost_panel(axes, findings, found):
     log_ticks(axes.xaxis, *axes.get_xlim())
     log_ticks(axes.yaxis, *limits)
     axes.axhspan(low, max(low, found.floor), color="0.92", zorder=0,
-                 label="cannot be told from zero")
+                 label="not distinguishable from zero")
     front = findings.front(found)
     x, y = [walls[point] for point in front], [heights[point] for point in front]
     axes.plot([x[0], *x, 1e3 * max(walls.values())], [limits[1], *y, y[-1]], drawstyle="steps-post",

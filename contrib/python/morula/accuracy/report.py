@@ -62,7 +62,7 @@ def run_table(findings, estimates):
                    f"{pretty(e.measure.unit)}" for e in estimates)])
     return table(head, rows) + (
         "\n\n● no run is both faster and better; "
-        "in brackets: cannot be told from zero; ± two standard errors.")
+        "in brackets: not distinguishable from zero; ± two standard errors.")
 
 
 def error_cell(findings, estimate, point):

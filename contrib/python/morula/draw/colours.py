@@ -31,8 +31,8 @@ NAMED = {
     "phase": {0: ("G0", "#56B4E9"), 1: ("S", "#009E73"),
               2: ("G2", "#F0E442"), 3: ("M", "#D55E00"),
               4: ("G1", "#0072B2"), 9: ("no cycle", "#B8BBC0")},
-    "held_at_checkpoint": {0: ("not held", "#B8BBC0"),
-                           1: ("held", "#D55E00")}}
+    "held_at_checkpoint": {0: ("not waiting", "#B8BBC0"),
+                           1: ("waiting", "#D55E00")}}
 # Of cell types by their numbers, from the same source; more types than that
 # get them again, darker.
 OF_TYPES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#F0E442", "#B8BBC0")

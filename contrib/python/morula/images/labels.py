@@ -138,9 +138,9 @@ def _join_pieces(cells, words):
         cells.places[row] = (np.array([parts[f"centroid-{d}"][part] for d
                                        in range(cells.labels.ndim)]) + 0.5) * cells.voxel
     if torn.any():
-        words.append(f"{torn.sum()} labels are in several pieces ({_list(cells.names[torn])}): "
-                     "each counts as one cell with the volume of all its pieces, which stands in "
-                     "the largest one.")
+        words.append(f"{torn.sum()} labels are in several parts ({_list(cells.names[torn])}): "
+                     "each counts as one cell with the volume of all its parts, placed in the "
+                     "largest one.")
     index = tuple((cells.places / cells.voxel).astype(int).T)
     for row in np.flatnonzero(cells.labels[index] != cells.numbers):
         cells.places[row] = _thickest(cells.labels == cells.numbers[row], cells.voxel)

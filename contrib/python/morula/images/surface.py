@@ -189,7 +189,7 @@ def _with_cells(parts, cells, words):
     holds = np.array([part.volume < 0 or contains(part, cells.places).any() for part in parts])
     if not holds.all():
         words.append(f"{(~holds).sum()} bodies hold no cell's place, such as "
-                     "pieces of torn labels: they are left out.")
+                     "parts of torn labels: they are left out.")
     bodies = [part for part, held in zip(parts, holds) if held and part.volume > 0]
     return bodies + [part for part in parts if part.volume < 0 and any(
         contains(body, part.vertices[:1])[0] for body in bodies)]

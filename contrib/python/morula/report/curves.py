@@ -47,7 +47,7 @@ def results(run):
     if rows["dividing"].any():
         yield Curve("Divisions in a step", "", {"dividing": "divisions"}, only_steps=True)
     if rows["held_at_checkpoint"].any():
-        yield Curve("Cells held at the size checkpoint", "", {"held_at_checkpoint": "held"})
+        yield Curve("Cells that wait at the size checkpoint", "", {"held_at_checkpoint": "waiting"})
     if "dying" in rows:
         yield Curve("Dead cells that are still there", "", {"dying": "dead cells"})
         yield Curve("Deaths and removals in a step", "",

@@ -79,20 +79,18 @@ namespace Morula
         // The last line may end with a backslash.
         read_line(line, n_outer);
         if (open.size() > n_outer && !unclosed.name.empty())
-          throw InputError(unclosed.opening + ": subsection",
-                           unclosed.name,
-                           "a subsection that is closed by 'end'",
-                           "Add the missing 'end': by the indentation it "
-                           "belongs before line " +
-                             std::to_string(unclosed_at) + ".");
+          throw InputError(printable(unclosed.opening) + ": subsection '" +
+                           printable(unclosed.name) +
+                           "' is not closed. Add the missing 'end': by the "
+                           "indentation it belongs before line " +
+                           std::to_string(unclosed_at) + ".");
         if (open.size() > n_outer)
-          throw InputError(
-            open[n_outer].opening + ": subsection",
-            open[n_outer].name,
-            "a subsection that is closed by 'end'",
-            "Add the missing 'end', of this subsection or of one "
-            "within it; the file ends with line " +
-              std::to_string(line_number) + ".");
+          throw InputError(printable(open[n_outer].opening) + ": subsection '" +
+                           printable(open[n_outer].name) +
+                           "' is not closed. Add the missing 'end', of this "
+                           "subsection or of one within it; the file ends "
+                           "with line " +
+                           std::to_string(line_number) + ".");
       }
 
       void

@@ -73,6 +73,17 @@ namespace Morula
                "Write decimals with a point. " :
                "";
     }
+
+    /** A word on numbers with a unit. */
+    std::string
+    on_unit(const std::string &value)
+    {
+      static const std::regex with_unit(
+        "[-+]?[0-9.]+([eE][-+]?[0-9]+)? *[^-+0-9.eE*/^ ,;()<>=&|][^ ]*");
+      return std::regex_match(value, with_unit) ?
+               "Write numbers without a unit. " :
+               "";
+    }
   } // namespace
 
 
@@ -110,29 +121,33 @@ namespace Morula
   void
   ParameterKeys::refuse_unknown(const Statement &statement) const
   {
-    // Similar names are the best help; then what the field's word for a thing
-    // is called here.
+    // The field's word for a thing is the best help, then a similar name. A
+    // name that exists outside of all sections tells of a missing 'end', the
+    // most common mistake in long scenes.
     std::vector<std::string> paths;
     if (statement.is_section)
       paths = sections;
     else
       for (const AnyKey *key : keys)
         paths.push_back(key->path());
-    std::string       suggestion = suggest_path(statement.path, paths);
     const std::string name =
       statement.path.substr(statement.path.rfind('/') + 1);
-    const std::vector<std::string> words = words_of_keys(name);
-    if (suggestion.empty() && !words.empty())
-      suggestion = "For " + boost::to_lower_copy(name) + " see '" +
-                   boost::join(words, "' or '") + "'.";
+    const std::vector<std::string> words      = words_of_keys(name);
+    std::string                    suggestion = words.empty() ?
+                                                  suggest_path(statement.path, paths) :
+                                                  "For " + boost::to_lower_copy(name) + " see '" +
+                                 boost::join(words, "' or '") + "'.";
+    if (name != statement.path &&
+        std::find(paths.begin(), paths.end(), name) != paths.end())
+      suggestion += " Is an 'end' missing above?";
     if (!suggestion.empty())
       suggestion += ' ';
-    const bool is_section = statement.is_section;
-    throw InputError(statement.place +
-                       (is_section ? "subsection" : statement.path),
-                     is_section ? statement.path : statement.value,
-                     is_section ? "a section that exists" : "a key that exists",
-                     suggestion + "'morula keys WORD' finds keys by a word.");
+    throw InputError(
+      printable(statement.place) +
+      (statement.is_section ? "unknown section '" + printable(statement.path) :
+                              "unknown key " + printable(statement.path) +
+                                " = '" + printable(statement.value)) +
+      "'. " + suggestion + "'morula keys WORD' finds keys by a word.");
   }
 
 
@@ -160,7 +175,7 @@ namespace Morula
                        statement.value,
                        allowed(*key),
                        did_you_mean(statement.value, *key) +
-                         on_comma(statement.value) +
+                         on_comma(statement.value) + on_unit(statement.value) +
                          "It is: " + key->documentation() +
                          " Correct the value or remove the line; the default "
                          "is '" +

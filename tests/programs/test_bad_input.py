@@ -102,7 +102,7 @@ def test_command_line(fresh, arguments, value, remedy):
 
 @pytest.mark.parametrize("content, said", [
     (None, "a .prm file that can be read"),
-    (b"PK\x03\x04\0\0", ":1"), (b"subsection Grid\n  set Spacing = 5\n", ":1: subsection = 'Grid'"),
+    (b"PK\x03\x04\0\0", ":1"), (b"subsection Grid\n  set Spacing = 5\n", ":1: subsection 'Grid'"),
     (b"\nsubsection Material\n  set Young's modulus = X\nend\n", ":3: Material/Young's modulus"),
     (b"include nowhere.prm\n", ":1"), (b"include scene.prm\n", ":1")])
 def test_scenes(fresh, content, said):

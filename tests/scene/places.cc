@@ -26,13 +26,13 @@ TEST(ScenePlaces, AreThoseOfSubsectionsWithoutEnd)
                             "    set Duration = 2\n"
                             "  end\n";
   expect_parts(complaint(cycle + "subsection Grid\nend\nend\n"),
-               {".prm:6: subsection = 'Proliferation/Grid'",
-                "Did you mean 'Grid'?"});
+               {".prm:6: unknown section 'Proliferation/Grid'",
+                "Did you mean 'Grid'? Is an 'end' missing above?"});
   expect_parts(complaint(cycle), {".prm:1: subsection", "Proliferation"});
   expect_parts(complaint("subsection Growth\n"
                          "  subsection Isotropic\n"
                          "  set Law = isotropic\n"),
-               {".prm:1: subsection = 'Growth'", "ends with line 3"});
+               {".prm:1: subsection 'Growth'", "ends with line 3"});
 }
 
 

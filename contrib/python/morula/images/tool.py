@@ -185,7 +185,7 @@ def _tune(options, file, keys, comments, words):
         if not warnings:
             return
         said = said or warnings[0]
-    words.append("The image is finer than the method resolves with any grid: " + said)
+    words.append("The scene runs, but no grid resolves the image: " + said.removeprefix("Warning: "))
 
 
 def _finish(options, directory, keys, length, n, volumes, words):

@@ -176,7 +176,7 @@ namespace Morula
                        allowed(*key),
                        did_you_mean(statement.value, *key) +
                          on_comma(statement.value) + on_unit(statement.value) +
-                         "It is: " + key->documentation() +
+                         "Meaning: " + key->documentation() +
                          " Correct the value or remove the line; the default "
                          "is '" +
                          key->default_text() + "'" +

@@ -42,13 +42,13 @@ namespace Morula
 
     Key<double> radius{{this, "Tissue/Radius"},
                        250.,
-                       "Of a sphere or cylinder. Units: um."};
+                       "Radius of a sphere or cylinder. Units: um."};
 
     Key<double> inner_radius{
       {this, "Tissue/Inner radius"},
       0.,
-      "Of a sphere: of the cavity around its center; 0: there is "
-      "none. Units: um."};
+      "Radius of the cavity in the middle of a sphere; 0: there is none. "
+      "Units: um."};
 
     Key<std::vector<double>> size{
       {this, "Tissue/Size"},

@@ -56,23 +56,24 @@ namespace Morula
 
     Key<double> radius{{this, "Radius"},
                        0.,
-                       "Of a sphere or cylinder; > 0. Units: um."};
+                       "Radius of a sphere or cylinder; > 0. Units: um."};
 
     DirectionKey normal{
       {this, "Normal"},
       "",
-      "Of a plane; it points to the tissue if Side = outside."};
+      "Normal of a plane; it points to the tissue if Side = outside."};
 
     Key<std::vector<double>> size{{this, "Size"},
                                   {},
                                   "Full edge lengths of a box. Units: um."};
 
-    DirectionKey axis{{this, "Axis"}, "", "Of a cylinder."};
+    DirectionKey axis{{this, "Axis"}, "", "Axis of a cylinder."};
 
     Key<std::string> surface_mesh{
       {this, "Surface mesh"},
       "",
-      "Of a mesh: closed surface in um, as an STL, OFF, PLY or OBJ file."};
+      "For the shape mesh: file with a closed surface in um, as STL, OFF, "
+      "PLY or OBJ."};
 
     Key<double> stiffness{
       {this, "Stiffness"},

@@ -60,8 +60,8 @@ def run_scene(scene, directory, ranks, progress, again):
     if state == "finished" and not again:
         return Run(directory)
     if state == "other" and not again:
-        raise Refused("The directory", directory, "one without a run of another scene",
-                      "Choose another one, or replace that run: --replace, again=True.")
+        raise Refused("The directory", directory, "one without a run of other values",
+                      "Pass again=True to replace that run, or another name or directory.")
     if again and state == "resumable":
         state = "begun"
     how = {"resumable": ["--resume"], "none": []}.get(state, ["--replace"])

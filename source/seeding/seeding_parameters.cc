@@ -160,9 +160,10 @@ namespace Morula
     {
       const auto         shape = make_shape<dim>(parameters);
       const Lattice<dim> lattice(parameters, shape->bounding_box());
-      // Ends at the first cell: mostly it is among the first sites.
-      for (std::uint64_t site = 0; site < lattice.n_sites(); ++site)
-        if (lattice.is_occupied(*shape, lattice.position(site)))
+      // Ends at the first cell: mostly it is in the middle.
+      const std::uint64_t n = lattice.n_sites();
+      for (std::uint64_t k = 0; k < n; ++k)
+        if (lattice.is_occupied(*shape, lattice.position((n / 2 + k) % n)))
           return;
       throw_no_cell_fits(parameters);
     }

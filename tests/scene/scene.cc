@@ -149,7 +149,7 @@ TEST(Scene, RefusesBadFiles)
          {"set Dimension = 3\nset Dimension = " + std::string(20000, '3'),
           {"scene.prm:2", "333...", "10000 characters"}},
          {"set Dimension = 3 \x01 2", {"scene.prm:1", "3 \\x01 2"}},
-         {std::string("set Dimension\0 = 3", 19), {"scene.prm:1", "exists"}},
+         {std::string("set Dimension\0 = 3", 19), {"scene.prm:1", "key"}},
          {std::string(100000, '('), {"scene.prm:1", "10000 characters"}},
          {"set " + std::string(5000, 'a') + " = 1", {"scene.prm:1", "unknown"}},
          {"\nsubsection Grid\n" +

@@ -83,7 +83,8 @@ namespace Morula
       for (const AnyKey *const key : list)
         if (const std::string value = key->text();
             !value.empty() &&
-            (all || !key->is_default() || (value != "0" && value != "true")))
+            (all || !key->is_default() ||
+             (value != "0" && value != "true" && value != "false")))
           text += ", " + key->path().substr(section.size()) + " = " + value +
                   (key->unit().empty() ? "" : " " + key->unit());
       return text;

@@ -136,7 +136,7 @@ def test_resumed(own, scene):
 
 def test_explained(own):
     text = own.explain(SCENE)
-    for line in ("dose, Uptake = 0.5, Response = 0.1", "axis = along, Direction = 0, 1, 0",
+    for line in ("dose, Uptake = 0.5 1/day, Response = 0.1", "axis = along, Direction = 0, 1, 0",
                  "Record = true, Pace = 1 + generation", "Density = 0; 1e-4*t*volume/100",
                  "Stretch = 1 + 0.04*t", "When = t > 0.7",
                  "Where = X > 40 && Y > -40, After = 0.3", "Rate = 2", "Take = true",

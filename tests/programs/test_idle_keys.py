@@ -10,6 +10,7 @@ BOX = {"Dimension": 2, "Tissue/Shape": "box", "Tissue/Size": "100, 100",
        "Tissue/Cell spacing": 10, "Grid/Spacing": 40, "Time/End time": 0.2,
        "Time/Step": 0.1, "Output/Formats": "none"}
 TYPES = {**BOX, "Cell types/Names": "a, b", "Cell types/b/Where": "X > 0"}
+CYCLE = {**TYPES, "Proliferation/Law": "cell cycle", "Proliferation/Cell cycle/Duration": 0.2}
 GROWS = {**TYPES, "Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + 0.1*t"}
 RATE = {**TYPES, "Growth/Law": "rate", "Growth/Rate/Rate": 0.1}
 MOVES = {**TYPES, "Rearrangement/Diffusion": 10}

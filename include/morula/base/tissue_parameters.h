@@ -152,12 +152,12 @@ namespace Morula
       "How the surface follows the tissue. tracked: its points are carried "
       "along, and only where cells are lost new ones close it. from cells: "
       "it is made anew around the cells when it has moved by half a cell of "
-      "its lattice, and when points were lost; what is fixed or slips is "
-      "then fixed, or slips, at the places of t = 0. automatic: from cells "
-      "where cells exchange places, where tissue flows and loses cells, and "
-      "where it flows and is fixed nowhere; tracked otherwise, with Traction "
-      "where, with folds that never fuse (Contact/Between = all) and with "
-      "Method = paper.",
+      "its lattice, and when points were lost; Fixed where and Slip where "
+      "then act at the places of t = 0. automatic: from cells where cells "
+      "exchange places, where tissue flows and loses cells, and where it "
+      "flows and is fixed nowhere; tracked otherwise, with Traction where, "
+      "with folds that never fuse (Contact/Between = all) and with Method = "
+      "paper.",
       {"automatic|tracked|from cells"}};
 
     Key<std::string> redistribution{

@@ -49,7 +49,7 @@ namespace Morula
       "kappa: concentration of the axes around Division axis, by the "
       "distribution of von Mises and Fisher: 0.1 is nearly random, 100 "
       "nearly exact. The root mean square angle tends to sqrt(2/kappa), in "
-      "2-D sqrt(1/kappa). An expression; not negative; 0: no spread at all.",
+      "2-D sqrt(1/kappa). An expression; not negative; 0: no spread.",
       Evaluated::event,
       not_negative("(a concentration)",
                    "0 means no spread; otherwise, the larger the number, the "

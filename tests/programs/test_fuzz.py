@@ -207,7 +207,7 @@ def explain(runs, work, data, words=()):
 
 def check_message(message):
     """Key or line, and what is allowed, in a readable length."""
-    assert re.search(r"(?s)^morula: .+ = '.*': allowed is .+\.", message)
+    assert re.search(r"(?s)^morula: .*( = '.*': allowed is |unknown |' is not closed).+\.", message)
     assert re.search(r"mutant\.prm|\.prm:\d|-s: |/|^morula: (Dimension|Output directory|Random seed"
                      r"|The (scene|command line)|-s) = ", message)
     assert len(message) < 3000, message[:500]

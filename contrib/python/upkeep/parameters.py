@@ -23,7 +23,7 @@ SCENE = "".join(f"subsection {section}\n  set Names = {names}\nend\n" for sectio
                     ("Obstacles", "name"), ("Lumens", "name")))
 
 # Keys that a type of cells has because all cells have them.
-OF_TYPE = "For cells of this type; empty: as for all"
+OF_TYPE = "For cells of this type; empty: the value of the general key"
 
 
 def allowed(key):

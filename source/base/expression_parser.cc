@@ -315,9 +315,9 @@ namespace Morula
                        });
       if (const std::string best = most_similar(word, names); !best.empty())
         return " Did you mean '" + best + "'?";
-      return " Write numbers without a unit. If it is a field or a number of "
-             "cells, Fields/Names or Cell numbers/Names must have it; functions "
-             "are those of muParser, with ramp, hill and if.";
+      return " If it is a field or a number of cells, Fields/Names or Cell "
+             "numbers/Names must have it; functions are those of muParser, "
+             "with ramp, hill and if; numbers have no unit.";
     }
   } // namespace
 

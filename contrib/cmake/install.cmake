@@ -4,8 +4,8 @@
 # What `cmake --install` puts below its prefix: the program, the tools that work
 # on scenes and runs, the library with its headers and the package that
 # find_package(Morula) reads, scenes to start from, the step programs with their
-# sources, a project to start one's own effects from, and the pages. Nothing of it names the build or the source
-# directory, and the whole may be moved.
+# sources, a project to start one's own effects from, and the pages. Nothing of it
+# names the build or the source directory, and the whole may be moved.
 
 if(MORULA_SANITIZE)
   install(CODE "message(FATAL_ERROR \"Not installed: this build finds memory \
@@ -59,10 +59,10 @@ install(FILES
   ${PROJECT_BINARY_DIR}/MorulaConfigVersion.cmake
   DESTINATION ${package_directory})
 
-file(GLOB scenes ${PROJECT_SOURCE_DIR}/prm/*.prm)
-install(FILES ${scenes} DESTINATION ${share_directory}/prm)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm/paper
-  DESTINATION ${share_directory}/prm)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/prm DESTINATION ${share_directory}
+  PATTERN hard EXCLUDE
+  PATTERN showcase EXCLUDE
+  PATTERN verification EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/source/steps
   DESTINATION ${share_directory})
 install(FILES ${PROJECT_SOURCE_DIR}/doc/data/half-fixed-sphere.csv
@@ -101,8 +101,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/doc DESTINATION ${pages_directory}
   PATTERN changes EXCLUDE
   PATTERN data EXCLUDE
   PATTERN images EXCLUDE
-  PATTERN man EXCLUDE
-  PATTERN steps EXCLUDE)
+  PATTERN man EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/contrib/packaging/copyright
   DESTINATION ${pages_directory})
 

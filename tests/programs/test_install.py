@@ -40,7 +40,8 @@ def test_files(runs, installed):
     files = {file.relative_to(installed).as_posix(): file.read_bytes()
              for file in installed.rglob("*") if file.is_file()}
     expected = {"lib/libmorula.a", "share/morula/LICENSE", "share/morula/prm/paper/fig-4b.prm",
-                "share/doc/morula/copyright", "share/doc/morula/doc/parameters.md"}
+                "share/morula/prm/examples/two-lumens.csv", "share/doc/morula/copyright",
+                "share/doc/morula/doc/parameters.md", "share/doc/morula/doc/steps/step-1.md"}
     expected |= {str(file.relative_to(ROOT)) for file in (ROOT / "include").rglob("*.h")}
     for file in (installed / "bin").iterdir():
         expected |= {f"share/man/man1/{file.name}.1",

@@ -198,6 +198,9 @@ namespace Morula
             std::ofstream(request[cost])
               << "{\"exit\": " << code
               << ", \"process_seconds\": " << seconds.count()
+              << ", \"processor_seconds\": "
+              << usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
+                   1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec)
               << ", \"peak_bytes\": " << 1024 * usage.ru_maxrss << "}\n";
           std::cout << code << ' ' << usage.ru_maxrss << std::endl;
         }
@@ -243,10 +246,7 @@ namespace Morula
                          std::to_string(program.dimension),
                          "This program knows no other dimension.");
       if (command.explain)
-        {
-          explain(scene, std::cout, MPI_COMM_WORLD, command.json);
-          return;
-        }
+        return explain(scene, std::cout, MPI_COMM_WORLD, command.json);
       check_memory(scene, initial_size(scene), MPI_COMM_WORLD);
       if (program.resumes)
         resume_hint = "If there is a snapshot.h5 in '" +

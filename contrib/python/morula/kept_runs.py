@@ -54,7 +54,7 @@ def job_name(special, overrides):
 class KeptRuns:
     """Does jobs of a scene below a directory. Runs that were interrupted go on
     from their last snapshot with `resume`, and begin anew without: then their
-    wall times are those of one execution."""
+    times are those of one execution."""
 
     def __init__(self, scene, directory, ranks=1, n_at_a_time=1, again=False,
                  resume=False, say=print, servers=None, name="morula"):

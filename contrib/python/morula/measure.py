@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 by the Morula authors
-"""Runs one command and writes what it cost: exit code, wall seconds, and the
-peak resident memory of its largest process in bytes.
+"""Runs one command and writes what it cost: exit code, seconds by the clock and of the
+processor, and the peak resident memory of its largest process in bytes.
 
     python3 -I -S measure.py RECORD.json COMMAND...
 
@@ -26,7 +26,8 @@ def main():
             os._exit(127)
     _, status, usage = os.wait4(child, 0)
     result = {"exit": os.waitstatus_to_exitcode(status), "process_seconds": time.monotonic()
-              - start, "peak_bytes": usage.ru_maxrss * 1024}
+              - start, "processor_seconds": usage.ru_utime + usage.ru_stime,
+              "peak_bytes": usage.ru_maxrss * 1024}
     with open(record, "w", encoding="utf-8") as stream:
         json.dump(result, stream)
 

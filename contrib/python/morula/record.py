@@ -52,7 +52,6 @@ class Record:
         """An execution, with what measure.py says of it; files that are not in `keep` go."""
         cost.update(ranks=ranks, jobs=jobs)
         if cost["exit"] == 0:
-            cost["computing_seconds"] = self._computing_seconds()
             if "snapshot" not in keep:
                 (self.output / "snapshot.h5").unlink(missing_ok=True)
             for kind in {"cells", "surface"} - set(keep):
@@ -64,14 +63,6 @@ class Record:
     def _store(self):
         stored = {"identity": self.identity, "overrides": self.overrides, "cost": self.cost}
         write(self.file, json.dumps(stored, indent=1))
-
-    def _computing_seconds(self):
-        """Wall time to the last row of statistics.csv, less the writing of cells and surface
-        before it, which takes about equally long each time; a tenth is left at least, as on a
-        busy machine one file can take far longer than the others."""
-        run, seconds = self.run, float(self.run.statistics["wall_seconds"].iloc[-1])
-        spent = run.timings["wall_seconds"].get("output", 0.0)
-        return max(seconds - spent * (1 - 1 / max(1, len(run.times))), 0.1 * seconds)
 
     @property
     def exit(self):
@@ -102,9 +93,9 @@ class Record:
         return Run(self.output)
 
     @property
-    def computing_seconds(self):
-        """Wall time without the writing of cells and surface, seconds."""
-        return self.cost["computing_seconds"]
+    def processor_seconds(self):
+        """That all ranks together have computed; other work prolongs it less than the wall time."""
+        return self.cost["processor_seconds"]
 
     @property
     def process_seconds(self):

@@ -11,10 +11,9 @@ from morula.error_in_time import error_in_time
 from .estimate import estimate
 
 
-# What a point takes until a time, means over the samples: s, from the start to the
-# end of that step; the most unknowns of any step until then; MB, peak of the whole
-# run; and its own estimate of its error in time, or nan.
-Cost = namedtuple("Cost", "wall unknowns memory in_time")
+# What a point takes, means over the samples: s of processor time; the most unknowns of
+# any step; MB, peak of the run; and its own estimate of its error in time, or nan.
+Cost = namedtuple("Cost", "seconds unknowns memory in_time")
 
 
 @dataclass(frozen=True)
@@ -71,16 +70,16 @@ class Findings:
         costs = []
         for record in records:
             statistics = record.run.statistics
-            costs.append([record.computing_seconds, statistics["unknowns"].max(),
+            costs.append([record.processor_seconds, statistics["unknowns"].max(),
                           record.peak_bytes / 1e6, error_in_time(statistics)])
         return Cost(*numpy.mean(numpy.array(costs, dtype=float), axis=0))
 
-    def walls(self, found):
-        """Wall time of the points of an Estimate, s."""
-        return {point: self.cost(point).wall for point in found.values}
+    def seconds(self, found):
+        """Processor time of the points of an Estimate, s."""
+        return {point: self.cost(point).seconds for point in found.values}
 
     def front(self, found):
-        return found.front(self.walls(found))
+        return found.front(self.seconds(found))
 
     def warnings(self):
         """What a reader must know before believing the tables."""

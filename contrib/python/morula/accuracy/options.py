@@ -12,7 +12,7 @@ def parser():
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Tells how far the results of a scene are right: runs it with "
         "coarser grids,\nlonger steps, other places of the grid and other seeds. With "
-        "--vary, draws error\nagainst wall time, unknowns and memory.",
+        "--vary, draws error\nagainst processor time, unknowns and memory.",
         epilog="""morula accuracy my.prm --measure zmax
 morula accuracy my.prm --measure zmax,total_volume \\
     --vary "Grid/Spacing=100,75,50" --vary "Time/Step=2,1,0.5"

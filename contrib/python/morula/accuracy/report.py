@@ -47,13 +47,13 @@ def table(head, rows):
 
 def run_table(findings, estimates):
     """All runs: what they cost, and their errors; in the order of the ladders."""
-    head = ["run", "wall time, s", "unknowns", "memory, MB", "error in time, own estimate",
+    head = ["run", "processor time, s", "unknowns", "memory, MB", "error in time, own estimate",
             *(f"{e.measure.text}, error" for e in estimates)]
     rows = []
     for point in findings.plan.points:
         cost = findings.cost(point)
         rows.append([findings.plan.label(point)] + (
-            [f"{cost.wall:.3g}", f"{cost.unknowns:.0f}", f"{cost.memory:.0f}",
+            [f"{cost.seconds:.3g}", f"{cost.unknowns:.0f}", f"{cost.memory:.0f}",
              f"{digits(100 * cost.in_time, False)} %",
              *(error_cell(findings, e, point) for e in estimates)]
             if cost else ["failed"] + ["–"] * (len(head) - 2)))
@@ -151,7 +151,7 @@ def rows_of_errors(findings):
     """A row for each run and quantity, with all digits."""
     yield [*findings.plan.keys, "measure", "unit", "value", "seed_scatter", "right_value",
            "right_value_uncertainty", "error", "error_noise", "on_front",
-           "wall_seconds", "unknowns", "memory_mb"]
+           "processor_seconds", "unknowns", "memory_mb"]
     for e in findings.estimates:
         front = findings.front(e)
         for point in e.values:

@@ -23,8 +23,9 @@ from morula.tables import markdown
 from . import ROOT, accuracy, parser, said
 
 OUTPUT = ROOT / "output/renew"
-LEFT_OUT = ("unknowns", "memory, MB", "runs", "mean", "smallest", "largest", "refilled", "cells",
-            "minutes", "ours / paper", "volume off, relative", "surface over that of a ball")
+LEFT_OUT = ("unknowns", "memory, MB", "error in time, own estimate", "runs", "mean", "smallest",
+            "largest", "refilled", "cells", "minutes", "ours / paper", "volume off, relative",
+            "surface over that of a ball")
 
 
 def tables_of(text):
@@ -44,26 +45,33 @@ def shorter(text):
     return re.sub(r"(?:^\|.*\n?)+", lambda lines: without(*tables_of(lines[0])) + "\n", text, flags=re.M)
 
 
+def named(row):
+    """The row of a run, with a word for the keys of its method."""
+    own = [words for words in row[0].split(", ") if not words.startswith(accuracy.KEYS)]
+    method = next((word for sign, word in (("symmetric", "paper's method"),
+                                           ("whole", "defaults of 0.2.0")) if sign in row[0]), "")
+    return [", ".join(filter(None, [*own, method])), *row[1:]]
+
+
 def ladder(title, text):
-    """The tables of a table.md of contrib/accuracy, but for runs behind the front, and tolerances."""
+    """The tables of a table.md of contrib/accuracy, but for ladders that are not counted."""
     parts = [f"### Error against seconds: {title}"]
     for heading, body in re.findall(r"^#+ ((?:Runs|Each|Scatter).*)\n([^#]*)", text, re.M):
-        def kept(row):
-            return (not re.search(r"Solver/|\[|spread", "".join(row)) if heading[0] != "R" else
-                    re.match(r"the scene itself|\*\*", row[0]) or re.search("failed|●", "".join(row)))
-        parts += [f"#### {heading}", *(without(table, kept) for table in tables_of(body))]
+        parts += [f"#### {heading}", *(without([named(row) for row in table], lambda row: not (
+            re.search(r"\[|spread", "".join(row)))) for table in tables_of(body))]
     return "\n\n".join(parts)
 
 
 def ladders():
-    parts = ["●: no run is both faster and better; others are left out. ★: the fastest for the "
-             "wanted error. In brackets:\nnot distinguishable from zero. Commands: contrib/python/upkeep/accuracy.py."]
+    parts = ["●: no run is both faster and better. In brackets: not distinguishable from zero. Commands: "
+             "contrib/python/upkeep/accuracy.py.\nProcessor time: user and system time of a run."]
     for name, words in accuracy.LADDERS.items():
         output = OUTPUT / "accuracy" / name
         said("contrib/accuracy", *words, "--again", "--output", output)
-        for picture in output.glob("*/*.png"):
-            shutil.copy(picture, ROOT / f"doc/images/accuracy/{name}-{picture.name}")
         file = max(output.glob("*/table.md"), key=os.path.getmtime)
+        picture = ROOT / f"doc/images/accuracy/{name}.png"
+        if picture.exists():
+            shutil.copy(file.with_name("accuracy.png"), picture)
         parts.append(ladder(name, file.read_text(encoding="utf-8")))
     return "\n\n".join(parts)
 
@@ -115,14 +123,12 @@ SECTIONS = {  # name: title, page, what measures it
     "speed": ("Speed", "performance.md", lambda: said("contrib/upkeep/benchmark"))}
 
 
-def head():
-    """With what the page is made."""
+def measured():
+    """With what a section is measured."""
     commit = said("git", "describe", "--always", "--dirty", "--exclude=*")
     processor = re.search(r"^model name\s*: (.*)", said("cat", "/proc/cpuinfo"), re.M)[1]
-    return ("# Results\n\nThe tables that a version was measured with; pages link here. "
-            "`contrib/upkeep/renew` writes this page\nfrom runs, for a version and not for "
-            f"a change.\n\n{Program(ROOT / 'build/morula').version}, {processor}, "
-            f"{cores()} cores; {datetime.date.today()}, commit {commit}.")
+    return (f"{Program(ROOT / 'build/morula').version}, {processor}, {cores()} cores; "
+            f"{datetime.date.today()}, commit {commit}.")
 
 
 def main():
@@ -133,7 +139,9 @@ def main():
         tool.error(f"the sections are {', '.join(SECTIONS)}")
     os.environ.pop("OMP_NUM_THREADS", None)
     said("contrib/build", "all")
-    parts, failed = [head()], []
+    parts, failed = ["# Results\n\nThe tables that a version was measured with; pages link here. "
+                     "`contrib/upkeep/renew` writes this page\nfrom runs, for a version and not "
+                     "for a change."], []
     for name in chosen or SECTIONS:
         title, page, measure = SECTIONS[name]
         try:
@@ -142,7 +150,7 @@ def main():
             body = f"Not measured: {error}."
             failed.append(name)
         parts.append(f"## {title}\n\n[{page}]({page}) says what the runs are, and what "
-                     f"follows from them.\n\n{body}")
+                     f"follows from them.\n{measured()}\n\n{body}")
     text = "\n\n".join(parts) + "\n"
     if chosen:
         print(text)

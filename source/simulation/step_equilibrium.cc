@@ -239,9 +239,11 @@ namespace Morula
         scales.small_force =
           std::max(scales.small_force, report.first_residual);
       // Where folds have contact, a turn of many iterations fails, as held back
-      // it is easier; half a per cent of the forces is enough.
+      // it is easier; half a per cent of the forces is enough. No path follows
+      // there, so that a leap does not end a turn, which would be a failure.
       SolverParameters parameters = model.scene.solver;
-      if (tissue.cells().has_parts())
+      report.may_leap             = tissue.cells().has_parts();
+      if (report.may_leap)
         {
           scales.length *= 100.;
           parameters.newton_iterations =

@@ -28,9 +28,8 @@ namespace Morula
     /** unless one of the last so many has failed: the longer one would fail,
      *  too, and failures cost most. */
     constexpr unsigned int parts_after_failure = 4;
-    /** A path of more parts does not come to an end. */
-    constexpr unsigned int most_parts = 200;
-    /** Iterations of a path in those of Solver/Newton iterations. */
+    /** Iterations of a path in those of Solver/Newton iterations; one of more
+     *  does not come to an end. */
     constexpr unsigned int budget = 2;
   } // namespace
 
@@ -72,10 +71,7 @@ namespace Morula
     const unsigned int  most =
       report.newton_iterations + budget * parameters.newton_iterations;
     std::string reason = "it does not come to an end";
-    for (unsigned int n_parts = 0;
-         n_parts < most_parts && report.newton_iterations <= most &&
-         c <= most_proximity;
-         ++n_parts)
+    while (report.newton_iterations <= most && c <= most_proximity)
       try
         {
           const unsigned int before = report.newton_iterations;

@@ -160,7 +160,7 @@ def test_error_bar_by_chance(runs, accuracy):
     assert [name for name, _ in numbers.errors(run)] == list(run.errors.index)
     (runs.work / "own/statistics.csv").write_bytes(before + b"\n")  # of another run
     assert run.errors.empty
-    assert "another scene" in accuracy(*words, "--measure", "xmax", "-s", "Grid/Spacing=50",
+    assert "run of other values" in accuracy(*words, "--measure", "xmax", "-s", "Grid/Spacing=50",
                                        code=1)
 
 

@@ -240,8 +240,21 @@ namespace Morula
 
 
   void
-  print_help(std::ostream &out)
+  print_help(std::ostream &out, const CommandLine &command)
   {
+    // Two commands are options of this program, which say what they do.
+    if (command.explain || command.parameters)
+      {
+        out << "usage: morula "
+            << (command.explain ? "explain SCENE.prm" :
+                                  "keys [SCENE.prm] [WORD]...")
+            << " [-s \"Section/Key=value\"]...\n\n"
+            << visible_options()
+                 .find(command.explain ? "explain" : "parameters", false)
+                 .description()
+            << '\n';
+        return;
+      }
     out
       << "Morula simulates growing and proliferating tissue.\n\nUsage: "
       << usage << "\n       mpirun -np N morula SCENE.prm ...\n"

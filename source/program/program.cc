@@ -217,10 +217,10 @@ namespace Morula
       // is refused. Only the first one prints it.
       std::ostringstream text;
       if (command.help)
-        print_help(text);
-      if (command.version)
+        print_help(text, command);
+      else if (command.version)
         print_version(text);
-      if (command.parameters)
+      else
         print_parameters(text, command, catalogue);
       if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         std::cout << text.str();

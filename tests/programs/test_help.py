@@ -52,8 +52,9 @@ def test_commands(runs):
     tools = [name.removeprefix("cell-") for name, module in TOOLS.items()
              if module.startswith("morula.")]
     assert sorted(words) == sorted([*tools, "explain", "keys"])
-    for word in ("shapes", "export"):
-        assert runs.call([program, word, "-h"], call=call).stdout.startswith(f"usage: morula {word} ")
+    for word in ("shapes", "export", "explain", "keys"):
+        printed = runs.call([program, word, "-h"], call=call).stdout
+        assert printed.startswith(f"usage: morula {word} ") and printed.count("\n") < 100
     (runs.work / "report").write_text("set Dimension = 1\n")
     assert "Dimension" in runs.call([program, "report"], 1, cwd=runs.work, call=call).stderr
     alone = runs.work / "alone"

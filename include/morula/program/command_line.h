@@ -49,9 +49,10 @@ namespace Morula
   bool
   run_tool(char *argv[]);
 
-  /** Prints usage, commands, options and exit codes. */
+  /** Prints usage, commands, options and exit codes, or those of the command
+   *  `explain` or `keys` alone. */
   void
-  print_help(std::ostream &out);
+  print_help(std::ostream &out, const CommandLine &command);
 
   /** Prints the versions of Morula and deal.II. */
   void

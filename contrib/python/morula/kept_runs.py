@@ -78,9 +78,10 @@ class KeptRuns:
         with `skip` tells it and leaves the job out: the rest is returned."""
         left = [job for job in jobs if not self.is_done(job)]
         refused = set()
+        if left:
+            tell(f"{self.name}: checking the keys of {len(left)} run{'s' * (len(left) > 1)} ...")
         with self._servers_for(left):
-            for number, job in enumerate(left, 1):
-                tell(f"{self.name}: checking {number} of {len(left)} ...")
+            for job in left:
                 try:
                     with self._server() as server:
                         self.scene.program.explain(self.scene.path, job.overrides, server)

@@ -7,6 +7,7 @@ import contextlib
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 from morula import execute
@@ -18,6 +19,7 @@ from .run import Run
 
 PATIENCE = 600.0  # s, for the step that a run is at: then it saves its state
 EVERY = 0.5  # s, between looks at how far it is
+SELDOM = 60.0  # s, between lines in a log, which keeps them all
 
 
 @contextlib.contextmanager
@@ -79,6 +81,8 @@ def run_scene(scene, directory, ranks, progress, again):
 def _execute(words, directory, end, progress):
     """The exit code, and what was said to stderr. Ctrl-C is passed on as the
     signal after which the program saves its state."""
+    live = sys.stderr.isatty() or "ipykernel" in sys.modules
+    due = time.monotonic() + (0 if live else SELDOM)
     with tempfile.TemporaryFile("w+") as errors:
         child = execute.start(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                               stderr=errors)
@@ -86,8 +90,9 @@ def _execute(words, directory, end, progress):
             while child.poll() is None:
                 with contextlib.suppress(subprocess.TimeoutExpired):
                     child.wait(EVERY)
-                if progress:
-                    _tell(directory, end)
+                if progress and time.monotonic() >= due:
+                    _tell(directory, end, live)
+                    due += 0 if live else SELDOM
         except KeyboardInterrupt:
             print("\nmorula: saving; the same call goes on ...", file=sys.stderr, flush=True)
             execute.end([child], PATIENCE)
@@ -96,13 +101,14 @@ def _execute(words, directory, end, progress):
             if child.poll() is None:
                 execute.end([child], PATIENCE)
             if progress:
-                print(file=sys.stderr, flush=True)
+                _tell(directory, end, live)
+                print(end="\n" if live else "", file=sys.stderr, flush=True)
         errors.seek(0)
         return child.returncode, errors.read().strip().removeprefix("morula: ")
 
 
-def _tell(directory, end):
-    """A line, over the one before, of how far the run is."""
+def _tell(directory, end, live):
+    """How far the run is: a line of its own, or over the one before where somebody looks on."""
     row = ["", "0"]
     with contextlib.suppress(OSError, IndexError):
         lines = (directory / "statistics.csv").read_text().splitlines()
@@ -111,4 +117,5 @@ def _tell(directory, end):
     with contextlib.suppress(ValueError):
         text = (f"day {float(row[1]):g} of {end:g}, {row[0]} cells" if row[0]
                 else "placing the cells ...")
-        print(f"\r{text:<60}", end="", file=sys.stderr, flush=True)
+        print(f"\r{text:<60}" if live else text, end="" if live else "\n", file=sys.stderr,
+              flush=True)

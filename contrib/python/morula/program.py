@@ -48,7 +48,7 @@ class Program:
     def keys_with(self, scene, overrides=()):
         """The same, and those of the types, fields and obstacles that a scene names."""
         return read_keys(self._run("--parameters=json", scene, *execute.overrides(overrides),
-                                   what=("The scene", scene, "what Morula accepts")).stdout)
+                                   scene=scene).stdout)
 
     def complete(self, written, keys=None):
         """All keys of a scene that sets these: path -> value as text."""
@@ -75,14 +75,13 @@ class Program:
         if result.code != 0:
             shown = ", ".join(f"{key}={value}" for key, value in overrides)
             message = result.stderr.strip().removeprefix("morula: ")
-            raise Refused("The scene", f"{scene}" + (f" with {shown}" if shown else ""),
-                          "what Morula accepts", f"It says: {message}")
+            raise Refused(f"{scene}{' with ' * bool(shown)}{shown} is refused: {message}")
         return json.loads(result.stdout)
 
-    def _run(self, *arguments, what=()):
+    def _run(self, *arguments, scene=None):
         result = execute.call([self.executable, *arguments])
         if result.code != 0:
-            raise Refused(*(what or ("--morula", self.executable, "Morula's executable, but this "
-                                     "one fails")),
-                          result.stderr.strip().removeprefix("morula: "))
+            message = result.stderr.strip().removeprefix("morula: ")
+            raise Refused(f"{scene} is refused: {message}" if scene else
+                          f"{self.executable} does not work: {message}")
         return result

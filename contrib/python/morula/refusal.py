@@ -16,8 +16,9 @@ def shown(text):
 
 
 class Refused(Exception):
-    """What was given, its value, what is allowed, what to do: found before anything is computed."""
+    """What was given, its value, what is allowed, what to do; or a sentence alone. It is found
+    before anything is computed."""
 
-    def __init__(self, what, value, allowed, remedy=""):
-        super().__init__(f"{shown(what)} = '{shown(value)}': allowed is {allowed}."
-                         + (f" {remedy}" if remedy else ""))
+    def __init__(self, what, value=None, allowed="", remedy=""):
+        super().__init__(what if value is None else f"{shown(what)} = '{shown(value)}': "
+                         f"allowed is {allowed}." + (f" {remedy}" if remedy else ""))

@@ -72,7 +72,7 @@ def run_scene(scene, directory, ranks, progress, again):
         words = [*scene.program.command(file, overrides, ranks), *how]
         code, said = _execute(words, directory, float(keys["Time/End time"]), progress)
     if code == 1:
-        raise Refused("The scene", scene.name, "what Morula accepts", f"It says: {said}")
+        raise Refused(f"The scene {scene.name} is refused: {said}")
     if code:
         raise RuntimeError(f"The run in {directory} ended with exit code {code}:" f" {said}")
     return Run(directory)

@@ -93,35 +93,43 @@ namespace Morula
 
     /** Parts of keys' paths, and what else the field calls it. */
     const std::vector<std::pair<std::string, std::string>> synonyms = {
+      {"Dimension", "2d,3d,plane strain"},
+      {"Tissue/Shape", "tumour,tumor,spheroid,organoid,embryo,sheet,tube"},
       {"Cell spacing", "cell size,cell diameter,cell length,number of cells"},
       {"Grid/Spacing", "resolution,mesh size,element size,grid size"},
       {"Young's modulus",
        "stiffness,elasticity,rigidity,modulus,elastic modulus,ecm,"
-       "extracellular matrix,basement membrane,basal lamina"},
+       "extracellular matrix,matrix,collagen,basement membrane,basal lamina"},
       {"Poisson's ratio", "compressibility,incompressible,bulk modulus"},
       {"Relaxation time",
        "viscosity,viscous,viscoelasticity,creep,remodelling,fluidity"},
       {"Yield stress", "plasticity,plastic,yielding"},
-      {"Growth/Rate", "growth rate,anisotropic growth,swelling,hypertrophy"},
+      {"Growth/Rate",
+       "growth rate,anisotropic growth,elongation,swelling,hypertrophy"},
       {"Growth/Rate/Homeosta", "mechanical feedback,mechanosensing"},
       {"Cell cycle/Duration", "cycle length,cycle time,doubling time"},
       {"G0 exit rate",
-       "proliferation rate,quiescence,quiescent,doubling time,mechanosensing"},
+       "proliferation rate,quiescence,quiescent,senescence,growth arrest,"
+       "doubling time,mechanosensing"},
       {"Size checkpoint", "contact inhibition,crowding"},
       {"Proliferation/Law", "mitosis,cytokinesis,cell division"},
       {"Division/Rate", "mitosis,cell division,doubling time"},
       {"Division by size", "mitosis,cell division,cell volume"},
-      {"Division axis", "spindle axis,spindle,division orientation"},
+      {"Division axis",
+       "spindle axis,spindle,orientation,division orientation"},
       {"Daughter types", "asymmetric division,stem cell,self-renewal"},
-      {"Transitions", "differentiation,fate decision,cell fate,mutation"},
+      {"Transitions",
+       "differentiation,fate decision,cell fate,mutation,senescence,ageing"},
       {"Contraction", "apical constriction,actomyosin,myosin,active stress"},
-      {"Death", "apoptosis,necrosis,necrotic core,cell death,drug,treatment"},
+      {"Death",
+       "apoptosis,necrosis,necrotic core,cell death,turnover,drug,treatment,"
+       "chemotherapy,radiation"},
       {"Death/When", "wound,ablation,laser"},
       {"Tissue/Cuts", "wound,ablation,incision"},
       {"Extrusion", "delamination,shedding,sloughing"},
       {"Fields",
-       "morphogen,oxygen,nutrient,signal,concentration,hypoxia,glucose,drug,"
-       "growth factor"},
+       "morphogen,oxygen,nutrient,nutrients,signal,concentration,hypoxia,"
+       "glucose,drug,growth factor,inhibitor,activator"},
       {"Cell numbers", "protein,gene,gene expression,drug,dose,memory"},
       {"Consumption", "uptake,absorption,decay,degradation"},
       {"Production", "secretion,source"},
@@ -140,8 +148,12 @@ namespace Morula
       {"Boundary conditions/Pressure", "turgor,hydrostatic pressure"},
       {"Force density", "gravity,weight"},
       {"Lumen", "cavity,turgor,osmotic pressure,hydrostatic pressure"},
-      {"Cell types", "cell type,heterogeneity,extracellular matrix,ecm"},
-      {"Output/Interval", "frames,film,frame rate"},
+      {"Cell types",
+       "cell type,heterogeneity,tumour,tumor,cancer,clone,mutant,layer,"
+       "extracellular matrix,ecm"},
+      {"Output/Interval", "frames,film,frame rate,picture,video"},
+      {"Output/Formats", "clone,lineage tracing"},
+      {"Output/Snapshot", "restart,checkpointing"},
       {"Random seed", "seed,random number"}};
 
     std::string

@@ -195,17 +195,18 @@ namespace Morula
                   const PointsOfField &points,
                   Review              &review)
     {
-      for (const auto &[key, number] :
-           {std::make_pair(&field.fixed_where, points.fixed),
-            std::make_pair(&field.flux_where, points.flux)})
+      const auto review_place = [&](const AnyKey &key, const double number) {
         if (number > 0. && number < 10.)
-          review.warn(key->path(),
-                      key->text(),
+          review.warn(key.path(),
+                      key.text(),
                       "it acts on " + as_text(number) +
                         " boundary points: with so few, what it covers jumps "
                         "by a whole patch.",
                       "Choose a larger place, or a smaller Tissue/Cell "
                       "spacing.");
+      };
+      review_place(field.fixed_where, points.fixed);
+      review_place(field.flux_where, points.flux);
     }
 
     /** The length on which a field falls off that comes in through the surface,

@@ -195,8 +195,8 @@ namespace Morula
       if (has_surface(model) && model.any_surface(true))
         out.push_back({"surface",
                        "made from the cells in each step; Fixed where and "
-                       "Slip where act at places, on whichever cells are "
-                       "there"});
+                       "Slip where apply to the cells that are then at these "
+                       "places"});
       else if (scene.tissue.refine_surface)
         out.push_back({"surface refinement",
                        "patches longer than " +

@@ -89,10 +89,9 @@ namespace Morula
       std::uint64_t chosen = 0;
       /** Corners of the box around these points, µm. */
       Point<dim> lower, upper;
-      /** Whether it is a load whose size is known before the run. */
-      bool has_force = false;
-      /** Sum of its forces at the end of the run on the surface of t = 0, and
-       * of their magnitudes, kPa µm^(dim-1). */
+      /** If its size is known before the run: sum of its forces at the end of
+       * the run on the surface of t = 0, and of their magnitudes, kPa
+       * µm^(dim-1). */
       Tensor<1, dim> force;
       double         magnitude = 0.;
 
@@ -221,14 +220,11 @@ namespace Morula
                 row.add(loaded[l].X, loaded[l].initial_area);
             if (const auto forces =
                   forces_at_start(*condition, loads, scene.time.end_time))
-              {
-                row.has_force = true;
-                for (const Tensor<1, dim> &force : *forces)
-                  {
-                    row.force += force;
-                    row.magnitude += force.norm();
-                  }
-              }
+              for (const Tensor<1, dim> &force : *forces)
+                {
+                  row.force += force;
+                  row.magnitude += force.norm();
+                }
           });
           row.gather(comm);
           list.push_back(row);
@@ -243,7 +239,7 @@ namespace Morula
     text_of(const Scene &scene, const AppliedCondition<dim> &applied)
     {
       // A component of the force counts as zero if it is small beside the sum
-      // of magnitudes.
+      // of magnitudes; a tension has none before the surface moves.
       std::ostringstream text;
       text.precision(4);
       text << applied.points
@@ -255,7 +251,7 @@ namespace Morula
       if (applied.chosen > applied.points)
         text << " (" << applied.chosen - applied.points
              << " more belong to a condition that wins there)";
-      if (applied.has_force)
+      if (applied.magnitude > 1e-9 * applied.area)
         text << "; force "
              << vector_text(applied.force, 1e-9 * applied.magnitude)
              << (dim == 3 ? " kPa um^2" : " kPa um") << " in sum, "

@@ -460,10 +460,10 @@ namespace Morula
         "Boundary conditions",
         first->held_points > 0 ? "supported in part" : "no support",
         "the loads add up to " + first->load +
-          " at the end, and nothing holds " + piece.str() +
+          " at the end, and nothing fixes " + piece.str() +
           " against them: inertia balances them, as in free fall, or "
           "beside obstacles a weak drag (doc/theory.md, section 4.4).",
-        "Hold a part of its surface by Fixed where or Slip where, or "
+        "Fix a part of its surface by Fixed where or Slip where, or "
         "balance the loads.");
     }
   } // namespace

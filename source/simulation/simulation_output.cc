@@ -177,7 +177,7 @@ namespace Morula
         << " day the forces on the tissue add up to (" << sum
         << ") kPa um^2 (2-D: kPa um), " << sum.norm() / magnitude
         << " of their sizes: only a weak drag (4.8f) balances that, so the "
-           "tissue, or a part of it, drifts until an obstacle stops it. Hold it "
+           "tissue, or a part of it, drifts until an obstacle stops it. Fix it "
            "by Fixed where or Slip where, or give it Friction. Further cases "
            "are not reported.";
       return text.str();

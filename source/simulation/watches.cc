@@ -361,7 +361,7 @@ namespace Morula
     if (n[2] > most_behind * n[0])
       return text +
              "More than 1 % of the cells are behind sides that slip or are "
-             "fixed: these hold the points of t = 0 and no places. No shorter "
+             "fixed: these act on the points of t = 0, not on places. No shorter "
              "step helps, but plane obstacles do (Obstacles/NAME/Two-sided).";
     if (!std::exchange(has_told_of_cells, true))
       announce("Warning: at t = " + as_text(t) + " day " + text +

@@ -425,7 +425,7 @@ namespace Morula
     const double rounding = group->compute_with_rounding();
     if (!std::isfinite(group->evaluation().energy))
       throw StepFailed(
-        "where the step begins, the growth, loads and held places of its end "
+        "where the step begins, the growth, loads and fixed places of its end "
         "invert a cell or a boundary point: there is no state to start from");
     const double first = group->getNormF();
     const double bound = std::max(parameters.newton_tolerance *

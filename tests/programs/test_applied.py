@@ -75,13 +75,13 @@ def test_pieces(runs, ranks):
     for text in (run.said, (run.directory / "log.txt").read_text()):
         assert "Connected tissue: " + held + "\n" in text
         assert "Connected tissue: " + free in text
-    assert "nothing holds the part of 100 cells" in run.said
+    assert "nothing fixes the part of 100 cells" in run.said
     explained = runs.explain(keys)
     assert held in explained
     assert free in explained
     said = runs.run("rubbed", keys, {"Friction/Coefficient": 0.01}).said
     assert "100 cells around (65 0) um, supported by friction\n" in said
-    assert "nothing holds" not in said
+    assert "nothing fixes" not in said
 
 
 @pytest.mark.parametrize("keys, load", [

@@ -214,7 +214,7 @@ def test_touching_faces_are_no_surface_for_fields(runs):
     ({"Cell types/Names": ""}, "Name the types of the cells"),
     ({"Growth/Law": "isotropic", "Growth/Isotropic/Stretch": "1 + t", **WHOLE},
      "let bodies pass through each other"),
-    ({"Grid/Spacing": "100"}, "contact holds bodies apart from 0.4")])
+    ({"Grid/Spacing": "100"}, "contact needs bodies of at least 0.4")])
 def test_what_is_refused(runs, keys, message):
     assert message in runs.explain(blocks(runs, 10), keys, code=1)
 

@@ -91,7 +91,7 @@ def test_springs_to_the_ground(runs, k, tip, offset):
 
 def test_a_force_that_reads_the_state(runs):
     run = runs.run("state", BAR, {"Body force/Force density": "-1e-5*volume; 0"})
-    assert "a force takes the state of its cell" in run.said
+    assert "a force reads the state of its cell" in run.said
 
 
 def test_load_that_jumps(runs):
@@ -171,6 +171,6 @@ def test_what_is_applied_is_said(runs):
 @pytest.mark.parametrize("keys, word", [
     ({WHERE + "Fixed where": "X + Y < -90"}, "it acts on 2 boundary points"),
     ({WHERE + "Fixed where": "", WHERE + "Traction where": "X > 49.9",
-      WHERE + "Traction": "0.01; 0"}, "nothing holds the tissue")])
+      WHERE + "Traction": "0.01; 0"}, "nothing fixes the tissue")])
 def test_words_on_what_is_applied(runs, keys, word):
     assert word in runs.explain(HELD, keys)

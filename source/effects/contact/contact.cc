@@ -374,8 +374,8 @@ namespace Morula
             keys.between.refuse(
               "none, as body " + std::to_string(b) + " is about " +
                 as_text(bodies[b].thickness()) +
-                " um thick, and contact holds bodies apart from 0.4 grid "
-                "spacings on",
+                " um thick, and contact needs bodies of at least 0.4 grid "
+                "spacings",
               "Choose " + scene.grid.spacing.path() + " below " +
                 as_text(2.5 * bodies[b].thickness()) + " um.");
       }
@@ -391,7 +391,7 @@ namespace Morula
             "to each other than " +
             as_text(widest_bond) + " of their lengths belong together (" +
             keys.bodies.path() +
-            "). Leave a wider gap, or tell bodies apart by the type of their cells.");
+            "). Leave a wider gap, or define bodies by the type of their cells.");
       }
 
       std::string

@@ -17,7 +17,7 @@ namespace Morula
         "Rate at which cells divide into two halves, without a cell cycle: an "
         "expression of their state, e.g. 2*ramp(volume, 500, 1000); not "
         "negative. Cells grow by Growth/Law. The keys of Proliferation/Cell "
-        "cycle about axes and daughters hold; Division axis is 'cell shape' "
+        "cycle about axes and daughters apply; Division axis is 'cell shape' "
         "unless it is set. Units: 1/day.",
         Evaluated::step,
         not_negative("1/day", "0 lets no cell divide.")};

@@ -24,7 +24,7 @@ namespace Morula
         "divides into two halves, without a cell cycle: the mean of cells "
         "that are alike; 2-D: area. Not negative; 0: it does not divide. "
         "An expression of the cell's state. The keys of "
-        "Proliferation/Cell cycle about axes and daughters hold; "
+        "Proliferation/Cell cycle about axes and daughters apply; "
         "Division axis is 'cell shape' unless it is set. Units: um^3.",
         Evaluated::event,
         not_negative("um^3 (2-D: um^2)", "0 means no division by size.")};

@@ -74,7 +74,7 @@ namespace Morula
     if (is_steady() && !has_value() &&
         consumption.largest_number(dim).value_or(1.) == 0.)
       consumption.refuse(
-        "a rate > 0 1/day for a steady field that nothing holds at the surface",
+        "a rate > 0 1/day for a steady field that is fixed nowhere at the surface",
         "Without a sink any constant could be added to the field: set this "
         "key, or " +
           fixed_where.path() + ", or " + transfer.path() + ", or " +

@@ -185,10 +185,10 @@ namespace Morula
           review.warn(
             density.key(),
             density.text(),
-            "a force takes the state of its cell, but its place, from "
+            "a force reads the state of its cell, except its place, at "
             "the beginning of each step: it is late by Time/Step = " +
               as_text(scene.keys.time.step) +
-              " day, and may swing where it changes that state much in a step.",
+              " day, and may oscillate where it changes that state much in a step.",
             "Repeat the run with half the step, and compare.");
       }
 

@@ -362,7 +362,7 @@ namespace Morula
                 "Obstacles/" + obstacle.name + "/Two-sided",
                 "true",
                 "false, or an obstacle that is at least a grid spacing thick",
-                "It would hold the surface on both of its sides: "
+                "Both of its sides would act on the surface: "
                 "make it thicker, or Grid/Spacing smaller.");
             // The surface may begin a little inside, and the contact pushes it
             // out in the first step. Half a spacing leaves room below the whole

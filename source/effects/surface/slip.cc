@@ -45,14 +45,15 @@ namespace Morula
             loses = loses || keys->loses_cells();
           }
         if (is_on() && scene.has_active_tissue() && flows && loses)
-          review.warn(where.path(),
-                      where.text(),
-                      "it holds the boundary points that it finds at t = 0, "
-                      "not places. Tissue that grows, flows and is lost "
-                      "elsewhere carries them past their end, and what comes "
-                      "after them is not held.",
-                      "Put planes there (Obstacles/Names), with Two-sided = "
-                      "true where they shall hold tissue back, too.");
+          review.warn(
+            where.path(),
+            where.text(),
+            "it acts on the boundary points that are there at t = 0, "
+            "not on the place. Where tissue grows, flows and is lost, "
+            "these points move past the end of the wall, and those "
+            "that follow are free.",
+            "Put planes there (Obstacles/Names), with Two-sided = "
+            "true where tissue must not leave them.");
       }
     };
 

@@ -31,8 +31,8 @@ namespace Morula
         if (is_on() && scene.tissue.surface == "from cells")
           scene.tissue.surface.refuse(
             "tracked, as " + where.path() + " is set",
-            "A traction is a force per area of t = 0, which a surface that is "
-            "made anew does not know.");
+            "A traction is a force per area of t = 0, which is not known on "
+            "a surface that is made anew.");
       }
     };
 

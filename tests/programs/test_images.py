@@ -185,7 +185,9 @@ def test_table(runs, cells, explained):
     runs.write("spots.csv", "\n".join(lines) + "\n")
     words = [TOOL, "spots.csv", "--again"]
     assert "2 times" in runs.call(words, 1, cwd=runs.work).stderr
-    said = runs.call([*words, "--frame", "1"], cwd=runs.work).stdout
+    counted = runs.call([*words, "--frame", "1"], cwd=runs.work).stdout
+    said = runs.call([*words, "--frame", "3"], cwd=runs.work).stdout
+    assert "2 times it is that of 3" in said and "2 times it is that of 3" in counted
     assert "2 lines hold no numbers" in said
     np.testing.assert_allclose(cells("spots")["x"], grid[:, 0] + 300, rtol=1e-7)
     np.testing.assert_allclose(cells("spots")["volume"], 4 / 3 * np.pi * 216)

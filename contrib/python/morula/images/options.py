@@ -37,7 +37,8 @@ def parser():
     add("--channel", type=int, metavar="N",
         help="of an image with channels: that of the labels, from 0")
     add("--frame", type=int, metavar="N",
-        help="of an image or a table with several times: the one to take, from 0")
+        help="of an image or a table with several times: the one to take, from 0, or by a "
+        "table's own number")
     add("--smallest", type=float, default=0.05, metavar="SHARE", help="labels smaller than this "
         "share of the median one are crumbs, which are left out; default: 0.05")
     add("--smallest-cavity", type=float, default=1.0, metavar="CELLS",

@@ -187,7 +187,8 @@ def _of_frame(file, table, frame, words):
     numbers = _as_numbers(table["frame"])
     times = table["frame"] if numbers.isna().any() else numbers
     frames = np.unique(times)
-    time = frames[chosen("--frame", frame, len(frames))]
+    time = (frame if frame in list(frames)  # a number of the table's own
+            else frames[chosen("--frame", frame, len(frames))])
     words.append(f"Of {len(frames)} times it is that of {time}.")
     return table[times == time].drop(columns="frame")
 

@@ -185,7 +185,8 @@ def _tune(options, file, keys, comments, words):
         if not warnings:
             return
         said = said or warnings[0]
-    words.append("The scene runs, but no grid resolves the image: " + said.removeprefix("Warning: "))
+    words.append("The scene runs, but with a warning at every grid spacing: "
+                 + said.removeprefix("Warning: "))
 
 
 def _finish(options, directory, keys, length, n, volumes, words):

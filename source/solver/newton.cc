@@ -40,8 +40,8 @@ namespace Morula
      *  this part of the bound. */
     constexpr double part_of_kept = 0.1;
 
-    /** What is held fixed is renewed as soon as the first iteration has brought
-     *  the residual down to this part and moved nothing by more than a grid
+    /** What is held fixed is renewed as soon as an iteration has brought the
+     *  residual down to this part and moved nothing by more than a grid
      *  spacing: the renewal then changes more than what is left of it. */
     constexpr double early = 0.1;
     /** Of a first linear solve: what is renewed then must not feel ranks. */
@@ -446,7 +446,8 @@ namespace Morula
                                          parameters.newton_tolerance *
                                            scales.length,
                                          parameters.newton_iterations};
-    const std::string             reason = message_of([&]() {
+    bool                          may_renew = bool(on_the_way.renew);
+    const std::string             reason    = message_of([&]() {
       for (;;)
         {
           const auto test   = Teuchos::rcp(new ConvergenceTest(
@@ -458,25 +459,27 @@ namespace Morula
                            linear_problem.symmetric,
                            parameters.linear_tolerance,
                            on_the_way.renew ? exact : loose_start));
-          const double start = group->getNormF();
-          if (solver->step() == NOX::StatusTest::Unconverged &&
-              on_the_way.renew && report.place.turn < last_early_turn &&
-              group->part_taken() == 1. && group->getNormF() <= early * start &&
-              last_motion(*solver) <= scales.length &&
-              on_the_way.renew(values_of(group->getX())))
+          bool   renewed = false;
+          double before  = group->getNormF();
+          while (!renewed && solver->step() == NOX::StatusTest::Unconverged)
             {
-              group->renew();
-              ++report.turns;
-              ++report.place.turn;
-              continue;
+              if (may_renew && report.place.turn < last_early_turn &&
+                  group->part_taken() == 1. &&
+                  group->getNormF() <= early * before &&
+                  last_motion(*solver) <= scales.length)
+                may_renew = renewed =
+                  on_the_way.renew(values_of(group->getX()));
+              before = group->getNormF();
             }
-          while (solver->step() == NOX::StatusTest::Unconverged)
-            ;
-          return test->reason_of_failure();
+          if (!renewed)
+            return test->reason_of_failure();
+          group->renew();
+          ++report.turns;
+          ++report.place.turn;
         }
     });
-    u                                    = values_of(group->getX());
-    report.residual                      = relative(group->getNormF());
+    u                                       = values_of(group->getX());
+    report.residual                         = relative(group->getNormF());
     // Below its bound rounding, not the equilibrium, has stopped the search. A
     // leap leaves open how far its motion goes, which a path decides.
     const bool leaps = report.ends_at_leap && report.proximal_paths == 0;

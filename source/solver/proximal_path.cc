@@ -140,16 +140,20 @@ namespace Morula
           unfinished = participant->unfinished();
       return !unfinished.empty();
     };
-    const bool early =
-      !participants.empty() &&
-      std::all_of(participants.begin(),
-                  participants.end(),
-                  [](const auto *const p) { return p->renews_early(); });
+    const auto early = [&]() {
+      return !participants.empty() &&
+             std::all_of(participants.begin(),
+                         participants.end(),
+                         [](const auto *const p) { return p->renews_early(); });
+    };
+    const Renewal renew_early = [&](const Equilibrium::Vector &u) {
+      return early() && renew(u);
+    };
     for (report.place.turn = 1;; ++report.place.turn)
       {
         ++report.turns;
         const Equilibrium::Evaluation evaluation =
-          solve(early ? renew : Renewal());
+          solve(early() ? renew_early : Renewal());
         if (!renew(u))
           return evaluation;
         if (report.place.turn >= most_turns)

@@ -213,9 +213,7 @@ namespace Morula
         const double before = change;
         change =
           std::sqrt(totals[0] / std::max(totals[1], totals[2] * least * least));
-        if (change <=
-            std::min(largest_change,
-                     largest_in_tolerances * attempt.newton_tolerance))
+        if (change <= settled())
           return false;
         // The traction need not settle where it is changed in parts. The forces
         // are balanced all the same, with a gap that the step's check of gaps
@@ -235,7 +233,12 @@ namespace Morula
       bool
       renews_early() const override
       {
-        return !attempt.jumps;
+        // At the least penalty a turn leaves a twentieth of the error, so that
+        // after a small change only the end of the turn says whether the next
+        // one counts.
+        return !attempt.jumps &&
+               (change == 0. ||
+                change > NitscheParameters::least_penalty * settled());
       }
 
       std::string
@@ -249,6 +252,14 @@ namespace Morula
       }
 
     private:
+      /** The largest change that needs no further turn. */
+      double
+      settled() const
+      {
+        return std::min(largest_change,
+                        largest_in_tolerances * attempt.newton_tolerance);
+      }
+
       /** The tractions of the state after an increment u, with the growth at
        *  t + dt. */
       std::vector<Tensor<1, dim>>

@@ -90,7 +90,8 @@ namespace Morula
       store.positions_of(held.groups.points);
     const std::vector<double> attached =
       attachment(places, tissue, store.sides_of(held.groups.points));
-    if (growth.present || !growth.lame.empty())
+    if (!growth.lame.empty() ||
+        (growth.present && conditions.nitsche().kind() != NitscheForm::bounded))
       held.carriers = states_of_carriers(held.groups.points, tissue, growth);
     for (std::size_t k = 0; k < places.size(); ++k)
       {

@@ -308,11 +308,9 @@ namespace Morula
           mean += w[i] * s[i];
         }
       mean /= sum;
-      SymmetricTensor<2, dim> variance =
-        least_variance * unit_symmetric_tensor<dim>();
+      Tensor<2, dim> variance(least_variance * unit_symmetric_tensor<dim>());
       for (std::size_t i = 0; i < s.size(); ++i)
-        variance +=
-          w[i] / sum * symmetrize(outer_product(s[i] - mean, s[i] - mean));
+        variance += outer_product(w[i] / sum * (s[i] - mean), s[i] - mean);
       const Tensor<1, dim> slope = invert(variance) * mean;
       for (std::size_t i = 0; i < s.size(); ++i)
         w[i] *= (1. - slope * (s[i] - mean)) / sum;
@@ -324,15 +322,16 @@ namespace Morula
   Surroundings<dim>::Surroundings(const std::vector<Point<dim>> &places,
                                   const Tissue<dim>             &tissue,
                                   const std::vector<Side<dim>>  &sides)
-    : cells(tissue.cells())
-    , comm(tissue.communicator())
+    : comm(tissue.communicator())
   {
     // Cells within reach are at most in the neighbouring grid cells, of this or
     // another rank; they come with their volumes and where they are. Bins find
-    // those around each place. Their weights fall to zero at the reach, so that
-    // no cell enters or leaves with a jump, and are made linear after that,
-    // doc/theory.md (4.6c). A place without cells keeps an empty list. In the
-    // end the ranks are told which of their cells count here.
+    // those around each place, in an order that does not depend on ranks. Their
+    // weights fall to zero at the reach, so that no cell enters or leaves with
+    // a jump, and are made linear after that, doc/theory.md (4.6c). A place
+    // without cells keeps an empty list. In the end the ranks are told which of
+    // their cells count here.
+    const Cells<dim>          &cells  = tissue.cells();
     const BackgroundGrid<dim> &grid   = tissue.grid();
     const double               radius = reach * grid.box().spacing();
     const unsigned int         rank   = Utilities::MPI::this_mpi_process(comm);
@@ -342,40 +341,34 @@ namespace Morula
     };
     const PointList<dim> near =
       near_points(places, cells, {4, append, Ties::lowest_id}, grid, 1);
-    const PointBins<dim> bins(grid.box(), near.positions);
+    const PointBins<dim>        bins(grid.box(), near.positions);
+    std::vector<std::size_t>    around;
+    std::vector<Tensor<1, dim>> ways;
+    std::vector<double>         weights;
+    shares.resize(places.size());
     for (std::size_t place = 0; place < places.size(); ++place)
       {
-        const Point<dim>        &x = places[place];
-        std::vector<std::size_t> found;
+        const Point<dim> &x = places[place];
+        around.clear();
+        ways.clear();
+        weights.clear();
         // Rounding must not leave out a cell that has a weight.
         bins.visit_within(x, radius * (1. + 1e-9), [&](const auto i) {
-          found.push_back(i);
+          const Tensor<1, dim> s    = (near.positions[i] - x) / radius;
+          const double         fall = 1. - s.norm_square();
+          if (fall <= 0. ||
+              (!sides.empty() && (near.row(i)[1] != sides[place].body ||
+                                  !sides[place].has(x, near.positions[i]))))
+            return;
+          around.push_back(i);
+          ways.push_back(s);
+          weights.push_back(fall * fall * near.row(i)[0]);
         });
-        // They are taken by id, so that sums do not depend on the ranks.
-        std::sort(found.begin(), found.end(), [&](const auto i, const auto j) {
-          return near.ids[i] < near.ids[j];
-        });
-
-        std::vector<std::size_t>    around;
-        std::vector<Tensor<1, dim>> ways;
-        std::vector<double>         weights;
-        for (const std::size_t i : found)
-          {
-            const Tensor<1, dim> s    = (near.positions[i] - x) / radius;
-            const double         fall = 1. - s.norm_square();
-            if (fall <= 0. ||
-                (!sides.empty() && (near.row(i)[1] != sides[place].body ||
-                                    !sides[place].has(x, near.positions[i]))))
-              continue;
-            around.push_back(i);
-            ways.push_back(s);
-            weights.push_back(fall * fall * near.row(i)[0]);
-          }
         if (!around.empty())
           make_linear(ways, weights);
-        shares.emplace_back();
+        shares[place].reserve(around.size());
         for (std::size_t k = 0; k < around.size(); ++k)
-          shares.back().emplace_back(around[k], weights[k]);
+          shares[place].emplace_back(around[k], weights[k]);
       }
 
     std::vector<bool> counts(near.size());
@@ -405,13 +398,14 @@ namespace Morula
   }
 
   template <int dim>
-  std::vector<bool>
-  Surroundings<dim>::counts() const
+  std::vector<unsigned int>
+  Surroundings<dim>::asked_here() const
   {
-    std::vector<bool> result(cells.size());
+    std::vector<unsigned int> result;
     for (const auto &[rank, list] : asked)
-      for (const unsigned int p : list)
-        result[p] = true;
+      result.insert(result.end(), list.begin(), list.end());
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
   }
 

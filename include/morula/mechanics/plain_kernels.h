@@ -63,21 +63,23 @@ namespace Morula
     return &find_motions_plainly<dim>;
   }
 
-  /** The motions of the points of a store, in order.
-   *  @param wanted if given, others may be left out */
+  /** The motions of the points of a store, in order; only those of @p wanted
+   *  points, if it is given, which is in order, too. */
   template <int dim>
   std::vector<PointMotion<dim>>
-  point_motions(const PointStore<dim>        &store,
-                const DisplacementField<dim> &displacement,
-                const FindMotions             find_motions,
-                const std::vector<bool>      &wanted = {})
+  point_motions(const PointStore<dim>           &store,
+                const DisplacementField<dim>    &displacement,
+                const FindMotions                find_motions,
+                const std::vector<unsigned int> *wanted = nullptr)
   {
     // Kernels write u and f one after the other as plain numbers, into the
     // memory of the result.
     static_assert(sizeof(PointMotion<dim>) ==
                   (dim + dim * dim) * sizeof(double));
-    std::vector<PointMotion<dim>> motions(store.size());
+    std::vector<PointMotion<dim>> motions(wanted ? wanted->size() :
+                                                   store.size());
     std::vector<Point<dim>>       xi;
+    std::size_t                   n = 0; // motions so far
     // One call for each grid cell that holds points of the store. The points of
     // a grid cell are neighbours in the store, so their results are, too.
     displacement.on_grid_cells(
@@ -85,21 +87,21 @@ namespace Morula
       [&](const auto            &grid_cell,
           const LocalField<dim> &field,
           const GridIndex<dim>  &index) {
-        if (!wanted.empty() &&
-            std::find(wanted.begin() + grid_cell.begin,
-                      wanted.begin() + grid_cell.end,
-                      true) == wanted.begin() + grid_cell.end)
-          return;
         xi.clear();
         for (unsigned int p = grid_cell.begin; p < grid_cell.end; ++p)
-          xi.push_back(
-            displacement.box().unit_position(store.position(p), index));
+          if (!wanted ||
+              (n + xi.size() < wanted->size() && (*wanted)[n + xi.size()] == p))
+            xi.push_back(
+              displacement.box().unit_position(store.position(p), index));
+        if (xi.empty())
+          return;
         KernelInput input{};
         input.n            = xi.size();
         input.xi           = &xi[0][0];
         input.h            = displacement.box().spacing();
         input.coefficients = &field.coefficient[0][0];
-        find_motions(input, &motions[grid_cell.begin].u[0]);
+        find_motions(input, &motions[n].u[0]);
+        n += xi.size();
       });
     return motions;
   }

@@ -10,6 +10,7 @@
 #include <morula/particles/point_store.h>
 #include <morula/particles/tissue.h>
 
+#include <array>
 #include <cstdlib>
 #include <functional>
 #include <map>
@@ -157,15 +158,14 @@ namespace Morula
     auto
     values(const Value &value) const;
 
-    /** For each cell of this rank, whether values() asks for it. */
-    std::vector<bool>
-    counts() const;
+    /** The cells of this rank that values() asks for, in order. */
+    std::vector<unsigned int>
+    asked_here() const;
 
   private:
     /** A cell, by its place among all that count here, and its weight. */
     using Share = std::pair<std::size_t, double>;
 
-    const Cells<dim>               &cells;
     const MPI_Comm                  comm;
     std::vector<std::vector<Share>> shares; // of each place
     /** The cells of this rank that count, by the rank where they do. */
@@ -186,10 +186,11 @@ namespace Morula
     std::vector<T>            result;
     for (const auto &of_place : shares)
       {
-        T sum{};
+        std::array<double, Flat<T>::n> sum{};
         for (const auto &[i, weight] : of_place)
-          sum += weight * Flat<T>::read(&numbers[i * Flat<T>::n]);
-        result.push_back(sum);
+          for (unsigned int n = 0; n < Flat<T>::n; ++n)
+            sum[n] += weight * numbers[i * Flat<T>::n + n];
+        result.push_back(Flat<T>::read(sum.data()));
       }
     return result;
   }

@@ -148,6 +148,7 @@ namespace Morula
         , surroundings(tissue.boundary_points().positions_of(points),
                        tissue,
                        tissue.boundary_points().sides_of(points))
+        , asked(surroundings.asked_here())
         // This comes last, as an expression may have no value on one rank.
         , held(points_of_term(conditions,
                               attempt.material,
@@ -287,14 +288,15 @@ namespace Morula
                         displacement,
                         motion_kernel<dim>(attempt.material.material(),
                                            attempt.kernel),
-                        surroundings.counts());
+                        &asked);
         // The values are (W / V_t) τ f⁻ᵀ of the cells, with the growth at t +
         // dt.
         const auto P = surroundings.values([&](const unsigned int p) {
-          const auto            cell = tissue.cells()[p];
-          const Tensor<2, dim>  F_g  = attempt.growth.growth_after(tissue, p);
-          const Tensor<2, dim> &f    = motions[p].f;
-          const Tensor<2, dim>  F_e  = f * cell.F() * invert(F_g);
+          const auto           cell = tissue.cells()[p];
+          const Tensor<2, dim> F_g  = attempt.growth.growth_after(tissue, p);
+          const auto motion = std::lower_bound(asked.begin(), asked.end(), p);
+          const Tensor<2, dim> &f   = motions[motion - asked.begin()].f;
+          const Tensor<2, dim>  F_e = f * cell.F() * invert(F_g);
           const double          theta =
             std::log(volumes.empty() ? determinant(F_e) : volumes[p].J_e);
           const ElasticPoint<dim> point(
@@ -352,6 +354,7 @@ namespace Morula
       const Tissue<dim>              &tissue;
       const std::vector<unsigned int> points;
       const Surroundings<dim>         surroundings;
+      const std::vector<unsigned int> asked; // cells of this rank
       HeldPoints<dim>                 held;
       std::vector<Tensor<1, dim>>     T;
       double                          change = 0.; // relative, by the last turn

@@ -375,7 +375,8 @@ namespace Morula
                   const DevelopmentOfStep<dim> &growth,
                   const TissueMaterial         &material,
                   const std::string            &kernel,
-                  const DisplacementField<dim> &displacement)
+                  const DisplacementField<dim> &displacement,
+                  const MaterialPoints<dim>    *known)
   {
     // Volumes belong to pools. They are found first, for the window of this
     // rank. Each cell then takes the mean of J_e over its quadrature points,
@@ -384,8 +385,10 @@ namespace Morula
     std::vector<VolumeOfStep> volumes;
     if (material.volumetric_form() == VolumetricStrain::pointwise)
       return volumes;
-    const MaterialPoints<dim> points =
-      material_points(tissue, space, growth, material);
+    const MaterialPoints<dim> made =
+      known ? MaterialPoints<dim>() :
+              material_points(tissue, space, growth, material);
+    const MaterialPoints<dim> &points = known ? *known : made;
     const auto force = internal_force(points, VolumetricStrain::pooled, kernel);
     std::vector<PoolsAfter<dim>> pools; // by body
     for (unsigned int b = 0; b < space.n_bodies(); ++b)

@@ -86,7 +86,7 @@ namespace Morula
       // turn by turn (5.6), and reads the forces out of the terms. The parts of
       // effects keep references to the attempt, and come before the terms,
       // which may keep references to them.
-      const AttemptAtStep<dim> of_parts = at_step(attempt);
+      const AttemptAtStep<dim> of_parts = at_step(attempt, points);
       const Parts              parts    = this->parts(of_parts);
       const TermList           list     = terms(attempt, points, parts);
       MomentumBalance<dim>     balance(space,
@@ -124,12 +124,13 @@ namespace Morula
 
     /** The attempt as effects see it. */
     AttemptAtStep<dim>
-    at_step(const Attempt &attempt) const
+    at_step(const Attempt &attempt, const MaterialPoints<dim> &points) const
     {
       return {tissue,
               space,
               model.material,
               attempt.growth,
+              points,
               attempt.t,
               attempt.t_next,
               attempt.typical_stiffness,

@@ -9,6 +9,7 @@
 #include <morula/mechanics/enclosure.h>
 #include <morula/mechanics/equilibrium.h>
 #include <morula/mechanics/material.h>
+#include <morula/mechanics/material_points.h>
 #include <morula/mechanics/momentum_balance.h>
 #include <morula/mechanics/term.h>
 #include <morula/particles/tissue.h>
@@ -31,6 +32,7 @@ namespace Morula
     const SplineSpace<dim>       &space;
     const TissueMaterial         &material;
     const DevelopmentOfStep<dim> &growth;
+    const MaterialPoints<dim>    &points;
     /** Beginning and end, day. */
     double t, t_next;
     /** Young's modulus of the stiffest cell, kPa. */

@@ -61,6 +61,7 @@ namespace Morula
    * @param growth       of the step, not yet committed
    * @param kernel       value of Solver/Kernel
    * @param displacement of the step, um
+   * @param known        its material points, if they are there already
    */
   template <int dim>
   std::vector<VolumeOfStep>
@@ -69,7 +70,8 @@ namespace Morula
                   const DevelopmentOfStep<dim> &growth,
                   const TissueMaterial         &material,
                   const std::string            &kernel,
-                  const DisplacementField<dim> &displacement);
+                  const DisplacementField<dim> &displacement,
+                  const MaterialPoints<dim>    *known = nullptr);
 } // namespace Morula
 
 #endif

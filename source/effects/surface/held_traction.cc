@@ -272,6 +272,7 @@ namespace Morula
         // multiplied by its normal. The motions of this rank's cells are found
         // first, many at once by the kernel. surroundings.values() then sends
         // stresses to the ranks that have held points nearby. Collective.
+        const TimerOutput::Scope     section(attempt.timer, "nitsche");
         const DisplacementField<dim> displacement(attempt.space,
                                                   u,
                                                   tissue.communicator());
@@ -282,7 +283,8 @@ namespace Morula
                                              attempt.growth,
                                              attempt.material,
                                              attempt.kernel,
-                                             displacement);
+                                             displacement,
+                                             &attempt.points);
         const std::vector<PointMotion<dim>> motions =
           point_motions(tissue.cells(),
                         displacement,

@@ -243,8 +243,8 @@ namespace Morula
       // it is easier; half a per cent of the forces is enough. No path follows
       // there, so that a leap does not end a turn, which would be a failure.
       SolverParameters parameters = model.scene.solver;
-      report.may_leap             = tissue.cells().has_parts();
-      if (report.may_leap)
+      const bool       has_parts  = tissue.cells().has_parts();
+      if (has_parts)
         {
           scales.length *= 100.;
           parameters.newton_iterations =
@@ -255,7 +255,8 @@ namespace Morula
                                                   space,
                                                   {space, state, comm});
                                 },
-                                early};
+                                early,
+                                has_parts};
       try
         {
           return Morula::solve(

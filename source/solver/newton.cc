@@ -231,9 +231,12 @@ namespace Morula
     class EnergyLineSearch : public NOX::LineSearch::Generic
     {
     public:
-      EnergyLineSearch(const Equilibrium &problem, const bool has_energy)
+      EnergyLineSearch(const Equilibrium &problem,
+                       const bool         has_energy,
+                       const bool         may_leap)
         : problem(problem)
         , has_energy(has_energy)
+        , may_leap(may_leap)
       {}
 
       bool
@@ -277,9 +280,10 @@ namespace Morula
                             falls || norm <= rounding_error *
                                                problem.residual_magnitude(
                                                  values_of(new_group.getX())));
-            const bool leaps =
-              is_accepted && has_energy && norm > old_group.getNormF() &&
-              energy > before.energy + slack && old_group.is_unresisted();
+            const bool leaps = is_accepted && has_energy && !may_leap &&
+                               norm > old_group.getNormF() &&
+                               energy > before.energy + slack &&
+                               old_group.is_unresisted();
             if (is_accepted && !leaps)
               return true;
             // A leap ends the solve where it is.
@@ -315,7 +319,7 @@ namespace Morula
       }
 
       const Equilibrium &problem;
-      const bool         has_energy;
+      const bool         has_energy, may_leap;
       bool               has_begun = false;
       std::deque<double> accepted; // the last energies, without the first
     };
@@ -337,6 +341,7 @@ namespace Morula
     Teuchos::RCP<Teuchos::ParameterList>
     nox_parameters(const Equilibrium &problem,
                    const bool         has_energy,
+                   const bool         may_leap,
                    const double       linear_tolerance,
                    const double       first_tolerance)
     {
@@ -370,7 +375,8 @@ namespace Morula
       Teuchos::ParameterList &search = parameters->sublist("Line Search");
       search.set("Method", "User Defined");
       const auto factory = Teuchos::rcp(new Factory);
-      factory->search = Teuchos::rcp(new EnergyLineSearch(problem, has_energy));
+      factory->search =
+        Teuchos::rcp(new EnergyLineSearch(problem, has_energy, may_leap));
       search.set<Teuchos::RCP<NOX::LineSearch::UserDefinedFactory>>(
         "User Defined Line Search Factory", factory);
       return parameters;
@@ -457,6 +463,7 @@ namespace Morula
             test,
             nox_parameters(problem,
                            linear_problem.symmetric,
+                           on_the_way.may_leap,
                            parameters.linear_tolerance,
                            on_the_way.renew ? exact : loose_start));
           bool   renewed = false;

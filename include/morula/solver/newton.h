@@ -56,9 +56,8 @@ namespace Morula
     Equilibrium::Evaluation failed_at;
 
     /** Whether the last solve has ended next to balance, because along a motion
-     *  that hardly anything resists Newton's method led away from there; and
-     *  whether it may go on instead, as no proximal path would follow. */
-    bool ends_at_leap = false, may_leap = false;
+     *  that hardly anything resists Newton's method led away from there. */
+    bool ends_at_leap = false;
 
     /** The place of the present solve. */
     NewtonPlace place;
@@ -83,6 +82,9 @@ namespace Morula
     /** Called where the first iteration has gone well: turns of their own,
      *  which begin with the last tangent. */
     Renewal renew;
+    /** Whether a leap along a motion that hardly anything resists is taken, as
+     *  no proximal path would follow. */
+    bool may_leap = false;
   };
 
   /**

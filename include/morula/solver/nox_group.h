@@ -434,7 +434,7 @@ namespace Morula
       Equilibrium::Vector d(direction.values);
       d.scale(diagonal_magnitude(*K, d));
       return report.ends_at_leap =
-               !report.may_leap && getNormF() <= 1e-4 * report.first_residual &&
+               getNormF() <= 1e-4 * report.first_residual &&
                -(R.values * direction.values) < 1e-7 * (d * direction.values);
     }
 

@@ -8,10 +8,11 @@
 #include <morula/simulation/simulation.h>
 #include <morula/simulation/step_checks.h>
 
-#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 
 #include <limits>
 #include <set>
+#include <sstream>
 
 // How the tissue changes at the end of a step.
 
@@ -213,7 +214,23 @@ namespace Morula
                                                    tissue.grid().box(),
                                                    comm);
     if (!reason.empty())
-      give_up(reason + ".");
+      {
+        std::vector<double> farthest(1 + dim, 0.);
+        for (unsigned int p = 0; p < tissue.cells().size(); ++p)
+          {
+            std::vector<double> row{cells.motions[p].u.norm()};
+            append_flat(row, tissue.cells().position(p));
+            farthest = std::max(farthest, row);
+          }
+        const auto all = Utilities::MPI::all_gather(comm, farthest);
+        farthest       = *std::max_element(all.begin(), all.end());
+        std::ostringstream text;
+        text << reason << ". Cells move by up to " << farthest[0] << " um."
+             << watches.around(tissue,
+                               Flat<Point<dim>>::read(&farthest[1]),
+                               time_steps.time());
+        give_up(text.str());
+      }
 
     const double t = time_steps.time(), t_next = time_steps.next();
     const bool   may_fail = std::any_of(model.equations.begin(),

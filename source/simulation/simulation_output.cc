@@ -407,11 +407,18 @@ namespace Morula
   {
     // The message names the step, the reason of its last attempt and the
     // diagnosis before general advice.
+    Point<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = newton_report.failed_at.smallest_J.place[d];
     std::ostringstream text;
     text << "the step failed even at a length of "
          << time_steps.next() - time_steps.time()
          << " day (Time/Smallest step = " << model.scene.time.smallest_step
-         << "): " << reason << '.' << diagnosis(failed_step())
+         << "): " << reason << '.'
+         << (newton_report.failed_at.smallest_J.place == Point<3>() ?
+               "" :
+               watches.around(tissue, place, time_steps.time()))
+         << diagnosis(failed_step())
          << " Resuming may go on with a smaller Time/Smallest step or other "
             "Solver keys; if it does not, start anew with a larger "
             "Grid/Spacing, with smaller loads or less growth";

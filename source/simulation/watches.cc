@@ -5,7 +5,7 @@
 #include <morula/simulation/watches.h>
 #include <morula/surface/walls.h>
 
-#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
 
 #include <cmath>
 #include <limits>
@@ -300,6 +300,60 @@ namespace Morula
 
   template <int dim>
   std::string
+  Watches<dim>::around(const Tissue<dim> &tissue,
+                       const Point<dim>  &x,
+                       const double       t) const
+  {
+    // One-sided obstacles act on all points and remember none; where one pushes
+    // a point, that is in it a little.
+    const auto of_nearest = [&](const auto &store, const auto &text) {
+      std::pair<double, unsigned int> nearest{
+        std::numeric_limits<double>::infinity(), 0};
+      for (unsigned int p = 0; p < store.size(); ++p)
+        nearest = std::min(nearest, {store.position(p).distance(x), p});
+      const auto all = Utilities::MPI::all_gather(
+        tissue.communicator(),
+        std::make_pair(nearest.first,
+                       store.size() > 0 ? text(nearest.second) : ""));
+      return std::min_element(all.begin(), all.end())->second;
+    };
+    const auto        names  = model.scene.cell_types.name_list();
+    const auto       &points = tissue.boundary_points();
+    const std::string cell =
+      of_nearest(tissue.cells(), [&](const unsigned int p) {
+        return std::to_string(tissue.cells().id(p)) +
+               (names.empty() ?
+                  "" :
+                  " of type " + names[tissue.cells()[p].get(
+                                  model.development.state().type)]);
+      });
+    const std::string  acts = of_nearest(points, [&](const unsigned int p) {
+      const auto  point    = points[p];
+      const auto &pressure = points.columns().contact_pressure;
+      std::string text;
+      for (const auto &[name, condition] : model.boundary_conditions.list())
+        {
+          if (!condition->only_pushes() &&
+              condition->acts_on(point.seed_position(), point.initial_normal()))
+            text += ", " + name;
+          for (const auto &[obstacle, way_out] : condition->forbidden(t))
+            if (way_out(points.position(p)).norm() > 0.)
+              text += ", obstacle " + obstacle;
+        }
+      if (pressure.exists() && point.get(pressure) > 0.)
+        text += ", contact";
+      return text.empty() ? text : text.substr(2);
+    });
+    std::ostringstream text;
+    text << " Nearest to (" << x << ") um is cell " << cell
+         << "; on the surface next to it acts "
+         << (acts.empty() ? "nothing" : acts) << '.';
+    return text.str();
+  }
+
+
+  template <int dim>
+  std::string
   Watches<dim>::look_at_cells(const Tissue<dim>         &tissue,
                               const std::vector<double> &walls,
                               const bool                 with_obstacles,
@@ -355,9 +409,11 @@ namespace Morula
     Utilities::MPI::sum(n, comm, n);
     if (n[1] + n[2] == 0)
       return "";
-    const auto        all = Utilities::MPI::all_gather(comm, farthest);
-    const std::string text =
-      text_of<dim>(n, std::max_element(all.begin(), all.end())->data(), places);
+    const auto                 all = Utilities::MPI::all_gather(comm, farthest);
+    const std::vector<double> &row = *std::max_element(all.begin(), all.end());
+    const std::string          text =
+      text_of<dim>(n, row.data(), places) +
+      around(tissue, Flat<Point<dim>>::read(&row[1]), t).substr(1) + ' ';
     if (n[2] > most_behind * n[0])
       return text +
              "More than 1 % of the cells are behind sides that slip or are "

@@ -70,6 +70,13 @@ namespace Morula
                   const bool                 with_obstacles,
                   const double               t);
 
+    /** A sentence on what is at @p x (µm) at @p t (day): the nearest cell, and
+     *  what acts on the boundary point nearest to it. Collective. */
+    std::string
+    around(const Tissue<dim> &tissue,
+           const Point<dim>  &x,
+           const double       t) const;
+
     /** Tells, once a run, of lives that end at a rate which follows the state
      *  of cells faster than steps of @p dt (day) can follow it. Collective. */
     void

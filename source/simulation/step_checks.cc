@@ -12,6 +12,8 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <set>
 #include <sstream>
 
 namespace Morula
@@ -201,6 +203,136 @@ namespace Morula
 
   MORULA_INSTANTIATE(turns_too_far);
   MORULA_INSTANTIATE(check_turn);
+
+
+  namespace
+  {
+    /** A neck is narrower than this, µm over h; its parts are as wide. */
+    constexpr double narrow = 3.;
+
+    /** The surface of all ranks: positions, with areas times normals in their
+     *  rows. Collective. */
+    template <int dim>
+    PointList<dim>
+    surface_of(const Tissue<dim> &tissue)
+    {
+      const auto    &points = tissue.boundary_points();
+      PointList<dim> list(dim);
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          std::vector<double> row;
+          append_flat(row, points.area_vector(p));
+          list.add(points.id(p), points.position(p), make_array_view(row));
+        }
+      return of_all_ranks(list, tissue.communicator());
+    }
+
+    /** Whether two points of the surface within @p width (µm) look away from
+     *  each other. */
+    template <int dim>
+    bool
+    has_narrow_part(const PointList<dim> &surface,
+                    const NearTree<dim>  &tree,
+                    const double          width)
+    {
+      constexpr double most_cosine = 0.3; // of their normals
+      const auto       normal      = [&](const unsigned int i) {
+        const auto area = Flat<Tensor<1, dim>>::read(surface.row(i).data());
+        return area / area.norm();
+      };
+      for (unsigned int i = 0; i < surface.size(); ++i)
+        for (const unsigned int j : tree.within(surface.positions[i], width))
+          if (normal(i) * normal(j) < most_cosine)
+            return true;
+      return false;
+    }
+
+    /** Where two wide parts of tissue meet in a narrow place: its width and
+     *  position, µm; infinity if nowhere.
+     *  @param places in the tissue, with depth (µm) and body in their rows */
+    template <int dim>
+    std::vector<double>
+    narrowest_meeting(const PointList<dim> &places, const double h)
+    {
+      // Places are visited from the deepest on, and join those around; balls in
+      // tissue around neighbours overlap. Where two parts meet is a neck, if
+      // both are wide. The deepest of a part is its root.
+      constexpr double widening = 1.4; // of a part beside the neck
+      const auto depth = [&](const unsigned int i) { return places.row(i)[0]; };
+      std::vector<double>       best{std::numeric_limits<double>::infinity()};
+      std::vector<unsigned int> order(places.size()),
+        root(places.size(), places.size());
+      std::iota(order.begin(), order.end(), 0u);
+      std::stable_sort(order.begin(),
+                       order.end(),
+                       [&](const auto i, const auto j) {
+                         return depth(i) > depth(j);
+                       });
+      const auto root_of = [&](unsigned int i) {
+        while (root[i] != i)
+          i = root[i] = root[root[i]];
+        return i;
+      };
+      const std::vector<Point<dim>> &x = places.positions;
+      const NearTree<dim>            tree(x);
+      for (const unsigned int i : order)
+        {
+          root[i] = i;
+          for (const unsigned int j : tree.within(x[i], 0.6 * h))
+            if (root[j] < places.size() &&
+                places.row(j)[1] == places.row(i)[1] &&
+                x[i].distance(x[j]) <= 1.2 * (depth(i) + depth(j)))
+              {
+                unsigned int a = root_of(i), b = root_of(j);
+                if (depth(a) < depth(b))
+                  std::swap(a, b);
+                if (a != b && 2. * depth(i) < narrow * h &&
+                    depth(b) >= std::max(narrow * h / 2., widening * depth(i)))
+                  {
+                    best = {2. * depth(i)};
+                    append_flat(best, x[i]);
+                  }
+                root[b] = a;
+              }
+        }
+      return best;
+    }
+  } // namespace
+
+
+  template <int dim>
+  std::vector<double>
+  narrowest_neck(const Tissue<dim> &tissue)
+  {
+    // Where the surface has no narrow part there is no neck, which costs least
+    // to see. One cell of each cube of a quarter of a grid spacing tells how
+    // deep the tissue is there: half of the way to the nearest point of the
+    // surface and on to the other side.
+    const double         h       = tissue.grid().box().spacing();
+    const PointList<dim> surface = surface_of(tissue);
+    const NearTree<dim>  tree(surface.positions);
+    PointList<dim>       places(2);
+    if (!has_narrow_part(surface, tree, narrow * h))
+      return narrowest_meeting(places, h);
+    const Cells<dim>  &cells = tissue.cells();
+    const GridBox<dim> cubes({}, {}, h / 4., tissue.grid().box().corner({}));
+    std::set<std::pair<unsigned int, GridIndex<dim>>> taken;
+    for (unsigned int p = 0; p < cells.size(); ++p)
+      if (taken.emplace(cells.body(p), cubes.locate(cells.position(p))).second)
+        {
+          const Point<dim> x   = cells.position(p),
+                           one = surface.positions[tree.nearest(x)],
+                           other =
+                             surface.positions[tree.nearest(x + (x - one))];
+          const double row[] = {0.5 * (x.distance(one) + x.distance(other)),
+                                1. * cells.body(p)};
+          places.add(cells.id(p), x, make_array_view(row, row + 2));
+        }
+    return narrowest_meeting(of_all_ranks(places, tissue.communicator()), h);
+  }
+
+
+  MORULA_INSTANTIATE(narrowest_neck);
 
 
   namespace

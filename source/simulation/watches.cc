@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the Morula authors
 
 #include <morula/particles/point_exchange.h>
+#include <morula/simulation/step_checks.h>
 #include <morula/simulation/watches.h>
 #include <morula/surface/walls.h>
 
@@ -256,6 +257,29 @@ namespace Morula
             "walls are coupled, and it hardly closes any further (doc/faq.md, "
             "bodies that stick). A smaller Grid/Spacing follows it down to two "
             "spacings. Further cases are not reported.";
+    announce(text.str());
+  }
+
+
+  template <int dim>
+  void
+  Watches<dim>::look_at_necks(const Tissue<dim> &tissue, const double t)
+  {
+    if (has_told_of_neck)
+      return;
+    const double              h    = tissue.grid().box().spacing();
+    const std::vector<double> neck = narrowest_neck(tissue);
+    has_told_of_neck               = std::isfinite(neck[0]);
+    if (!has_told_of_neck)
+      return;
+    std::ostringstream text;
+    text << "Warning: from t = " << t << " day on the tissue has a neck about "
+         << neck[0] << " um wide, " << neck[0] / h << " grid spacings, near ("
+         << Flat<Point<dim>>::read(&neck[1])
+         << ") um. The grid does not resolve so narrow a neck: that of two "
+            "drops that fuse is 34 % too narrow at 2.6 spacings, 7 % at 5.8 "
+            "and 0.2 % at 11. Set Grid/Spacing = "
+         << neck[0] / 5.8 << " for the second. Further cases are not reported.";
     announce(text.str());
   }
 

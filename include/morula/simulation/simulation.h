@@ -148,6 +148,8 @@ namespace Morula
                                   time_steps.time());
           !reason.empty())
         give_up(reason);
+      if (run_state.n_steps % every == 1)
+        watches.look_at_necks(tissue, time_steps.time());
       if (tissue.cells().has_parts())
         return;
       watches.look_at_pieces(space, tissue.grid(), time_steps.time());

@@ -10,6 +10,7 @@
 #include <morula/particles/tissue.h>
 
 #include <string>
+#include <vector>
 
 namespace Morula
 {
@@ -43,6 +44,12 @@ namespace Morula
                       const std::vector<Point<dim>> &boundary_points,
                       const GridBox<dim>            &box,
                       const MPI_Comm                 comm);
+
+  /** The narrowest neck of the tissue: its width and the coordinates of its
+   *  middle, µm; an infinite width if there is none. Collective. */
+  template <int dim>
+  std::vector<double>
+  narrowest_neck(const Tissue<dim> &tissue);
 
   /** Whether a strand of tissue turns so far in a step, by 36°, that its
    *  surface may have passed through one which it did not face at t; or by this

@@ -59,6 +59,11 @@ namespace Morula
                  const SplineSpace<dim> &space,
                  const double            t);
 
+    /** Tells, once a run, of the first neck of the tissue that the grid does
+     * not resolve. Looks at the tissue at @p t (day). Collective. */
+    void
+    look_at_necks(const Tissue<dim> &tissue, const double t);
+
     /** Looks for cells behind sides that conditions hold, and in obstacles, at
      *  @p t (day), and tells once of the first ones. Collective.
      *  @param walls those of the run as numbers; empty: those of its points
@@ -91,7 +96,8 @@ namespace Morula
     PieceWatch<dim>                      watch;
     unsigned int                         n_pieces_ = 0;
     bool has_joined = false, has_parted = false, has_told_of_gap = false,
-         has_told_of_cells = false, has_told_of_losses = false;
+         has_told_of_neck = false, has_told_of_cells = false,
+         has_told_of_losses = false;
   };
 } // namespace Morula
 

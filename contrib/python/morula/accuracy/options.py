@@ -10,7 +10,7 @@ def parser():
     result = Parser(
         allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Tells how far the results of a scene are right: runs it with "
+        description="Says how accurate the results of a scene are: runs it with "
         "coarser grids,\nlonger steps, other places of the grid and other seeds. With "
         "--vary, draws error\nagainst processor time, unknowns and memory.",
         epilog="""morula accuracy my.prm --measure zmax

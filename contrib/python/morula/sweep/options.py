@@ -12,7 +12,7 @@ def parser():
         allow_abbrev=False,
         formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Runs a scene with every combination of values of some "
-        "keys and with several\nrandom seeds, and tells mean and scatter.",
+        "keys and with several\nrandom seeds, and writes mean and scatter.",
         epilog="""examples:
   morula sweep bud.prm --samples latin-hypercube.csv --skip-refused
   morula sweep bud.prm --seeds 1-5 \\

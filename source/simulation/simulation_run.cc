@@ -360,9 +360,7 @@ namespace Morula
         if (balance_at_start())
           find_steady(false);
         keep_places(); // nothing has strained: no cell moves
-        watches.look_at_pieces(*first_splines,
-                               tissue.grid(),
-                               time_steps.time());
+        watches.look_at_pieces(*first_splines, comm, time_steps.time());
         count(*first_splines);
         describe_state();
         write_rows();

@@ -197,41 +197,36 @@ namespace Morula
 
   template <int dim>
   void
-  Watches<dim>::look_at_pieces(const SplineSpace<dim>    &space,
-                               const BackgroundGrid<dim> &grid,
-                               const double               t)
+  Watches<dim>::look_at_pieces(const SplineSpace<dim> &space,
+                               const MPI_Comm          comm,
+                               const double            t)
   {
-    // The user is told of the first place and of the first parting only. After
-    // that no step looks for another place, which would cost a search; all
-    // ranks know the same. Only death can part the tissue, and only pieces with
-    // cells count. The first count has nothing to be compared with.
-    if (const auto place =
-          has_joined ? std::nullopt : watch.joined(space, grid))
-      {
-        has_joined = true;
-        std::ostringstream text;
-        text << "Warning: at t = " << t
-             << " day two parts of the tissue have come within a grid spacing "
-                "of each other near ("
-             << *place
-             << ") um. From now on they stick together there, though their "
-                "cells may not touch yet (doc/faq.md, bodies that stick). Set "
-                "Contact/Between, or a smaller Grid/Spacing. Further cases are "
-                "not reported.";
-        announce(text.str());
-      }
-    if (!model.development.is_mortal())
-      return;
+    // The user is told of the first joining and of the first parting only.
+    // Only pieces with cells count. The first count has nothing to be compared
+    // with.
+    std::vector<unsigned int> has_cells(space.n_pieces(), 0);
+    for (const auto &grid_cell : space.grid_cells())
+      if (space.occupancy(grid_cell.part).n_particles(space.node(grid_cell)) >
+          0)
+        has_cells[space.piece(grid_cell.number, grid_cell.part)] = 1;
+    Utilities::MPI::max(has_cells, comm, has_cells);
     const unsigned int before =
-      std::exchange(n_pieces_, pieces_with_cells(space, grid.communicator()));
-    if (before == 0 || n_pieces_ <= before || has_parted)
+      std::exchange(n_pieces_,
+                    std::count(has_cells.begin(), has_cells.end(), 1));
+    const bool parts = n_pieces_ > before;
+    if (before == 0 || n_pieces_ == before ||
+        std::exchange(parts ? has_parted : has_joined, true))
       return;
-    has_parted = true;
     std::ostringstream text;
-    text << "Warning: at t = " << t << " day the tissue has parted: it has "
-         << n_pieces_ << " parts now, and had " << before
-         << ". Each moves on its own. The column connected_tissues of "
-            "statistics.csv has their number; further cases are not reported.";
+    text << "Warning: at t = " << t << " day the tissue has " << n_pieces_
+         << " connected parts after " << before << ". "
+         << (parts ?
+               "Each moves on its own." :
+               "If none has died, parts have come within a grid spacing of "
+               "each other. They stick together from now on, though their "
+               "cells may not touch yet (doc/faq.md, bodies that stick): set "
+               "Contact/Between, or a smaller Grid/Spacing.")
+         << " Further cases are not reported.";
     announce(text.str());
   }
 

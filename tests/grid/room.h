@@ -11,7 +11,6 @@
 #include <morula/grid/occupancy.h>
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/parting.h>
-#include <morula/grid/piece_watch.h>
 #include <morula/grid/spline_space.h>
 #include <morula/grid/unknown_numbers.h>
 

@@ -157,8 +157,8 @@ def test_pieces(runs):
         **AT_ONCE, "Tissue/Shape": "box", "Tissue/Size": "300, 50",
         "Death/When": "abs(X) < 50 && t >= 0.25"})
     assert [*run.statistics["connected_tissues"]] == [1, 1, 1, 2, 2, 2, 2, 2, 2]
-    assert run.said.count("the tissue has parted") == 1
-    assert "it has 2 parts now, and had 1" in run.said
+    assert run.said.count("connected parts after") == 1
+    assert "2 connected parts after 1. Each moves on its own." in run.said
 
 
 def test_rates_that_become_negative(runs):

@@ -152,7 +152,7 @@ namespace Morula
         watches.look_at_necks(tissue, time_steps.time());
       if (tissue.cells().has_parts())
         return;
-      watches.look_at_pieces(space, tissue.grid(), time_steps.time());
+      watches.look_at_pieces(space, comm, time_steps.time());
       if (run_state.n_steps % every == 1)
         watches.look_at_gaps(tissue, space, time_steps.time());
     }

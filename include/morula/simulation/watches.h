@@ -5,7 +5,6 @@
 #define morula_simulation_watches_h
 
 #include <morula/base/agreement.h>
-#include <morula/grid/piece_watch.h>
 #include <morula/grid/spline_space.h>
 #include <morula/particles/tissue.h>
 #include <morula/scene/tissue_model.h>
@@ -40,11 +39,11 @@ namespace Morula
     /** Tells once when pieces of the tissue join, and once when it parts: looks
      *  at the splines of a step that begins at @p t (day). Collective. */
     void
-    look_at_pieces(const SplineSpace<dim>    &space,
-                   const BackgroundGrid<dim> &grid,
-                   const double               t);
+    look_at_pieces(const SplineSpace<dim> &space,
+                   const MPI_Comm          comm,
+                   const double            t);
 
-    /** How many pieces the last call has seen, if cells die. */
+    /** How many pieces the last call has seen. */
     unsigned int
     n_pieces() const
     {
@@ -93,7 +92,6 @@ namespace Morula
     std::map<std::string, std::uint64_t> points_before; // of conditions
     std::vector<double>                  held;   // walls_of() the surface
     std::optional<std::vector<double>>   planes; // one point of each
-    PieceWatch<dim>                      watch;
     unsigned int                         n_pieces_ = 0;
     bool has_joined = false, has_parted = false, has_told_of_gap = false,
          has_told_of_neck = false, has_told_of_cells = false,

@@ -57,4 +57,4 @@ def test_faster_than_the_steps(runs, rate, says):
 def test_slip_sides_hold_points(runs, keys, says):
     """Tissue that passes carries them away: that is said before the run."""
     run = runs.run("slips", BOX, {"Tissue/Size": "64, 64", "Time/End time": 0.1, **keys})
-    assert ("not places" in run.said) == says
+    assert ("not on the place" in run.said) == says

@@ -44,8 +44,8 @@ namespace Morula
      *  residual down to this part and moved nothing by more than a grid
      *  spacing: the renewal then changes more than what is left of it. */
     constexpr double early = 0.1;
-    /** Of a first linear solve: what is renewed then must not feel ranks. */
-    constexpr double       exact = 1e-4, loose_start = 1e-2;
+    /** Of linear solves: what is renewed after them must not feel ranks. */
+    constexpr double       exact = 1e-4, loose_start = 1e-2, loosest = 1e-1;
     constexpr unsigned int last_early_turn = 10; // then it is no help
 
     /** The largest change of a coefficient by the last iteration, µm. */
@@ -343,7 +343,7 @@ namespace Morula
                    const bool         has_energy,
                    const bool         may_leap,
                    const double       linear_tolerance,
-                   const double       first_tolerance)
+                   const bool         renews)
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
@@ -366,8 +366,9 @@ namespace Morula
       newton.set("Forcing Term Method",
                  linear_tolerance > 0. ? "Constant" : "Type 2");
       newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);
-      newton.set("Forcing Term Initial Tolerance", first_tolerance);
-      newton.set("Forcing Term Maximum Tolerance", 1e-1);
+      newton.set("Forcing Term Initial Tolerance",
+                 renews ? exact : loose_start);
+      newton.set("Forcing Term Maximum Tolerance", renews ? exact : loosest);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
       newton.set("Set Tolerance in Parameter List", true);
       newton.set("Rescue Bad Newton Solve", false);
@@ -456,16 +457,16 @@ namespace Morula
     const std::string             reason    = message_of([&]() {
       for (;;)
         {
-          const auto test   = Teuchos::rcp(new ConvergenceTest(
+          const auto test = Teuchos::rcp(new ConvergenceTest(
             bounds, tangents, linear_problem.symmetric, on_the_way, report));
-          const auto solver = NOX::Solver::buildSolver(
-            group,
-            test,
-            nox_parameters(problem,
-                           linear_problem.symmetric,
-                           on_the_way.may_leap,
-                           parameters.linear_tolerance,
-                           on_the_way.renew ? exact : loose_start));
+          const auto solver =
+            NOX::Solver::buildSolver(group,
+                                     test,
+                                     nox_parameters(problem,
+                                                    linear_problem.symmetric,
+                                                    on_the_way.may_leap,
+                                                    parameters.linear_tolerance,
+                                                    bool(on_the_way.renew)));
           bool   renewed = false;
           double before  = group->getNormF();
           while (!renewed && solver->step() == NOX::StatusTest::Unconverged)

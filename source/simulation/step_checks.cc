@@ -227,21 +227,28 @@ namespace Morula
       return of_all_ranks(list, tissue.communicator());
     }
 
-    /** Whether two points of the surface within @p width (µm) look away from
-     *  each other. */
+    /** Whether two points of the surface look away from each other that are
+     *  nearer than a neck is wide. One point of each of the @p cubes counts,
+     *  whose edge is h/2. */
     template <int dim>
     bool
-    has_narrow_part(const PointList<dim> &surface,
-                    const NearTree<dim>  &tree,
-                    const double          width)
+    has_narrow_part(const PointList<dim> &surface, const GridBox<dim> &cubes)
     {
-      constexpr double most_cosine = 0.3; // of their normals
-      const auto       normal      = [&](const unsigned int i) {
-        const auto area = Flat<Tensor<1, dim>>::read(surface.row(i).data());
+      constexpr double         most_cosine = -0.5; // of their normals
+      std::set<GridIndex<dim>> taken;
+      PointList<dim>           some(dim);
+      for (unsigned int i = 0; i < surface.size(); ++i)
+        if (taken.insert(cubes.locate(surface.positions[i])).second)
+          some.add(surface.ids[i], surface.positions[i], surface.row(i));
+      const auto normal = [&](const unsigned int i) {
+        const auto area = Flat<Tensor<1, dim>>::read(some.row(i).data());
         return area / area.norm();
       };
-      for (unsigned int i = 0; i < surface.size(); ++i)
-        for (const unsigned int j : tree.within(surface.positions[i], width))
+      const NearTree<dim> tree(some.positions);
+      for (unsigned int i = 0; i < some.size(); ++i)
+        for (const unsigned int j :
+             tree.within(some.positions[i],
+                         (2. * narrow + 1.) * cubes.spacing()))
           if (normal(i) * normal(j) < most_cosine)
             return true;
       return false;
@@ -312,10 +319,11 @@ namespace Morula
     const PointList<dim> surface = surface_of(tissue);
     const NearTree<dim>  tree(surface.positions);
     PointList<dim>       places(2);
-    if (!has_narrow_part(surface, tree, narrow * h))
+    const Point<dim>     corner = tissue.grid().box().corner({});
+    if (!has_narrow_part(surface, {{}, {}, h / 2., corner}))
       return narrowest_meeting(places, h);
     const Cells<dim>  &cells = tissue.cells();
-    const GridBox<dim> cubes({}, {}, h / 4., tissue.grid().box().corner({}));
+    const GridBox<dim> cubes({}, {}, h / 4., corner);
     std::set<std::pair<unsigned int, GridIndex<dim>>> taken;
     for (unsigned int p = 0; p < cells.size(); ++p)
       if (taken.emplace(cells.body(p), cubes.locate(cells.position(p))).second)

@@ -215,6 +215,7 @@ namespace Morula
                                                    comm);
     if (!reason.empty())
       {
+        // The cell that moves farthest is most likely what has torn off.
         std::vector<double> farthest(1 + dim, 0.);
         for (unsigned int p = 0; p < tissue.cells().size(); ++p)
           {

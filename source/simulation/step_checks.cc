@@ -207,7 +207,8 @@ namespace Morula
 
   namespace
   {
-    /** A neck is narrower than this, µm over h; its parts are as wide. */
+    /** A neck is narrower than this, in units of h; the parts that it joins are
+     *  wider. */
     constexpr double narrow = 3.;
 
     /** The surface of all ranks: positions, with areas times normals in their
@@ -261,9 +262,10 @@ namespace Morula
     std::vector<double>
     narrowest_meeting(const PointList<dim> &places, const double h)
     {
-      // Places are visited from the deepest on, and join those around; balls in
-      // tissue around neighbours overlap. Where two parts meet is a neck, if
-      // both are wide. The deepest of a part is its root.
+      // Places are visited from the deepest on, and join those around, within
+      // more than two cubes' edges; balls in tissue around neighbours overlap,
+      // but for a fifth that the cubes leave open. Where two parts meet is a
+      // neck, if both are wide. The deepest of a part is its root.
       constexpr double widening = 1.4; // of a part beside the neck
       const auto depth = [&](const unsigned int i) { return places.row(i)[0]; };
       std::vector<double>       best{std::numeric_limits<double>::infinity()};

@@ -322,15 +322,25 @@ namespace Morula
         result.of_new_pairs +=
           pair.weight * law.kappa * std::max(-pair.gap, 0.);
     result.has_new_links = seen_links != links_;
-    // A pair that overlaps far more than at t has crossed. What overlaps less
-    // is a new pair, which the next turn pushes apart: a fold that snaps shut
-    // brings points together that were too far apart at t.
-    const double deep = crossing * ContactPoints<dim>::deepest_pair * law.h;
+    // A pair that overlaps far more than at t has crossed, if it does so along
+    // its normals at t as well: patches that turn change their overlap where
+    // they are. What overlaps less is a new pair, which the next turn pushes
+    // apart: a fold that snaps shut brings points together that were too far
+    // apart at t.
+    const double deep   = crossing * ContactPoints<dim>::deepest_pair * law.h;
+    const auto   normal = [this](const unsigned int p) {
+      return points.points()[p].area / points.points()[p].area.norm();
+    };
     for (std::size_t k = 0; k < points.pairs().size(); ++k)
-      if (const auto pair = facing(k, now);
-          pair && pair->overlap > deep + std::max(0., -first_gaps[k]) &&
-          pair->overlap > result.crossed && pair->beside < pair->reach)
-        result.crossed = pair->overlap;
+      if (const auto pair = facing(k, now); pair && pair->beside < pair->reach)
+        {
+          const auto &[b, c] = points.pairs()[k];
+          const double overlap =
+            std::min(pair->overlap,
+                     0.5 * (normal(b) - normal(c)) * (now[b].x - now[c].x));
+          if (overlap > deep + std::max(0., -first_gaps[k]))
+            result.crossed = std::max(result.crossed, overlap);
+        }
     return result;
   }
 

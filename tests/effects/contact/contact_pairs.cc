@@ -202,3 +202,23 @@ TEST_2D_3D(ContactPairs, BodiesThatDoNotTouchShareNothing)
   EXPECT_EQ(sums_at(term, rest, residual).energy, 0.);
   EXPECT_EQ(*std::max_element(residual.begin(), residual.end()), 0.);
 }
+
+
+/** A body that is pushed through another one has crossed it, by how far both
+ *  overlap then. */
+TEST_2D_3D(ContactPairs, ABodyThatPassesThroughAnotherHasCrossedIt)
+{
+  const auto               owner_of_tissue = two_blocks<dim>(-1.);
+  const Tissue<dim>       &tissue          = *owner_of_tissue;
+  SplineSpace<dim>         space           = tissue.splines();
+  const ContactPoints<dim> points(tissue, space, h);
+  ContactPairs<dim>        term(points, {10., 1., h, 3.});
+  for (const auto &[way, crossed] :
+       {std::pair(4., 0.), std::pair(5.5, 4.5), std::pair(8., 7.)})
+    {
+      Tensor<1, dim> down;
+      down[dim - 1] = -way;
+      const auto u  = affine_displacement(space, 1, down, Tensor<2, dim>());
+      EXPECT_NEAR(term.look(u).crossed, crossed, 1e-9);
+    }
+}

@@ -187,7 +187,8 @@ namespace Morula
           ContactLaw{keys.stiffness * attempt.typical_stiffness / h,
                      attempt.typical_stiffness,
                      h,
-                     keys.friction > 0. ? keys.friction / dt : 0.});
+                     keys.friction > 0. ? keys.friction / dt : 0.},
+          keeps_drag);
       }
 
       void
@@ -203,6 +204,7 @@ namespace Morula
       const ContactParameters &keys;
       const Tissue<dim>       &tissue;
       const ContactPoints<dim> points;
+      mutable bool             keeps_drag = false;
     };
 
 

@@ -58,11 +58,13 @@ namespace Morula
     public:
       ContactInStep(const AttemptAtStep<dim> &attempt,
                     const ContactPoints<dim> &points,
-                    const ContactLaw         &law)
+                    const ContactLaw         &law,
+                    bool                     &keeps_drag)
         : attempt(attempt)
         , points(points)
         , law(law)
         , pairs_(points, law)
+        , keeps_drag(keeps_drag)
       {}
 
       PairTerm &
@@ -113,9 +115,12 @@ namespace Morula
           text << "two bodies overlap by " << crossed
                << " um, so that the step is too long for their contact";
         else if (slid > points.way())
-          text << "bodies in contact slide by " << slid
-               << " um along each other, more than " << points.way()
-               << " um: the step is too long for their contact";
+          {
+            keeps_drag = keeps_drag || drag_part < 1.;
+            text << "bodies in contact slide by " << slid
+                 << " um along each other, more than " << points.way()
+                 << " um: the step is too long for their contact";
+          }
         else if (has_crossed_from_afar(
                    attempt.tissue, points, displacement, law.h))
           text
@@ -129,11 +134,13 @@ namespace Morula
             sums[2] <= small_part * sums[0] + no_force * unit)
           return false;
         // A soft body slides far against the drag, a little in each turn, if
-        // all of it goes one way: the drag becomes weaker then. Where a surface
-        // is strongly curved the geometry may swing between two states for
-        // ever. So it follows only a part of the way, half as much each time
-        // that less than a fifth of the tangential forces has gone.
-        const bool slides_far = sums[1] > slow * left_over &&
+        // all of it goes one way: the drag becomes weaker then. A curved body
+        // may slide off along its frozen normals then: in the attempts that
+        // follow the drag stays as it is. Where a surface is strongly curved
+        // the geometry may swing between two states for ever. So it follows
+        // only a part of the way, half as much each time that less than a fifth
+        // of the tangential forces has gone.
+        const bool slides_far = !keeps_drag && sums[1] > slow * left_over &&
                                 sums[4] > one_way * sums[1] &&
                                 drag_part > least_drag;
         const double before = left_over;
@@ -180,6 +187,7 @@ namespace Morula
       const ContactPoints<dim> &points;
       const ContactLaw          law;
       ContactPairs<dim>         pairs_;
+      bool                     &keeps_drag; // at its strength, in all turns
       Drag<dim>                *drag      = nullptr;
       MomentumBalance<dim>     *balance   = nullptr;
       bool                      recentres = false; // the drag
@@ -263,9 +271,13 @@ namespace Morula
   std::unique_ptr<InteractionInStep<dim>>
   contact_in_step(const AttemptAtStep<dim> &attempt,
                   const ContactPoints<dim> &points,
-                  const ContactLaw         &law)
+                  const ContactLaw         &law,
+                  bool                     &keeps_drag)
   {
-    return std::make_unique<ContactInStep<dim>>(attempt, points, law);
+    return std::make_unique<ContactInStep<dim>>(attempt,
+                                                points,
+                                                law,
+                                                keeps_drag);
   }
 
 

@@ -375,12 +375,15 @@ namespace Morula
    * The contact in an attempt at a step: its pairs hold positions, normals and
    * areas fixed in a turn, and take them anew after it. Keeps references to all
    * that it is given.
+   * @param keeps_drag in/out: whether an attempt at the step has failed by a
+   * drag that had become weaker
    */
   template <int dim>
   std::unique_ptr<InteractionInStep<dim>>
   contact_in_step(const AttemptAtStep<dim> &attempt,
                   const ContactPoints<dim> &points,
-                  const ContactLaw         &law);
+                  const ContactLaw         &law,
+                  bool                     &keeps_drag);
 } // namespace Morula
 
 #endif

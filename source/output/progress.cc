@@ -18,9 +18,10 @@ namespace Morula
     // The work so far is taken as a power of the simulated time, whose exponent
     // follows from the first and the second half: tissue that grows takes
     // longer and longer. The rest of the run follows by the same power.
-    const double first       = records.front().first;
-    const auto [last, spent] = records.back();
-    const double done        = last - first;
+    const auto [first, set_up] = records.front();
+    const double last          = records.back().first;
+    const double spent         = records.back().second - set_up;
+    const double done          = last - first;
     if (done <= 0. || spent <= 0.)
       return -1.;
     if (last >= end)
@@ -38,7 +39,7 @@ namespace Morula
     const auto   before = *(after - 1);
     const double weight = (half - before.first) / (after->first - before.first);
     const double spent_at_half =
-      before.second + weight * (after->second - before.second);
+      before.second + weight * (after->second - before.second) - set_up;
 
     // A few steps say nothing about growth, so they count as even. The lower
     // bound holds where the set-up outweighs the first steps, the upper one

@@ -35,6 +35,11 @@ TEST(TimeLeft, IsUnknownAtFirstAndNothingAtTheEnd)
   EXPECT_NEAR(time_left.seconds(), 30., 1e-12);
   time_left.add(3., 50.);
   EXPECT_EQ(time_left.seconds(), 0.);
+  TimeLeft after_setup(1., 3.);
+  after_setup.add(1., 6.);
+  EXPECT_EQ(after_setup.seconds(), -1.);
+  after_setup.add(1.5, 10.);
+  EXPECT_NEAR(after_setup.seconds(), 12., 1e-12);
 }
 
 TEST(TimeLeft, FollowsTheCost)

@@ -36,10 +36,12 @@ namespace Morula
     {}
 
     /** Records that the simulated time @p time was reached after so many wall
-     *  seconds. */
+     *  seconds. What passes before the first step counts as no step's. */
     void
     add(const double time, const double wall_seconds)
     {
+      if (time == records.front().first)
+        records.clear();
       records.push_back({time, wall_seconds});
     }
 

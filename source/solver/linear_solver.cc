@@ -105,7 +105,8 @@ namespace Morula
         prepared = true;
       }
     const TimerOutput::Scope section(timer, "linear solver");
-    const System             system{K, x, b, tolerance, iterations, rank_ones};
+    const System             system{
+      K, x, b, std::min(tolerance, largest_tolerance), iterations, rank_ones};
     try
       {
         if (is_direct)

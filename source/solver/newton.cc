@@ -42,11 +42,12 @@ namespace Morula
 
     /** What is held fixed is renewed as soon as an iteration has brought the
      *  residual down to this part and moved nothing by more than a grid
-     *  spacing: the renewal then changes more than what is left of it. */
-    constexpr double early = 0.1;
-    /** Of linear solves: what is renewed after them must not feel ranks. */
-    constexpr double       exact = 1e-4, loose_start = 1e-2, loosest = 1e-1;
-    constexpr unsigned int last_early_turn = 10; // then it is no help
+     *  spacing: the renewal then changes more than what is left of it. Only a
+     *  turn's first iterations may, whose linear solves are exact: what is
+     *  renewed after them must not feel ranks. */
+    constexpr double       early = 0.1, exact = 1e-4;
+    constexpr int          early_iterations = 3;
+    constexpr unsigned int last_early_turn  = 10; // then it is no help
 
     /** The largest change of a coefficient by the last iteration, µm. */
     double
@@ -342,8 +343,7 @@ namespace Morula
     nox_parameters(const Equilibrium &problem,
                    const bool         has_energy,
                    const bool         may_leap,
-                   const double       linear_tolerance,
-                   const bool         renews)
+                   const double       linear_tolerance)
     {
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
       parameters->set("Nonlinear Solver", "Line Search Based");
@@ -366,9 +366,8 @@ namespace Morula
       newton.set("Forcing Term Method",
                  linear_tolerance > 0. ? "Constant" : "Type 2");
       newton.sublist("Linear Solver").set("Tolerance", linear_tolerance);
-      newton.set("Forcing Term Initial Tolerance",
-                 renews ? exact : loose_start);
-      newton.set("Forcing Term Maximum Tolerance", renews ? exact : loosest);
+      newton.set("Forcing Term Initial Tolerance", 1e-2);
+      newton.set("Forcing Term Maximum Tolerance", 1e-1);
       newton.set("Forcing Term Minimum Tolerance", 1e-6);
       newton.set("Set Tolerance in Parameter List", true);
       newton.set("Rescue Bad Newton Solve", false);
@@ -457,30 +456,31 @@ namespace Morula
     const std::string             reason    = message_of([&]() {
       for (;;)
         {
-          const auto test = Teuchos::rcp(new ConvergenceTest(
+          const auto test   = Teuchos::rcp(new ConvergenceTest(
             bounds, tangents, linear_problem.symmetric, on_the_way, report));
-          const auto solver =
-            NOX::Solver::buildSolver(group,
-                                     test,
-                                     nox_parameters(problem,
-                                                    linear_problem.symmetric,
-                                                    on_the_way.may_leap,
-                                                    parameters.linear_tolerance,
-                                                    bool(on_the_way.renew)));
-          bool   renewed = false;
-          double before  = group->getNormF();
-          while (!renewed && solver->step() == NOX::StatusTest::Unconverged)
+          const auto solver = NOX::Solver::buildSolver(
+            group,
+            test,
+            nox_parameters(problem,
+                           linear_problem.symmetric,
+                           on_the_way.may_leap,
+                           parameters.linear_tolerance));
+          double before = group->getNormF();
+          for (bool renewed = false; !renewed; before = group->getNormF())
             {
-              if (may_renew && report.place.turn < last_early_turn &&
-                  group->part_taken() == 1. &&
+              const bool is_early =
+                may_renew && report.place.turn < last_early_turn &&
+                solver->getNumIterations() < early_iterations;
+              linear_solver.largest_tolerance =
+                is_early && parameters.linear_tolerance == 0. ? exact : 1.;
+              if (solver->step() != NOX::StatusTest::Unconverged)
+                return test->reason_of_failure();
+              if (is_early && group->part_taken() == 1. &&
                   group->getNormF() <= early * before &&
                   last_motion(*solver) <= scales.length)
                 may_renew = renewed =
                   on_the_way.renew(values_of(group->getX()));
-              before = group->getNormF();
             }
-          if (!renewed)
-            return test->reason_of_failure();
           group->renew();
           ++report.turns;
           ++report.place.turn;

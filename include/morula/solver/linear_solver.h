@@ -62,6 +62,9 @@ namespace Morula
           const bool                   as_before = false,
           const Equilibrium::RankOnes &rank_ones = {});
 
+    /** No solve is looser than this. */
+    double largest_tolerance = 1.;
+
     /** The most negative p·Kp / p·|diag K|p that the last solve met; 0: it met
      *  none. A direct solver sees no curvature: then it is minus σ. */
     double

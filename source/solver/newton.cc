@@ -345,10 +345,10 @@ namespace Morula
                    const bool         may_leap,
                    const double       linear_tolerance)
     {
+      // NOX's method is Newton's with a line search, where nothing else is
+      // said. The message of StepFailed says what has failed. NOX would print
+      // failed line searches even where no output information is wanted.
       const auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
-      parameters->set("Nonlinear Solver", "Line Search Based");
-      // The message of StepFailed says what has failed. NOX would print failed
-      // line searches even where no output information is wanted.
       const Teuchos::RCP<std::ostream> nowhere =
         Teuchos::rcp(new Teuchos::oblackholestream);
       parameters->sublist("Printing")
@@ -358,7 +358,6 @@ namespace Morula
 
       Teuchos::ParameterList &newton =
         parameters->sublist("Direction").sublist("Newton");
-      parameters->sublist("Direction").set("Method", "Newton");
       // Type 2 is Eisenstat and Walker's second choice: doc/theory.md, section
       // 5.4. Early solves need few digits, as the next tangent differs anyway;
       // the first tolerance is 1e-2, and none is looser than 1e-1. Later ones

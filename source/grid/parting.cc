@@ -4,9 +4,11 @@
 #include <morula/grid/particle_domain.h>
 #include <morula/grid/parting.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <queue>
+#include <tuple>
 
 namespace Morula
 {
@@ -44,6 +46,11 @@ namespace Morula
      * of another are at most so many of their lengths beside the segment from
      *  point to point. */
     constexpr double beside_chain = 1.5;
+
+    /** A cell has few bonds, and a strand few cells, if they are no more than
+     *  these. */
+    template <int dim>
+    constexpr unsigned int few = (1 << dim) - 1;
 
     /** A patch near a cell, and how far in front of it the cell's middle is,
      *  µm. */
@@ -136,6 +143,50 @@ namespace Morula
         }
       return above;
     }
+
+    /** A bond that a patch cuts: its length by the edges of its first cell's
+     *  box, and the two cells. */
+    using CutBond = std::tuple<double, unsigned int, unsigned int>;
+
+    /**
+     * Gives cells with few @p bonds some of those back that have been @p cut,
+     * the shortest first. Where a surface has crumpled it cuts cells off on all
+     * sides, which nothing would hold then. A bond comes back that joins a
+     * strand of few cells to others, or two cells that have a neighbour in
+     * common: so no two sides of a gap are joined.
+     */
+    template <int dim>
+    void
+    restore(std::vector<CutBond>                    cut,
+            std::vector<std::vector<unsigned int>> &bonds)
+    {
+      const auto is_of_few = [&bonds](const unsigned int p) {
+        std::vector<unsigned int> strand(1, p);
+        for (std::size_t i = 0; i < strand.size() && strand.size() <= few<dim>;
+             ++i)
+          for (const unsigned int q : bonds[strand[i]])
+            if (std::find(strand.begin(), strand.end(), q) == strand.end())
+              strand.push_back(q);
+        return strand.size() <= few<dim>;
+      };
+      const auto is_restored = [&](const CutBond &bond) {
+        const auto &[length, p, q]   = bond;
+        std::vector<unsigned int> &a = bonds[p], &b = bonds[q];
+        if (std::min(a.size(), b.size()) > few<dim> ||
+            (std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) ==
+               a.end() &&
+             !is_of_few(p) && !is_of_few(q)))
+          return false;
+        a.push_back(q);
+        b.push_back(p);
+        return true;
+      };
+      // A bond that comes back can give others a neighbour in common.
+      std::sort(cut.begin(), cut.end());
+      for (auto end = cut.end(), last = end;; last = end)
+        if (end = std::remove_if(cut.begin(), last, is_restored); end == last)
+          return;
+    }
   } // namespace
 
 
@@ -203,6 +254,7 @@ namespace Morula
     for (std::vector<unsigned int> &list : bonds)
       list.reserve(usual);
     std::vector<NearPatch> around;
+    std::vector<CutBond>   cut;
     for (unsigned int p = 0; p < cells.size(); ++p)
       {
         // The smaller of the two relative distances counts. The search is as
@@ -221,13 +273,19 @@ namespace Morula
           const Tensor<1, dim> distance = cells[q].x - cells[p].x;
           if (q == p || cells[q].body != cells[p].body ||
               !is_near(cells[p], distance) ||
-              (q < p && is_near(cells[q], distance)) || is_across(p, q) ||
-              crosses(cells[p].x, cells[q].x, around, patches))
+              (q < p && is_near(cells[q], distance)))
             return;
-          bonds[p].push_back(q);
-          bonds[q].push_back(p);
+          if (is_across(p, q) ||
+              crosses(cells[p].x, cells[q].x, around, patches))
+            cut.emplace_back((cells[p].from_edges * distance).norm(), p, q);
+          else
+            {
+              bonds[p].push_back(q);
+              bonds[q].push_back(p);
+            }
         });
       }
+    restore<dim>(std::move(cut), bonds);
     for (std::vector<unsigned int> &list : bonds)
       std::sort(list.begin(), list.end());
   }

@@ -247,3 +247,48 @@ TEST(Parting, LeavesASheetInOnePart)
   const GridBox<2> box({{{0, 0}}}, {{{6, 4}}}, 1., Point<2>());
   EXPECT_TRUE(contested_grid_cells(box, patches, 0.4).empty());
 }
+
+
+// A cell that patches surround, as those of a crumpled surface do, shares
+// unknowns with the arm next to it, and joins it to nothing else.
+TEST_2D_3D(Parting, HoldsACellThatASurfaceCutsOff)
+{
+  Hairpin<dim>              body(1., 0.5, 0., 0.);
+  const ParticleDomain<dim> cube(body.cells.back().x, std::pow(l, dim));
+  PartedCell<dim>           lost = body.cells.back();
+  Point<dim>                x;
+  x[0] = 4.1;
+  x[1] = 0.15;
+  for (unsigned int d = 2; d < dim; ++d)
+    x[d] = 0.5;
+  lost.id    = body.cells.size();
+  lost.x     = x;
+  lost.lower = x - (cube.upper() - cube.lower()) / 2.;
+  lost.upper = x + (cube.upper() - cube.lower()) / 2.;
+  for (unsigned int d = 0; d < dim; ++d)
+    for (const double side : {-1., 1.})
+      {
+        PartedPatch<dim> patch;
+        patch.id   = body.patches.size();
+        patch.body = 0;
+        patch.x    = x;
+        patch.x[d] += 0.05 * side;
+        patch.n[d]    = side;
+        patch.spacing = 0.25;
+        body.patches.push_back(patch);
+      }
+  body.cells.push_back(lost);
+  const GridBox<dim> box     = box_around(body);
+  const auto         parting = std::make_shared<const Parting<dim>>(
+    box,
+    contested_grid_cells(box, body.patches, 0.4),
+    body.cells,
+    body.patches);
+  Sharing      share = sharing(body, parting);
+  unsigned int n_own = 0, n_across = 0;
+  for (std::size_t i = 0; i < body.cells.size() - 1; ++i)
+    if (const auto &y = body.cells[i].x; y[0] > 3. && y.distance(x) < 1.)
+      (y[1] > 0. ? n_own : n_across) += share(i, body.cells.size() - 1);
+  EXPECT_GT(n_own, 0u);
+  EXPECT_EQ(n_across, 0u);
+}

@@ -133,18 +133,17 @@ namespace Morula
                 const double         wall_seconds,
                 const double         seconds_left)
   {
-    std::string line = format(
-      "step %u: day %.6g of %.6g, dt %.3g, %llu cells, %u Newton iterations, "
-      "%s",
-      row.step,
-      row.time,
-      end_time,
-      row.dt,
-      static_cast<unsigned long long>(row.cells),
-      row.newton_iterations,
-      duration(wall_seconds).c_str());
+    // Short enough for a terminal of 80 columns.
+    std::string line =
+      format("step %u: day %.6g of %.6g, %llu cells, %u iterations, %s",
+             row.step,
+             row.time,
+             end_time,
+             static_cast<unsigned long long>(row.cells),
+             row.newton_iterations,
+             duration(wall_seconds).c_str());
     if (seconds_left > 0.)
-      line += ", about " + duration(seconds_left) + " left";
+      line += ", " + duration(seconds_left) + " left";
     return line;
   }
 

@@ -68,11 +68,10 @@ TEST(TimeLeft, IsPrintedForPeople)
 TEST(ProgressLine, SaysWhatTheStepDid)
 {
   EXPECT_EQ(progress_line(row(0.6), 4., 200., 125.),
-            "step 12: day 0.6 of 4, dt 0.05, 65752 cells, 4 Newton "
-            "iterations, 3 min 20 s, about 2 min 05 s left");
+            "step 12: day 0.6 of 4, 65752 cells, 4 iterations, 3 min 20 s, "
+            "2 min 05 s left");
   EXPECT_EQ(progress_line(row(0.6), 4., 200., -1.),
-            "step 12: day 0.6 of 4, dt 0.05, 65752 cells, 4 Newton "
-            "iterations, 3 min 20 s");
+            "step 12: day 0.6 of 4, 65752 cells, 4 iterations, 3 min 20 s");
 }
 
 TEST(Summary, HasALineForEachNumber)

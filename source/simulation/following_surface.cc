@@ -284,6 +284,9 @@ namespace Morula
     };
     if (has_torn_patch(points, columns, longest_edge, crowded, comm))
       {
+        // What holds the tissue holds the new surface, too.
+        if (state.walls.empty())
+          state.walls = walls_of(tissue.boundary_points(), comm);
         make_from_cells(
           tissue,
           points,

@@ -189,10 +189,7 @@ class LatticeScene(RandomScene):
             return {}
         section = "Proliferation/Cell cycle/"
         constant, slopes = self.duration
-        # These go by the patches of the surface, which do not turn with a round body.
-        places = {} if self.dim == 2 or self.shape == "box" else {
-            section + "Stay inside surface": "false", "Tissue/Redistribution": "false"}
-        return {**places, "Proliferation/Law": "cell cycle",
+        return {"Proliferation/Law": "cell cycle",
                 section + "Start": "together",
                 section + "G0 exit rate": 0,
                 section + "Duration": self.frame(Q).linear(constant, slopes),

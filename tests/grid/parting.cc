@@ -159,6 +159,19 @@ box_around(const Hairpin<dim> &body)
   return grid.box();
 }
 
+template <int dim>
+SharedParting<dim>
+parting_of(const Hairpin<dim> &body)
+{
+  const GridBox<dim> box = box_around(body);
+  return std::make_shared<const Parting<dim>>(box,
+                                              contested_grid_cells(box,
+                                                                   body.patches,
+                                                                   0.4),
+                                              body.cells,
+                                              body.patches);
+}
+
 
 // Arms of one body that touch have no unknown in common away from where they
 // are joined, and neither of them is torn.
@@ -173,13 +186,8 @@ TEST_2D_3D(Parting, PartsTheArmsOfAHairpin)
           {
             SCOPED_TRACE(std::to_string(thickness) + " thick, gap " +
                          std::to_string(gap) + ", at " + std::to_string(y));
-            const Hairpin<dim> body(thickness, gap, noise, y);
-            const GridBox<dim> box     = box_around(body);
-            const auto         parting = std::make_shared<const Parting<dim>>(
-              box,
-              contested_grid_cells(box, body.patches, 0.4),
-              body.cells,
-              body.patches);
+            const Hairpin<dim>       body(thickness, gap, noise, y);
+            const SharedParting<dim> parting = parting_of(body);
             ASSERT_FALSE(parting->is_trivial());
             Sharing      share    = sharing(body, parting);
             unsigned int n_joined = 0, n_torn = 0, n_joint = 0;
@@ -209,14 +217,10 @@ TEST_2D_3D(Parting, PartsTheArmsOfAHairpin)
 // around its end, where the cells behind them are connected.
 TEST(Parting, KnowsWhichPointsAreConnected)
 {
-  const Hairpin<2> body(1., 0.02, 0., 0.);
-  const GridBox<2> box = box_around(body);
-  const Parting<2> parting(box,
-                           contested_grid_cells(box, body.patches, 0.4),
-                           body.cells,
-                           body.patches);
-  unsigned int     n_pairs = 0;
-  constexpr double radius  = 1.5 * l + 0.06; // see Parting::are_connected()
+  const Hairpin<2>       body(1., 0.02, 0., 0.);
+  const SharedParting<2> parting = parting_of(body);
+  unsigned int           n_pairs = 0;
+  constexpr double radius = 1.5 * l + 0.06; // see Parting::are_connected()
   for (const PartedPatch<2> &a : body.patches)
     for (const PartedPatch<2> &b : body.patches)
       if (a.id < b.id && a.n * b.n < -0.9 && std::abs(a.x[0] - b.x[0]) < 0.1)
@@ -224,7 +228,7 @@ TEST(Parting, KnowsWhichPointsAreConnected)
           // A path around the end needs room for a cell or two.
           if (a.x[0] > radius || a.x[0] < radius - 2. * l)
             {
-              EXPECT_EQ(parting.are_connected(a.id, b.id), a.x[0] < radius)
+              EXPECT_EQ(parting->are_connected(a.id, b.id), a.x[0] < radius)
                 << "at " << a.x[0];
             }
           ++n_pairs;
@@ -278,13 +282,7 @@ TEST_2D_3D(Parting, HoldsACellThatASurfaceCutsOff)
         body.patches.push_back(patch);
       }
   body.cells.push_back(lost);
-  const GridBox<dim> box     = box_around(body);
-  const auto         parting = std::make_shared<const Parting<dim>>(
-    box,
-    contested_grid_cells(box, body.patches, 0.4),
-    body.cells,
-    body.patches);
-  Sharing      share = sharing(body, parting);
+  Sharing      share = sharing(body, parting_of(body));
   unsigned int n_own = 0, n_across = 0;
   for (std::size_t i = 0; i < body.cells.size() - 1; ++i)
     if (const auto &y = body.cells[i].x; y[0] > 3. && y.distance(x) < 1.)

@@ -20,10 +20,6 @@ namespace Morula
     constexpr double drag_of_pressure = 0.3, first_drag = 0.02,
                      nearly_touching = 0.05;
 
-    /** The cosine of the largest turn of a patch in a step. One at the end of a
-     *  fold may topple, which says nothing of where the surface is. */
-    constexpr double largest_turn = 0.5;
-
     /** Of an overlap that no pressure has made a half is let go in a step, but
      *  not less and not more than this, in units of h: facetted surfaces make
      *  gaps scatter as much, and more would be a blow. */
@@ -55,8 +51,7 @@ namespace Morula
       at_rest.push_back({Tensor<1, dim>(),
                          point.x,
                          point.area / point.area.norm(),
-                         point.area.norm(),
-                         true});
+                         point.area.norm()});
     // Points of a fold that deepens may overlap before they count as a pair, as
     // long as bonds around its end connect them. An overlap at t that is deeper
     // than their pressure makes it is let go a little in each step, since all
@@ -115,11 +110,7 @@ namespace Morula
             f[i] += u[point.unknowns[s] * dim + i] * point.gradients[s];
         const Tensor<1, dim> area = determinant(f) * (point.area * invert(f));
         list.push_back(
-          {ways[k],
-           point.x + ways[k],
-           area / area.norm(),
-           area.norm(),
-           area * point.area > largest_turn * area.norm() * point.area.norm()});
+          {ways[k], point.x + ways[k], area / area.norm(), area.norm()});
       }
     return list;
   }
@@ -132,7 +123,7 @@ namespace Morula
   {
     const auto &[b, c] = points.pairs()[k];
     const State &one = states[b], &other = states[c];
-    if (one.n * other.n >= Parting<dim>::facing || !one.stands || !other.stands)
+    if (one.n * other.n >= Parting<dim>::facing)
       return {};
     const Tensor<1, dim> across   = 0.5 * (other.n - one.n);
     const Tensor<1, dim> normal   = across / across.norm();

@@ -255,11 +255,10 @@ namespace Morula
     /** Where a point is and what surface it stands for. */
     struct State
     {
-      Tensor<1, dim> u;      // µm
-      Point<dim>     x;      // µm
-      Tensor<1, dim> n;      // outward unit normal
-      double         a;      // µm^(dim-1)
-      bool           stands; // and has not toppled since t
+      Tensor<1, dim> u; // µm
+      Point<dim>     x; // µm
+      Tensor<1, dim> n; // outward unit normal
+      double         a; // µm^(dim-1)
     };
 
     /** How the points of a candidate stand to each other. */

@@ -240,8 +240,7 @@ namespace Morula
         scales.small_force =
           std::max(scales.small_force, report.first_residual);
       // Where folds have contact, a turn of many iterations fails, as held back
-      // it is easier; half a per cent of the forces is enough. No path follows
-      // there, so that a leap does not end a turn, which would be a failure.
+      // it is easier; half a per cent of the forces is enough.
       SolverParameters parameters = model.scene.solver;
       const bool       has_parts  = tissue.cells().has_parts();
       if (has_parts)
@@ -250,13 +249,11 @@ namespace Morula
           parameters.newton_iterations =
             std::min(50u, parameters.newton_iterations.value());
         }
-      const OnTheWay on_the_way{[this](const auto &state) {
-                                  check_turn<dim>(tissue,
-                                                  space,
-                                                  {space, state, comm});
-                                },
-                                early,
-                                has_parts};
+      const OnTheWay on_the_way{
+        [this](const auto &state) {
+          check_turn<dim>(tissue, space, {space, state, comm});
+        },
+        early};
       try
         {
           return Morula::solve(
@@ -264,9 +261,8 @@ namespace Morula
         }
       catch (const StepFailed &)
         {
-          if ((attempt.halve_first && !report.ends_at_leap &&
-               balance.is_far_from(begin, u)) ||
-              tissue.cells().has_parts())
+          if (has_parts || (attempt.halve_first && !report.ends_at_leap &&
+                            balance.is_far_from(begin, u)))
             throw;
           u = begin; // as it may be anywhere
           return follow_proximal_path(

@@ -232,12 +232,9 @@ namespace Morula
     class EnergyLineSearch : public NOX::LineSearch::Generic
     {
     public:
-      EnergyLineSearch(const Equilibrium &problem,
-                       const bool         has_energy,
-                       const bool         may_leap)
+      EnergyLineSearch(const Equilibrium &problem, const bool has_energy)
         : problem(problem)
         , has_energy(has_energy)
-        , may_leap(may_leap)
       {}
 
       bool
@@ -281,10 +278,9 @@ namespace Morula
                             falls || norm <= rounding_error *
                                                problem.residual_magnitude(
                                                  values_of(new_group.getX())));
-            const bool leaps = is_accepted && has_energy && !may_leap &&
-                               norm > old_group.getNormF() &&
-                               energy > before.energy + slack &&
-                               old_group.is_unresisted();
+            const bool leaps =
+              is_accepted && has_energy && norm > old_group.getNormF() &&
+              energy > before.energy + slack && old_group.is_unresisted();
             if (is_accepted && !leaps)
               return true;
             // A leap ends the solve where it is.
@@ -320,7 +316,7 @@ namespace Morula
       }
 
       const Equilibrium &problem;
-      const bool         has_energy, may_leap;
+      const bool         has_energy;
       bool               has_begun = false;
       std::deque<double> accepted; // the last energies, without the first
     };
@@ -342,7 +338,6 @@ namespace Morula
     Teuchos::RCP<Teuchos::ParameterList>
     nox_parameters(const Equilibrium &problem,
                    const bool         has_energy,
-                   const bool         may_leap,
                    const double       linear_tolerance)
     {
       // NOX's method is Newton's with a line search, where nothing else is
@@ -374,8 +369,7 @@ namespace Morula
       Teuchos::ParameterList &search = parameters->sublist("Line Search");
       search.set("Method", "User Defined");
       const auto factory = Teuchos::rcp(new Factory);
-      factory->search =
-        Teuchos::rcp(new EnergyLineSearch(problem, has_energy, may_leap));
+      factory->search = Teuchos::rcp(new EnergyLineSearch(problem, has_energy));
       search.set<Teuchos::RCP<NOX::LineSearch::UserDefinedFactory>>(
         "User Defined Line Search Factory", factory);
       return parameters;
@@ -462,7 +456,6 @@ namespace Morula
             test,
             nox_parameters(problem,
                            linear_problem.symmetric,
-                           on_the_way.may_leap,
                            parameters.linear_tolerance));
           double before = group->getNormF();
           for (bool renewed = false; !renewed; before = group->getNormF())

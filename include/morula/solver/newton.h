@@ -82,9 +82,6 @@ namespace Morula
     /** Called where the first iteration has gone well: turns of their own,
      *  which begin with the last tangent. */
     Renewal renew;
-    /** Whether a leap along a motion that hardly anything resists is taken, as
-     *  no proximal path would follow. */
-    bool may_leap = false;
   };
 
   /**

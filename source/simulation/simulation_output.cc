@@ -367,27 +367,21 @@ namespace Morula
     // The signs of doc/theory.md, section 5.10, come from three places: the
     // cells at t, which the failed attempts have not changed; the report of the
     // last attempt; and the first attempt, whose unbalanced force is what that
-    // of the last one is compared with. Both forms of Nitsche's method stay
-    // false where nothing is held.
+    // of the last one is compared with.
     StatisticsRow before;
     set_state(model, tissue, time_steps.time(), before);
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
-    const double                   dt = time_steps.next() - time_steps.time();
     FailedStep                     step;
     step.first_force = first_attempt.force;
     step.last_force  = newton_report.first_residual;
-    step.part        = dt / first_attempt.dt;
-    step.energy      = newton_report.failed_at.energy;
-    step.smallest_J  = newton_report.failed_at.smallest_J.value;
-    step.curvature   = newton_report.curvature;
-    step.min_J       = before.tissue.min_elastic_volume_ratio;
-    step.max_J       = before.tissue.max_elastic_volume_ratio;
-    if (conditions.has_dirichlet())
-      {
-        step.symmetric = conditions.nitsche().kind() == NitscheForm::symmetric;
-        step.unsymmetric =
-          conditions.nitsche().kind() == NitscheForm::unsymmetric;
-      }
+    step.part   = (time_steps.next() - time_steps.time()) / first_attempt.dt;
+    step.energy = newton_report.failed_at.energy;
+    step.smallest_J = newton_report.failed_at.smallest_J.value;
+    step.curvature  = newton_report.curvature;
+    step.min_J      = before.tissue.min_elastic_volume_ratio;
+    step.max_J      = before.tissue.max_elastic_volume_ratio;
+    step.symmetric  = conditions.has_dirichlet() &&
+                     conditions.nitsche().kind() == NitscheForm::symmetric;
     step.pointwise =
       model.material.volumetric_form() == VolumetricStrain::pointwise;
     step.loaded =

@@ -415,10 +415,6 @@ namespace Morula
       return of_jump(step);
     if (step.smallest_J < healthy_J)
       return "";
-    if (step.unsymmetric)
-      return " The unsymmetric Nitsche form has no energy and sees no "
-             "curvature, so that it does not find the way to a fold. Set "
-             "Boundary conditions/Nitsche form = bounded.";
     return step.curvature < 0. ? of_fold(step) : "";
   }
 

@@ -428,11 +428,9 @@ namespace Morula
     Utilities::MPI::sum(n, comm, n);
     if (n[1] + n[2] == 0)
       return "";
-    const auto                 all = Utilities::MPI::all_gather(comm, farthest);
-    const std::vector<double> &row = *std::max_element(all.begin(), all.end());
-    const std::string          text =
-      text_of<dim>(n, row.data(), places) +
-      around(tissue, Flat<Point<dim>>::read(&row[1]), t).substr(1) + ' ';
+    const auto        all = Utilities::MPI::all_gather(comm, farthest);
+    const std::string text =
+      text_of<dim>(n, std::max_element(all.begin(), all.end())->data(), places);
     if (n[2] > most_behind * n[0])
       return text +
              "More than 1 % of the cells are behind sides that slip or are "

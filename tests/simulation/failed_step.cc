@@ -57,11 +57,11 @@ TEST(FailedStep, SaysWhatTheSignsMean)
 
   const auto curved = [](const double smallest_J) {
     return said([=](FailedStep &step) {
-      step.unsymmetric = true;
-      step.smallest_J  = smallest_J;
+      step.curvature  = -1e-3;
+      step.smallest_J = smallest_J;
     });
   };
-  expect_parts(curved(0.8), {"sees no curvature"});
+  expect_parts(curved(0.8), {"folds or buckles"});
   EXPECT_EQ(curved(0.1), ""); // squeezed: the step is too long
 }
 

@@ -87,9 +87,8 @@ namespace Morula
     /** Smallest and largest J_e of the cells before the step. */
     double min_J = 1., max_J = 1.;
 
-    /** Whether points are held by Nitsche's symmetric or unsymmetric form; with
-     *  other forms both are false. */
-    bool symmetric = false, unsymmetric = false;
+    /** Whether points are held by Nitsche's symmetric form. */
+    bool symmetric = false;
     /** Whether ln J_e is that of each point, not of the grid cell. */
     bool pointwise = false;
     /** Whether surface loads or forces act. */
@@ -102,8 +101,8 @@ namespace Morula
   /**
    * Says what the failure of a step is, and what helps, in whole sentences:
    * something jumps in time; a held point is crushed; volumes do not match
-   * inside grid cells; a form that sees no curvature; the tissue folds. Empty
-   * if it is none of them. Not collective.
+   * inside grid cells; the tissue folds. Empty if it is none of them. Not
+   * collective.
    */
   std::string
   diagnosis(const FailedStep &step);

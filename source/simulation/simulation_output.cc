@@ -364,12 +364,9 @@ namespace Morula
   FailedStep
   Simulation<dim>::failed_step() const
   {
-    // The signs of doc/theory.md, section 5.10, come from three places: the
-    // cells at t, which the failed attempts have not changed; the report of the
-    // last attempt; and the first attempt, whose unbalanced force is what that
+    // The signs of doc/theory.md, section 5.10, come from the report of the
+    // last attempt, and from the first one, whose unbalanced force is what that
     // of the last one is compared with.
-    StatisticsRow before;
-    set_state(model, tissue, time_steps.time(), before);
     const BoundaryConditions<dim> &conditions = model.boundary_conditions;
     FailedStep                     step;
     step.first_force = first_attempt.force;
@@ -378,12 +375,8 @@ namespace Morula
     step.energy = newton_report.failed_at.energy;
     step.smallest_J = newton_report.failed_at.smallest_J.value;
     step.curvature  = newton_report.curvature;
-    step.min_J      = before.tissue.min_elastic_volume_ratio;
-    step.max_J      = before.tissue.max_elastic_volume_ratio;
     step.symmetric  = conditions.has_dirichlet() &&
                      conditions.nitsche().kind() == NitscheForm::symmetric;
-    step.pointwise =
-      model.material.volumetric_form() == VolumetricStrain::pointwise;
     step.loaded =
       conditions.has(SurfaceCondition::loaded) || !model.forces.empty();
     // The friction is that for the whole step, as the user would set it, and

@@ -355,10 +355,6 @@ namespace Morula
      *  step fail by themselves. */
     constexpr double healthy_J = 0.3;
 
-    /** Largest over smallest J_e of the cells where volumes of cells that share
-     *  a grid cell no longer match. */
-    constexpr double mismatch = 3.;
-
     /** A held point with a smaller J_e is crushed. */
     constexpr double crushed_J = 0.01;
 
@@ -403,14 +399,6 @@ namespace Morula
       return " A fixed point is crushed there: the symmetric Nitsche form "
              "has no least energy. Set Boundary conditions/Nitsche form = "
              "bounded.";
-    if (step.pointwise && step.max_J > mismatch * step.min_J)
-      {
-        std::ostringstream text;
-        text << " Before the step J_e is " << step.min_J << " to " << step.max_J
-             << ": the volumes of cells that share a grid cell do not match. "
-                "Set Material/Volumetric strain = pooled.";
-        return text.str();
-      }
     if (step.part < 0.3 && step.last_force > part_that_stays * step.first_force)
       return of_jump(step);
     if (step.smallest_J < healthy_J)

@@ -35,17 +35,6 @@ TEST(FailedStep, SaysWhatTheSignsMean)
   EXPECT_EQ(crushed(true, true).find("crushed"), std::string::npos);
   EXPECT_EQ(crushed(false, false).find("crushed"), std::string::npos);
 
-  const auto volumes = [](const bool pointwise, const double min_J) {
-    return said([=](FailedStep &step) {
-      step.pointwise = pointwise;
-      step.min_J     = min_J;
-      step.max_J     = min_J < 0.5 ? 3.4 : 1.1;
-    });
-  };
-  expect_parts(volumes(true, 0.24), {"Material/Volumetric strain = pooled"});
-  EXPECT_EQ(volumes(false, 0.24).find("pooled"), std::string::npos);
-  EXPECT_EQ(volumes(true, 0.9).find("pooled"), std::string::npos);
-
   const auto jump = [](const double part) {
     return said([=](FailedStep &step) {
       step.last_force = 63.;

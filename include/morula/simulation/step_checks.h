@@ -84,13 +84,9 @@ namespace Morula
     /** The most negative curvature that was met, p·Kp / p·|diag K|p. It is 0 if
      *  there was none. */
     double curvature = 0.;
-    /** Smallest and largest J_e of the cells before the step. */
-    double min_J = 1., max_J = 1.;
 
     /** Whether points are held by Nitsche's symmetric form. */
     bool symmetric = false;
-    /** Whether ln J_e is that of each point, not of the grid cell. */
-    bool pointwise = false;
     /** Whether surface loads or forces act. */
     bool loaded = false;
     /** A coefficient of friction with which a fold would take this step,
@@ -100,9 +96,8 @@ namespace Morula
 
   /**
    * Says what the failure of a step is, and what helps, in whole sentences:
-   * something jumps in time; a held point is crushed; volumes do not match
-   * inside grid cells; the tissue folds. Empty if it is none of them. Not
-   * collective.
+   * something jumps in time; a held point is crushed; the tissue folds. Empty
+   * if it is none of them. Not collective.
    */
   std::string
   diagnosis(const FailedStep &step);

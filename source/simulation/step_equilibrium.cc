@@ -249,11 +249,12 @@ namespace Morula
           parameters.newton_iterations =
             std::min(50u, parameters.newton_iterations.value());
         }
-      const OnTheWay on_the_way{
-        [this](const auto &state) {
-          check_turn<dim>(tissue, space, {space, state, comm});
-        },
-        early};
+      const OnTheWay on_the_way{[this](const auto &state) {
+                                  check_turn<dim>(tissue,
+                                                  space,
+                                                  {space, state, comm});
+                                },
+                                early};
       try
         {
           return Morula::solve(

@@ -313,7 +313,7 @@ namespace Morula
     give_up(const std::string &reason);
     [[noreturn]] void
     give_up_step(const std::string &reason);
-    /** What is known of the step that has failed. Collective. */
+    /** What is known of the step that has failed. */
     FailedStep
     failed_step() const;
 
